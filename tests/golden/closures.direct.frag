@@ -2,9 +2,9 @@
 // Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 2 closures · 0 textures
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
     vec2 alpha;
-    vec3 v;
     float masking;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
@@ -39,37 +39,30 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine)
 {
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    return sqrt(mix(cosine * cosine, 1.0, 0.0016));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    return mx_GgxLobe(frame, vec2(0.04), v, sqrt(mix(v.z * v.z, 1.0, 0.0016)));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), vec2(0.04), mx_ggx_masking(max(dot(N, V), 1e-8)));
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 l = L * lobe.frame;
-    vec3 h = lobe.v + l;
-    vec2 slope = h.xy / lobe.alpha;
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -103,7 +96,7 @@ void main()
         float cos_l = max(dot(L, facing), 1e-8);
         vec3 paint_response = scaled_paint_weight
             * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = ggx_compensation * mx_ggx_light(coat_ggx_lobe, L) * fresnel + paint_response;
+        vec3 sum = ggx_compensation * mx_ggx_light(coat_ggx_lobe, V, L) * fresnel + paint_response;
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * sum;
     }
     out1 = vec4(color, 1.0);

@@ -2,9 +2,9 @@
 // Varnish · surfacematerial · mxgen 0.1 · vulkan · complete · 2 closures · 0 textures
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
     vec2 alpha;
-    vec3 v;
     float masking;
 };
 struct mx_GgxSamples {
@@ -70,37 +70,30 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine)
 {
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    return sqrt(mix(cosine * cosine, 1.0, 0.0016));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    return mx_GgxLobe(frame, vec2(0.04), v, sqrt(mix(v.z * v.z, 1.0, 0.0016)));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), vec2(0.04), mx_ggx_masking(max(dot(N, V), 1e-8)));
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 l = L * lobe.frame;
-    vec3 h = lobe.v + l;
-    vec2 slope = h.xy / lobe.alpha;
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -167,21 +160,23 @@ vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth)
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap));
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
 {
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(lobe.v * stretch);
+    vec3 cap = normalize(v * stretch);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (lobe.v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * lobe.frame, stretch, area, lobe.v, lobe.masking, cap, 1.0 + cap.z, share
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
         * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -203,8 +198,7 @@ void main()
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 N = faceforward(normal_N, -V, normal_N);
     mx_GgxLobe lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
-    float paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    vec3 scaled_paint_weight = paint_weight * vec3(0.6, 0.1, 0.05);
+    vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         // coat, paint
         int type = u_lightData[i].type;
@@ -224,17 +218,17 @@ void main()
         float cos_l = max(dot(L, N), 1e-8);
         vec3 paint_response = scaled_paint_weight
             * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = scale * mx_ggx_light(lobe, L) * fresnel + paint_response;
+        vec3 sum = scale * mx_ggx_light(lobe, V, L) * fresnel + paint_response;
         color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum;
     }
     // environment
-    // coat, paint
-    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)),
-        0.0).xyz * u_envLightIntensity;
+    // paint
+    vec3 paint_product = scaled_paint_weight
+        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz;
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_response_2 = environment_irradiance
-        * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05));
-    color += scale * mx_ggx_gather_dielectric(lobe) + paint_response_2;
+    color += paint_product * (clamp(fit.x / fit.y, 0.0, 1.0) * u_envLightIntensity);
+    // coat
+    color += scale * mx_ggx_gather_dielectric(lobe, V);
     // opacity
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;

@@ -95,7 +95,7 @@ void main()
             mx_map_point(normalize((u_envMatrix * vec4(diffuse_N, 0.0)).xyz)), 0.0).xyz;
         vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
             * vec2(1.4385, 2.0315)) + vec2(1.0);
-        color += diffuse_part * (LightData_2 * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * u_envLightIntensity));
+        color += diffuse_part * (u_envLightIntensity * (LightData_2 * 0.18 * clamp(fit.x / fit.y, 0.0, 1.0)));
     }
     // opacity
     if (surface_opacity < u_alphaThreshold)

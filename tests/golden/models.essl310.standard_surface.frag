@@ -5,9 +5,9 @@ precision highp int;
 precision highp sampler2D;
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
     vec2 alpha;
-    vec3 v;
     float masking;
 };
 struct mx_GgxSamples {
@@ -98,111 +98,6 @@ float mx_fresnel_dielectric(const float cosine, const float ior)
     return 0.5 * dot(r, r);
 }
 
-// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
-vec2 mx_roughness_anisotropy(const float roughness, const float anisotropy)
-{
-    float squared = clamp(roughness * roughness, 1e-8, 1.0);
-    float aspect = sqrt(1.0 - clamp(anisotropy, 0.0, 0.98));
-    return vec2(min(squared / aspect, 1.0), squared * aspect);
-}
-
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
-float mx_bicubic(const mat4 m, const float x, const float y)
-{
-    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
-}
-
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
-vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
-{
-    float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
-        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
-    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
-        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
-}
-
-// Rodrigues' formula; the axis has unit length.
-vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
-{
-    float c = cos(angle);
-    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
-}
-
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
-}
-
-// N faces V.
-mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
-{
-    mat3 frame = mx_frame(N, X);
-    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    return mx_GgxLobe(frame, alpha, v, sqrt(mix(v.z * v.z, 1.0, alpha.x * alpha.y)));
-}
-
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L)
-{
-    vec3 l = L * lobe.frame;
-    vec3 h = lobe.v + l;
-    vec2 slope = h.xy / lobe.alpha;
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
-}
-
-// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
-// over it, hence factors.
-void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 ior, out vec3 extinction)
-{
-    vec3 s = sqrt(clamp(reflectivity, vec3(0.0), vec3(0.99)));
-    vec3 greatest = (vec3(1.0) + s) / (vec3(1.0) - s);
-    ior = mix(greatest, (vec3(1.0) - s * s) / (vec3(1.0) + s * s), edge_color);
-    extinction = sqrt(max((greatest - ior) * (ior - vec3(1.0) / greatest), vec3(0.0)));
-}
-
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
-{
-    float t = n * n - k * k + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + 4.0 * n * n * k * k);
-    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
-}
-
-// |(x + iy - u - iv) / (x + iy + u + iv)|^2
-float mx_fresnel_ratio(const vec2 x, const vec2 u)
-{
-    return dot(x - u, x - u) / dot(x + u, x + u);
-}
-
-// Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
-// perpendicular part, (n + ik)^2 times the cosine in the parallel part.
-float mx_fresnel_conductor(const float cosine, const float n, const float k)
-{
-    vec2 u = mx_fresnel_refract(cosine, n, k);
-    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u)
-        + mx_fresnel_ratio(cosine * vec2(n * n - k * k, 2.0 * n * k), u));
-}
-
-// One channel after the other, which needs a third of the registers.
-vec3 mx_fresnel_conductor(const float cosine, const vec3 n, const vec3 k)
-{
-    return vec3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
-        mx_fresnel_conductor(cosine, n.z, k.z));
-}
-
 // A channel after interference, the mean of both polarisations.
 float mx_film_channel(const vec2 a, const vec2 re, const vec2 im, const vec2 terms)
 {
@@ -223,6 +118,14 @@ vec2 mx_film_terms(const vec2 a, const vec2 re, const vec2 im, const float d, co
     vec2 x = re * c - im * s;
     vec2 y = re * s + im * c;
     return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+}
+
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
+{
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
 // Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
@@ -264,18 +167,108 @@ vec3 mx_film_index(const float cosine, const vec3 n, const vec3 k, const float f
         1.0093968) * vec3(x, y, z), vec3(0.0), vec3(1.0));
 }
 
-vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
-{
-    if (film > 0.0)
-        return mx_film_index(cosine, n, k, film, film_ior);
-    return mx_fresnel_conductor(cosine, n, k);
-}
-
 vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
         return mx_film_index(cosine, n, vec3(0.0), film, film_ior);
     return vec3(mx_fresnel_dielectric(cosine, n.x));
+}
+
+// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
+vec2 mx_roughness_anisotropy(const float roughness, const float anisotropy)
+{
+    float squared = clamp(roughness * roughness, 1e-8, 1.0);
+    float aspect = sqrt(1.0 - clamp(anisotropy, 0.0, 0.98));
+    return vec2(min(squared / aspect, 1.0), squared * aspect);
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(const mat4 m, const float x, const float y)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
+}
+
+// Rodrigues' formula; the axis has unit length.
+vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(mix(cosine * cosine, 1.0, area));
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+}
+
+// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
+// over it, hence factors.
+void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 ior, out vec3 extinction)
+{
+    vec3 s = sqrt(clamp(reflectivity, vec3(0.0), vec3(0.99)));
+    vec3 greatest = (vec3(1.0) + s) / (vec3(1.0) - s);
+    ior = mix(greatest, (vec3(1.0) - s * s) / (vec3(1.0) + s * s), edge_color);
+    extinction = sqrt(max((greatest - ior) * (ior - vec3(1.0) / greatest), vec3(0.0)));
+}
+
+// |(x + iy - u - iv) / (x + iy + u + iv)|^2
+float mx_fresnel_ratio(const vec2 x, const vec2 u)
+{
+    return dot(x - u, x - u) / dot(x + u, x + u);
+}
+
+// Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
+// perpendicular part, (n + ik)^2 times the cosine in the parallel part.
+float mx_fresnel_conductor(const float cosine, const float n, const float k)
+{
+    vec2 u = mx_fresnel_refract(cosine, n, k);
+    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u)
+        + mx_fresnel_ratio(cosine * vec2(n * n - k * k, 2.0 * n * k), u));
+}
+
+// One channel after the other, which needs a third of the registers.
+vec3 mx_fresnel_conductor(const float cosine, const vec3 n, const vec3 k)
+{
+    return vec3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
+        mx_fresnel_conductor(cosine, n.z, k.z));
+}
+
+vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, k, film, film_ior);
+    return mx_fresnel_conductor(cosine, n, k);
 }
 
 vec3 mx_subsurface_light(const vec3 falloff, const float cos_l)
@@ -361,21 +354,24 @@ vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, 
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
 {
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(lobe.v * stretch);
+    vec3 cap = normalize(v * stretch);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (lobe.v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * lobe.frame, stretch, area, lobe.v, lobe.masking, cap, 1.0 + cap.z, share
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
         * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float limit, const float refract_ior, const float ior)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float limit, const float refract_ior,
+    const float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -388,10 +384,10 @@ vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float limit, const fl
 }
 
 // A film on an index of refraction, reflection alone: what most films are.
-vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const float limit, const vec3 n, const vec3 k, const float film,
-    const float film_ior)
+vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const vec3 k,
+    const float film, const float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -402,9 +398,9 @@ vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const float limit, const ve
     return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const float limit, const vec3 n, const vec3 k)
+vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const vec3 k)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -423,57 +419,34 @@ void main()
     vec3 N = normalize(vd_normalWorld);
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     float absolute = abs(dot(N, V));
-    vec3 color = SR_standard_surface_emission * SR_standard_surface_emission_color
+    vec3 color = SR_standard_surface_emission
+        * (SR_standard_surface_emission_color
         * (1.0 - coat + SR_standard_surface_coat_color
-        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0)))));
+        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
-    float fresnel_bare = mx_fresnel_dielectric(1.0, coat_IOR);
-    vec2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
-    vec2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
-    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
-    float cos_v = max(absolute, 1e-8);
-    vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
-    float coating_scale = mix(fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    vec3 Nf = faceforward(N, -V, N);
-    vec3 tangent_direction = normalize(vd_tangentWorld);
-    vec3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, coat_tangent, V);
+    vec3 vector_coat_gamma = vec3(SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
+    float specular_IOR = SR_standard_surface_specular_IOR;
+    float thin_film_thickness = SR_standard_surface_thin_film_thickness;
+    float thin_film_IOR = SR_standard_surface_thin_film_IOR;
     float coat_blur = SR_standard_surface_coat_roughness * (coat * SR_standard_surface_coat_affect_roughness);
     vec2 roughness = mx_roughness_anisotropy(mix(SR_standard_surface_specular_roughness, 1.0, coat_blur),
         SR_standard_surface_specular_anisotropy);
     vec2 alpha = clamp(roughness, 1e-8, 1.0);
     float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(absolute, 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
     float difference = 1.0 / albedo.x - 1.0;
-    vec3 metal_ior, metal_extinction;
-    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
-        * SR_standard_surface_specular_color, metal_ior, metal_extinction);
-    float thin_film_thickness = SR_standard_surface_thin_film_thickness;
-    float thin_film_IOR = SR_standard_surface_thin_film_IOR;
-    vec3 metal_scale = difference * mix(mx_fresnel(1.0, metal_ior, metal_extinction, thin_film_thickness,
-        thin_film_IOR), vec3(1.0), 0.04761905) + vec3(1.0);
-    vec3 clamped_coat_tint = clamp(mix(vec3(1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
-    float coating_difference = 1.0 - coat
-        * (mix(fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    vec3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
-    vec3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, specular_tangent, V);
-    float dielectric_weight = 1.0 - SR_standard_surface_metalness;
-    bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
-    vec3 reflection_weight = clamped_coat_tint
-        * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
-    float specular_IOR = SR_standard_surface_specular_IOR;
     vec3 reflection_scale = mix(mx_fresnel(1.0, vec3(specular_IOR), thin_film_thickness, thin_film_IOR), vec3(1.0),
         0.04761905) * difference + vec3(1.0);
-    vec3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
-    float opaque_weight = dielectric_weight * (1.0 - SR_standard_surface_transmission);
-    float thin = float(SR_standard_surface_thin_walled);
-    float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
-    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd_positionWorld)), 0.01) * 3.0;
-    vec3 subsurface_falloff = vec3(-2.0)
-        / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
-    vec3 vector_coat_gamma = vec3(SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
-    vec3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
+    float fresnel_bare = mx_fresnel_dielectric(1.0, coat_IOR);
+    vec2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
+    vec2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
+    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
+    vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    float coating_scale = mix(fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_difference = 1.0 - coat
+        * (mix(fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    vec3 clamped_coat_tint = clamp(mix(vec3(1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
     vec3 body_weight = (vec3(1.0) - reflection_scale
         * (SR_standard_surface_specular * (mix(mx_fresnel_dielectric(1.0, specular_IOR), 1.0, albedo.y) * albedo.x)))
         * (coating_difference * clamped_coat_tint);
@@ -481,20 +454,43 @@ void main()
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
     float fuzz_throughput = 1.0 - SR_standard_surface_sheen * sheen_albedo;
-    vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
-    vec3 diffuse_color = pow(max(SR_standard_surface_base_color, 0.0), vector_coat_gamma);
+    float dielectric_weight = 1.0 - SR_standard_surface_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_standard_surface_transmission);
     vec3 diffuse_weight = body_weight * (fuzz_throughput
         * (SR_standard_surface_base * (opaque_weight * (1.0 - SR_standard_surface_subsurface))));
+    vec3 diffuse_product = pow(max(SR_standard_surface_base_color, 0.0), vector_coat_gamma) * diffuse_weight;
+    vec3 Nf = faceforward(N, -V, N);
     float r2 = SR_standard_surface_diffuse_roughness * SR_standard_surface_diffuse_roughness;
     vec2 ab = r2 * vec2(-0.5, 0.45) / (r2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
     float s = 1.0 / max(SR_standard_surface_sheen_roughness, 0.005);
     float v_dot_nf = dot(V, Nf);
-    vec3 fuzz_weight = body_weight * (SR_standard_surface_sheen * opaque_weight);
-    vec3 fuzz_product = SR_standard_surface_sheen_color * fuzz_weight;
+    vec3 fuzz_product = SR_standard_surface_sheen_color * (body_weight * (SR_standard_surface_sheen * opaque_weight));
+    vec3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
+    float thin = float(SR_standard_surface_thin_walled);
     float translucent_weight = thin * (SR_standard_surface_subsurface * opaque_weight);
     vec3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
+    vec3 tangent_direction = normalize(vd_tangentWorld);
+    vec3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, coat_tangent, V);
+    vec3 metal_ior, metal_extinction;
+    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
+        * SR_standard_surface_specular_color, metal_ior, metal_extinction);
+    vec3 metal_scale = difference * mix(mx_fresnel(1.0, metal_ior, metal_extinction, thin_film_thickness,
+        thin_film_IOR), vec3(1.0), 0.04761905) + vec3(1.0);
+    vec3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
+    vec3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, specular_tangent, V);
+    bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
+    vec3 reflection_weight = clamped_coat_tint
+        * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
+    vec3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
+    float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
+    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd_positionWorld)), 0.01) * 3.0;
+    vec3 subsurface_falloff = vec3(-2.0)
+        / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
+    vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // coating
+        // fuzz, translucent, diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd_positionWorld;
@@ -508,13 +504,23 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
         float v_dot_l = dot(V, L);
+        vec3 diffuse_response = diffuse_product
+            * (cos_l / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l, 0.0) / max(cos_l, cos_v)));
+        float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
+        float fuzz_product_2 = cos_l * ((s + 2.0)
+            * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
+        vec3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
+        color += light * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
+        // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat > 0.0)
             color += light * (coat * coating_scale
-                * (mx_ggx_light(coating_lobe, L) * mx_fresnel_dielectric(cosine, coat_IOR)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_IOR)));
         // metal
-        float ggx_light = mx_ggx_light(lobe, L);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (SR_standard_surface_metalness > 0.0)
             color += light * (metal_product
                 * (ggx_light * mx_fresnel(cosine, metal_ior, metal_extinction, thin_film_thickness, thin_film_IOR)));
@@ -523,37 +529,35 @@ void main()
             color += light * (reflection_product
                 * (ggx_light * mx_fresnel(cosine, vec3(specular_IOR), thin_film_thickness, thin_film_IOR)));
         // scatter
-        float l_dot_nf = dot(L, Nf);
         if (scatter_weight > 0.0)
             color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
-        // fuzz, translucent, diffuse
-        float cos_l = max(l_dot_nf, 1e-8);
-        vec3 diffuse_response = diffuse_color * diffuse_weight
-            * (cos_l / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l, 0.0) / max(cos_l, cos_v)));
-        float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
-        float fuzz_product_2 = cos_l * ((s + 2.0)
-            * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
-        vec3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
-        color += light * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
     }
     // environment
+    // fuzz, scatter, diffuse
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    vec2 fit = SR_standard_surface_diffuse_roughness
+        * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
+        * vec2(1.4385, 2.0315)) + vec2(1.0);
+    vec3 diffuse_response_2 = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    vec3 fuzz_response_2 = fuzz_product * part * (sheen_albedo * u_envLightIntensity);
+    color += diffuse_response_2 + (fuzz_response_2 + u_envLightIntensity * (scatter_product * part));
     // coating
     if (coat > 0.0)
-        color += coat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, 1.0, 0.0, coat_IOR);
+        color += coat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, V, 1.0, 0.0, coat_IOR);
     // metal
     float filmed = thin_film_thickness > 0.0 ? 1.0 : 0.0;
     float limit = thin_film_thickness > 0.0 ? 0.0 : 1.0;
     if (SR_standard_surface_metalness > 0.0) {
-        vec3 metal_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, metal_ior, metal_extinction,
+        vec3 metal_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, metal_ior, metal_extinction,
             thin_film_thickness, thin_film_IOR);
-        vec3 metal_bare = mx_ggx_gather_conductor(lobe, limit, metal_ior, metal_extinction);
+        vec3 metal_bare = mx_ggx_gather_conductor(lobe, V, limit, metal_ior, metal_extinction);
         color += metal_product * (thin_film_thickness > 0.0 ? metal_ggx_gather_film_index : metal_bare);
     }
     // reflection
     if (reflection_visible) {
-        vec3 reflection_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, vec3(specular_IOR), vec3(0.0),
+        vec3 reflection_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, vec3(specular_IOR), vec3(0.0),
             thin_film_thickness, thin_film_IOR);
-        vec3 reflection_bare = mx_ggx_gather_dielectric(lobe, limit, 0.0, specular_IOR);
+        vec3 reflection_bare = mx_ggx_gather_dielectric(lobe, V, limit, 0.0, specular_IOR);
         color += reflection_product * (thin_film_thickness > 0.0 ? reflection_ggx_gather_film_index : reflection_bare);
     }
     // refraction
@@ -563,24 +567,14 @@ void main()
             + SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
         mx_GgxLobe refraction_lobe = mx_ggx_lobe(mx_roughness_anisotropy(transmission_blurred,
             SR_standard_surface_specular_anisotropy), Nf, specular_tangent, V);
-        vec3 ggx_refraction = mx_ggx_gather_dielectric(refraction_lobe, 1.0, specular_IOR, specular_IOR);
+        vec3 ggx_refraction = mx_ggx_gather_dielectric(refraction_lobe, V, 1.0, specular_IOR, specular_IOR);
         vec3 dielectric_bsdf_transmission = tint * (u_refractionTwoSided ? tint : vec3(1.0)) * ggx_refraction;
         color += dielectric_bsdf_transmission * (body_weight * (SR_standard_surface_transmission * dielectric_weight));
     }
     // translucent
     if (translucent_weight > 0.0)
-        color += translucent_product * (u_envLightIntensity
+        color += u_envLightIntensity * (translucent_product
             * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(-Nf, 0.0)).xyz)), 0.0).xyz);
-    // fuzz, scatter, diffuse
-    vec2 fit = SR_standard_surface_diffuse_roughness
-        * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
-        * vec2(1.4385, 2.0315)) + vec2(1.0);
-    vec3 environment_irradiance = textureLod(u_envIrradiance,
-        mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz * u_envLightIntensity;
-    vec3 diffuse_response_2 = diffuse_color * clamp(fit.x / fit.y, 0.0, 1.0)
-        * (diffuse_weight * environment_irradiance);
-    color += diffuse_response_2 + (environment_irradiance
-        * (fuzz_weight * (SR_standard_surface_sheen_color * sheen_albedo)) + scatter_product * environment_irradiance);
     // opacity
     float opacity_grey = dot(SR_standard_surface_opacity, vec3(0.2722287, 0.6740818, 0.0536895));
     if (opacity_grey < u_alphaThreshold)

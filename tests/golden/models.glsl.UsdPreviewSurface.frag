@@ -2,9 +2,9 @@
 // UsdPreviewSurface · surfacematerial · mxgen 0.1 · glsl · complete · 6 closures · 0 textures
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
     vec2 alpha;
-    vec3 v;
     float masking;
 };
 struct mx_GgxSamples {
@@ -60,12 +60,6 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
-{
-    float x = 1.0 - cosine;
-    return mix(f0, f90, x * x * x * x * x);
-}
-
 // A texel of zeros is a missing map, and means the normal itself.
 vec3 mx_normalmap(const vec3 texel, const vec3 normal, const vec3 tangent, const vec3 bitangent)
 {
@@ -89,38 +83,37 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
 {
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    float x = 1.0 - cosine;
+    return mix(f0, f90, x * x * x * x * x);
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(mix(cosine * cosine, 1.0, area));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    return mx_GgxLobe(frame, alpha, v, sqrt(mix(v.z * v.z, 1.0, alpha.x * alpha.y)));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 l = L * lobe.frame;
-    vec3 h = lobe.v + l;
-    vec2 slope = h.xy / lobe.alpha;
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
@@ -231,20 +224,22 @@ vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, 
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
 {
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(lobe.v * stretch);
+    vec3 cap = normalize(v * stretch);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (lobe.v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * lobe.frame, stretch, area, lobe.v, lobe.masking, cap, 1.0 + cap.z, share
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
         * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 f0, const vec3 f90)
+vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const vec3 f0, const vec3 f90)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -255,9 +250,9 @@ vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 f0, const vec3 f90)
     return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const vec3 n, const vec3 k)
+vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const vec3 V, const vec3 n, const vec3 k)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -278,9 +273,9 @@ float mx_fresnel_dielectric(const float cosine, const float ior)
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior, const float ior)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float refract_ior, const float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -296,50 +291,50 @@ void main()
 {
     vec3 color = SR_UsdPreviewSurface_emissiveColor;
     // lights
-    // SR_UsdPreviewSurface
-    float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
-    float coating_n = max(amplitude * amplitude, 0.0);
-    vec3 blended_fresnel = mix(mx_fresnel_schlick(1.0, vec3(coating_n), vec3(1.0)), vec3(1.0), 0.04761905);
-    float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
-        1e-8, 1.0);
     vec3 tangent_direction = normalize(vd.tangentWorld);
+    // SR_UsdPreviewSurface
     vec3 shading_normal = mx_normalmap(SR_UsdPreviewSurface_normal * 0.5 + vec3(0.5), normalize(vd.normalWorld),
         tangent_direction, normalize(vd.bitangentWorld));
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    vec3 N = faceforward(shading_normal, -V, shading_normal);
+    float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
+    float coating_n = max(amplitude * amplitude, 0.0);
+    float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
+        1e-8, 1.0);
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
+    vec3 blended_fresnel = mix(mx_fresnel_schlick(1.0, vec3(coating_n), vec3(1.0)), vec3(1.0), 0.04761905);
     vec3 coating_scale = blended_fresnel * (1.0 / coating_albedo.x - 1.0) + vec3(1.0);
-    vec3 coating_product = SR_UsdPreviewSurface_clearcoat * coating_scale;
-    vec3 N = faceforward(shading_normal, -V, shading_normal);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), N, tangent_direction, V);
-    bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
-    float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
-    float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
-    vec2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
-    float difference = 1.0 / albedo.x - 1.0;
-    vec3 metal_ior, metal_extinction;
-    mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
         * dot(mix(coating_n, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale, vec3(0.33333334));
-    vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, metal_ior, metal_extinction), vec3(1.0),
-        0.04761905) + vec3(1.0)) * (metal_weight * coating_difference);
-    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), N, tangent_direction, V);
-    float diffuse_weight = 1.0 - metal_weight;
+    bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
     vec3 grazing_metallic = mix(vec3(1.0), SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_metallic);
     vec3 reflection_n = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor
         : mix(amplitude * amplitude * grazing_metallic, grazing_metallic, SR_UsdPreviewSurface_metallic), 0.0);
     vec3 f90 = max(is_equal_useSpecularWorkflow ? vec3(1.0) : grazing_metallic, 0.0);
+    float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
+    vec2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
     vec3 reflection_scale = mix(mx_fresnel_schlick(1.0, reflection_n, f90), f90, 0.04761905) * difference + vec3(1.0);
-    vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     float body_weight = coating_difference
         * (1.0 - dot(mix(reflection_n, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
+    float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
+    float diffuse_weight = 1.0 - metal_weight;
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
     float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
     vec3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
+    vec3 coating_product = SR_UsdPreviewSurface_clearcoat * coating_scale;
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), N, tangent_direction, V);
+    vec3 metal_ior, metal_extinction;
+    mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
+    vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, metal_ior, metal_extinction), vec3(1.0),
+        0.04761905) + vec3(1.0)) * (metal_weight * coating_difference);
+    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), N, tangent_direction, V);
+    vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // coating
+        // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
@@ -353,40 +348,41 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
+        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
+        // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
-        if (SR_UsdPreviewSurface_clearcoat > 0.0)
-            color += light * (coating_product
-                * (mx_ggx_light(coating_lobe, L) * mx_fresnel_schlick(cosine, vec3(coating_n), vec3(1.0))));
+        if (SR_UsdPreviewSurface_clearcoat > 0.0) {
+            vec3 fresnel = mx_fresnel_schlick(cosine, vec3(coating_n), vec3(1.0));
+            color += light * (coating_product * (mx_ggx_light(coating_lobe, V, L) * fresnel));
+        }
         // metal
-        float ggx_light = mx_ggx_light(lobe, L);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_weight > 0.0)
             color += light * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, metal_ior, metal_extinction)));
         // reflection
         if (diffuse_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_n, f90)));
-        // diffuse
-        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
     }
     // environment
     // coating
     if (SR_UsdPreviewSurface_clearcoat > 0.0)
         color += SR_UsdPreviewSurface_clearcoat
-            * (coating_scale * mx_ggx_gather_schlick(coating_lobe, vec3(coating_n), vec3(1.0)));
+            * (coating_scale * mx_ggx_gather_schlick(coating_lobe, V, vec3(coating_n), vec3(1.0)));
     // metal
     if (metal_weight > 0.0)
-        color += metal_product * mx_ggx_gather_conductor(lobe, metal_ior, metal_extinction);
+        color += metal_product * mx_ggx_gather_conductor(lobe, V, metal_ior, metal_extinction);
     // reflection
     if (diffuse_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, reflection_n, f90);
+        color += reflection_product * mx_ggx_gather_schlick(lobe, V, reflection_n, f90);
     // diffuse
     if (diffuse_weight_2 > 0.0)
-        color += diffuse_product * (textureLod(u_envIrradiance,
-            mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz * u_envLightIntensity);
+        color += u_envLightIntensity * (diffuse_product
+            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz);
     // refraction
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
         mx_GgxLobe refraction_lobe = mx_ggx_lobe(vec2(0.0), N, tangent_direction, V);
-        color += mx_ggx_gather_dielectric(refraction_lobe, SR_UsdPreviewSurface_ior, SR_UsdPreviewSurface_ior)
+        color += mx_ggx_gather_dielectric(refraction_lobe, V, SR_UsdPreviewSurface_ior, SR_UsdPreviewSurface_ior)
             * (body_weight * refraction_weight);
     }
     // opacity

@@ -2,9 +2,9 @@
 // gltf_pbr · surfacematerial · mxgen 0.1 · glsl · complete · 9 closures · 0 textures
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
     vec2 alpha;
-    vec3 v;
     float masking;
 };
 struct mx_GgxSamples {
@@ -84,49 +84,6 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
-}
-
-// N faces V.
-mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
-{
-    mat3 frame = mx_frame(N, X);
-    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    return mx_GgxLobe(frame, alpha, v, sqrt(mix(v.z * v.z, 1.0, alpha.x * alpha.y)));
-}
-
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L)
-{
-    vec3 l = L * lobe.frame;
-    vec3 h = lobe.v + l;
-    vec2 slope = h.xy / lobe.alpha;
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
-}
-
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
-float mx_fresnel_dielectric(const float cosine, const float ior)
-{
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, ior * ior);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
-}
-
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
 {
     float x = 1.0 - cosine;
@@ -186,6 +143,42 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float fi
     if (film > 0.0)
         return mx_film_schlick(cosine, n, f90, film, film_ior);
     return mx_fresnel_schlick(cosine, n, f90);
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(mix(cosine * cosine, 1.0, area));
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(const float cosine, const float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    vec2 a = cosine * vec2(1.0, ior * ior);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
 }
 
 // Rodrigues' formula; the axis has unit length.
@@ -263,21 +256,23 @@ vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, 
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
 {
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(lobe.v * stretch);
+    vec3 cap = normalize(v * stretch);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (lobe.v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * lobe.frame, stretch, area, lobe.v, lobe.masking, cap, 1.0 + cap.z, share
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
         * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior, const float ior)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float refract_ior, const float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -290,10 +285,10 @@ vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior, co
 }
 
 // Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const float limit, const vec3 n, const vec3 f90, const float film,
-    const float film_ior)
+vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const vec3 f90,
+    const float film, const float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -304,9 +299,9 @@ vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const float limit, const vec3 n, 
     return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const float limit, const vec3 f0, const vec3 f90)
+vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 f0, const vec3 f90)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -321,36 +316,49 @@ void main()
 {
     vec3 color = SR_gltf_pbr_emissive * SR_gltf_pbr_emissive_strength;
     // lights
-    // SR_gltf_pbr
-    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    float cos_v = max(abs(dot(N, V)), 1e-8);
-    vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
-    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    // SR_gltf_pbr
     vec3 Nf = faceforward(N, -V, N);
-    vec3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), Nf, X, V);
-    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
-    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
-    float s = 1.0 / max(sheen_rough, 0.005);
-    float v_dot_nf = dot(V, Nf);
-    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
-        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
-    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
+    vec3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
+    vec3 f90 = vec3(max(SR_gltf_pbr_specular, 0.0));
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
     vec2 specular_roughness = clamp(vec2(mix(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
         * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
     vec2 alpha = clamp(specular_roughness, 1e-8, 1.0);
     float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    vec3 product = mix(n, f90, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
-    vec3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
+    vec3 reflection_scale = difference * mix(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905) + vec3(1.0);
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
+    vec3 reflection_film_scale = mix(mx_fresnel(1.0, n, f90, SR_gltf_pbr_iridescence_thickness,
+        SR_gltf_pbr_iridescence_ior), f90, 0.04761905) * difference + vec3(1.0);
+    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
+    vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
+        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
+    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
     float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (sheen_rough + 0.2)), 0.0, 1.0);
     float substrate_weight = coating_difference * (1.0 - sheen_weight * sheen_albedo);
+    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
+        SR_gltf_pbr_iridescence) * substrate_weight;
+    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
+    vec3 diffuse_product = SR_gltf_pbr_base_color
+        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
+    vec3 X = normalize(vd.tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), Nf, X, V);
+    float s = 1.0 / max(sheen_rough, 0.005);
+    float v_dot_nf = dot(V, Nf);
+    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
+    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    vec3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
     vec3 metal_film_product = (difference
         * mix(mx_fresnel(1.0, limited_base_color, vec3(1.0), SR_gltf_pbr_iridescence_thickness,
         SR_gltf_pbr_iridescence_ior), vec3(1.0), 0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
@@ -360,26 +368,13 @@ void main()
     vec3 metal_bare_product = (difference
         * mix(mx_fresnel_schlick(1.0, limited_base_color, vec3(1.0)), vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
-    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
     bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
-    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
-    vec3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
-    vec3 f90 = vec3(max(SR_gltf_pbr_specular, 0.0));
-    vec3 reflection_film_scale = mix(mx_fresnel(1.0, n, f90, SR_gltf_pbr_iridescence_thickness,
-        SR_gltf_pbr_iridescence_ior), f90, 0.04761905) * difference + vec3(1.0);
     vec3 reflection_film_product = reflection_film_scale
         * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
     float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
-    vec3 reflection_scale = difference * mix(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905) + vec3(1.0);
     vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
-    vec3 product = mix(n, f90, albedo.y) * albedo.x;
-    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
-    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
-        SR_gltf_pbr_iridescence) * substrate_weight;
-    vec3 diffuse_product = SR_gltf_pbr_base_color
-        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // coating
+        // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
@@ -393,14 +388,16 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        color += light * (cos_l / 3.1415927 * diffuse_product);
+        // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0)
             color += light * (SR_gltf_pbr_clearcoat * coating_scale
-                * (mx_ggx_light(coating_lobe, L) * mx_fresnel_dielectric(cosine, 1.5)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
         // fuzz
-        float l_dot_nf = dot(L, Nf);
-        float cos_l = max(l_dot_nf, 1e-8);
         if (sheen_weight > 0.0) {
             float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
             float fuzz_product_2 = cos_l
@@ -409,7 +406,7 @@ void main()
             color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
         }
         // metal_film
-        float ggx_light = mx_ggx_light(lobe, L);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
             color += light * (metal_film_product
                 * (ggx_light * mx_fresnel(cosine, limited_base_color, vec3(1.0), SR_gltf_pbr_iridescence_thickness,
@@ -426,52 +423,48 @@ void main()
         // reflection
         if (reflection_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
-        // diffuse
-        color += light * (cos_l / 3.1415927 * diffuse_product);
     }
     // environment
+    // diffuse
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    color += u_envLightIntensity * (diffuse_product * part);
     // coating
     if (SR_gltf_pbr_clearcoat > 0.0)
-        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, 0.0, 1.5);
+        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, V, 0.0, 1.5);
     // fuzz
-    vec3 environment_irradiance = textureLod(u_envIrradiance,
-        mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz * u_envLightIntensity;
     if (sheen_weight > 0.0)
-        color += environment_irradiance * (SR_gltf_pbr_sheen_color / sheen_weight
-            * (sheen_albedo * (sheen_weight * coating_difference)));
+        color += fuzz_product * part * (sheen_albedo * u_envLightIntensity);
     // metal_film
     bool has_iridescence_thickness = SR_gltf_pbr_iridescence_thickness > 0.0;
     float filmed = has_iridescence_thickness ? 1.0 : 0.0;
     float limit = has_iridescence_thickness ? 0.0 : 1.0;
     if (metal_film_weight > 0.0) {
-        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, limited_base_color, vec3(1.0),
+        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, limited_base_color, vec3(1.0),
             SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior);
         color += metal_film_product * (has_iridescence_thickness ? metal_film_ggx_gather_film
-            : mx_ggx_gather_schlick(lobe, limit, limited_base_color, vec3(1.0)));
+            : mx_ggx_gather_schlick(lobe, V, limit, limited_base_color, vec3(1.0)));
     }
     // metal_bare
     if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, limited_base_color, vec3(1.0));
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, limited_base_color, vec3(1.0));
     // reflection_film
     if (reflection_film_visible) {
-        vec3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, f90,
+        vec3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, f90,
             SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior);
         color += reflection_film_product
             * (has_iridescence_thickness ? reflection_film_ggx_gather_film
-            : mx_ggx_gather_schlick(lobe, limit, n, f90));
+            : mx_ggx_gather_schlick(lobe, V, limit, n, f90));
     }
     // reflection
     if (reflection_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, 1.0, n, f90);
+        color += reflection_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, f90);
     // refraction
     if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
-        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
+        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
         vec3 dielectric_bsdf_transmission = limited_base_color * (u_refractionTwoSided ? limited_base_color : vec3(1.0))
             * ggx_refraction;
         color += dielectric_bsdf_transmission * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
     }
-    // diffuse
-    color += diffuse_product * environment_irradiance;
     // opacity
     float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
     float opacity = 1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3 > SR_gltf_pbr_alpha_mode

@@ -2,9 +2,9 @@
 // shader model 6.0
 
 struct mx_GgxLobe {
-    float3x3 frame;
+    float3 N;
+    float3 x;
     float2 alpha;
-    float3 v;
     float masking;
 };
 struct mx_GgxSamples {
@@ -74,12 +74,12 @@ struct VertexData {
     float3 bitangentWorld : TEXCOORD3;
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3x3 frame, float2 alpha, float3 v, float masking)
+mx_GgxLobe make_mx_GgxLobe(float3 N, float3 x, float2 alpha, float masking)
 {
     mx_GgxLobe made;
-    made.frame = frame;
+    made.N = N;
+    made.x = x;
     made.alpha = alpha;
-    made.v = v;
     made.masking = masking;
     return made;
 }
@@ -99,12 +99,6 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     made.weight = weight;
     made.level = level;
     return made;
-}
-
-float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
-{
-    float x = 1.0 - cosine;
-    return lerp(f0, f90, x * x * x * x * x);
 }
 
 // A texel of zeros is a missing map, and means the normal itself.
@@ -131,38 +125,38 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
         * x);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-float3x3 mx_frame(float3 N, float3 X)
+float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
 {
-    float3x3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    float x = 1.0 - cosine;
+    return lerp(f0, f90, x * x * x * x * x);
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(float cosine, float area)
+{
+    return sqrt(lerp(cosine * cosine, 1.0, area));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
-    float3x3 frame = mx_frame(N, X);
     float2 alpha = clamp(roughness, 1e-8, 1.0);
-    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
-    return make_mx_GgxLobe(frame, alpha, v, sqrt(lerp(v.z * v.z, 1.0, alpha.x * alpha.y)));
+    return make_mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(mx_GgxLobe lobe, float3 L)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
-    float3 l = mul(lobe.frame, L);
-    float3 h = lobe.v + l;
-    float2 slope = h.xy / lobe.alpha;
+    float3 H = V + L;
+    float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
@@ -273,21 +267,22 @@ float4 mx_ggx_sample(mx_GgxSamples s, float2 around, float depth, float refract_
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
-mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, float3 V)
 {
+    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     float3 stretch = float3(lobe.alpha, 1.0);
-    float3 cap = normalize(lobe.v * stretch);
+    float3 cap = normalize(v * stretch);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (lobe.v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(lobe.frame, (float3x3)u_envMatrix), stretch, area, lobe.v, lobe.masking, cap, 1.0
-        + cap.z, share * (1.0 + cap.z), weight * u_envLightIntensity, weight * area
-        * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
+        * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
-float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float3 f0, float3 f90)
+float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float3 V, float3 f0, float3 f90)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -298,9 +293,9 @@ float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float3 f0, float3 f90)
     return samples.weight * sum;
 }
 
-float3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float3 n, float3 k)
+float3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float3 V, float3 n, float3 k)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -321,9 +316,9 @@ float mx_fresnel_dielectric(float cosine, float ior)
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float refract_ior, float ior)
+float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float3 V, float refract_ior, float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -341,55 +336,55 @@ void main(
 {
     float3 color = SR_UsdPreviewSurface_emissiveColor;
     // lights
-    // SR_UsdPreviewSurface
-    float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
-    float coating_n = max(amplitude * amplitude, 0.0);
-    float3 blended_fresnel = lerp(mx_fresnel_schlick(1.0, (float3)coating_n, float3(1.0, 1.0, 1.0)),
-        float3(1.0, 1.0, 1.0), 0.04761905);
-    float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
-        1e-8, 1.0);
     float3 tangent_direction = normalize(vd.tangentWorld);
+    // SR_UsdPreviewSurface
     float3 shading_normal = mx_normalmap(SR_UsdPreviewSurface_normal * 0.5 + float3(0.5, 0.5, 0.5),
         normalize(vd.normalWorld), tangent_direction, normalize(vd.bitangentWorld));
     float3 V = normalize(u_viewPosition - vd.positionWorld);
+    float3 N = faceforward(shading_normal, -V, shading_normal);
+    float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
+    float coating_n = max(amplitude * amplitude, 0.0);
+    float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
+        1e-8, 1.0);
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     float2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
+    float3 blended_fresnel = lerp(mx_fresnel_schlick(1.0, (float3)coating_n, float3(1.0, 1.0, 1.0)),
+        float3(1.0, 1.0, 1.0), 0.04761905);
     float3 coating_scale = blended_fresnel * (1.0 / coating_albedo.x - 1.0) + float3(1.0, 1.0, 1.0);
-    float3 coating_product = SR_UsdPreviewSurface_clearcoat * coating_scale;
-    float3 N = faceforward(shading_normal, -V, shading_normal);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_roughness, N, tangent_direction, V);
-    bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
-    float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
-    float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
-    float2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
-    float difference = 1.0 / albedo.x - 1.0;
-    float3 metal_ior, metal_extinction;
-    mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
         * dot(lerp(coating_n, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale,
         float3(0.33333334, 0.33333334, 0.33333334));
-    float3 metal_product = (difference * lerp(mx_fresnel_conductor(1.0, metal_ior, metal_extinction),
-        float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0)) * (metal_weight * coating_difference);
-    mx_GgxLobe lobe = mx_ggx_lobe((float2)specular_roughness, N, tangent_direction, V);
-    float diffuse_weight = 1.0 - metal_weight;
+    bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
     float3 grazing_metallic = lerp(float3(1.0, 1.0, 1.0), SR_UsdPreviewSurface_diffuseColor,
         SR_UsdPreviewSurface_metallic);
     float3 reflection_n = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor
         : lerp(amplitude * amplitude * grazing_metallic, grazing_metallic, SR_UsdPreviewSurface_metallic), 0.0);
     float3 f90 = max(is_equal_useSpecularWorkflow ? float3(1.0, 1.0, 1.0) : grazing_metallic, 0.0);
+    float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
+    float2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
     float3 reflection_scale = lerp(mx_fresnel_schlick(1.0, reflection_n, f90), f90, 0.04761905) * difference
         + float3(1.0, 1.0, 1.0);
-    float3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     float body_weight = coating_difference
         * (1.0 - dot(lerp(reflection_n, f90, albedo.y) * albedo.x * reflection_scale,
         float3(0.33333334, 0.33333334, 0.33333334)));
+    float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
+    float diffuse_weight = 1.0 - metal_weight;
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
     float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
     float3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
+    float3 coating_product = SR_UsdPreviewSurface_clearcoat * coating_scale;
+    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_roughness, N, tangent_direction, V);
+    float3 metal_ior, metal_extinction;
+    mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
+    float3 metal_product = (difference * lerp(mx_fresnel_conductor(1.0, metal_ior, metal_extinction),
+        float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0)) * (metal_weight * coating_difference);
+    mx_GgxLobe lobe = mx_ggx_lobe((float2)specular_roughness, N, tangent_direction, V);
+    float3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // coating
+        // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         float3 d = u_lightData[i].position - vd.positionWorld;
@@ -403,41 +398,42 @@ void main(
         float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         float3 directional_light_to_light = -u_lightData[i].direction;
         float3 L = type == 1 ? directional_light_to_light : to_light;
+        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
+        // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
-        if (SR_UsdPreviewSurface_clearcoat > 0.0)
-            color += light * (coating_product
-                * (mx_ggx_light(coating_lobe, L)
-                * mx_fresnel_schlick(cosine, (float3)coating_n, float3(1.0, 1.0, 1.0))));
+        if (SR_UsdPreviewSurface_clearcoat > 0.0) {
+            float3 fresnel = mx_fresnel_schlick(cosine, (float3)coating_n, float3(1.0, 1.0, 1.0));
+            color += light * (coating_product * (mx_ggx_light(coating_lobe, V, L) * fresnel));
+        }
         // metal
-        float ggx_light = mx_ggx_light(lobe, L);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_weight > 0.0)
             color += light * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, metal_ior, metal_extinction)));
         // reflection
         if (diffuse_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_n, f90)));
-        // diffuse
-        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
     }
     // environment
     // coating
     if (SR_UsdPreviewSurface_clearcoat > 0.0)
         color += SR_UsdPreviewSurface_clearcoat
-            * (coating_scale * mx_ggx_gather_schlick(coating_lobe, (float3)coating_n, float3(1.0, 1.0, 1.0)));
+            * (coating_scale * mx_ggx_gather_schlick(coating_lobe, V, (float3)coating_n, float3(1.0, 1.0, 1.0)));
     // metal
     if (metal_weight > 0.0)
-        color += metal_product * mx_ggx_gather_conductor(lobe, metal_ior, metal_extinction);
+        color += metal_product * mx_ggx_gather_conductor(lobe, V, metal_ior, metal_extinction);
     // reflection
     if (diffuse_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, reflection_n, f90);
+        color += reflection_product * mx_ggx_gather_schlick(lobe, V, reflection_n, f90);
     // diffuse
     if (diffuse_weight_2 > 0.0)
-        color += diffuse_product * (u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-            mx_map_point(normalize(mul(float4(N, 0.0), u_envMatrix).xyz)), 0.0).xyz * u_envLightIntensity);
+        color += u_envLightIntensity * (diffuse_product
+            * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+            mx_map_point(normalize(mul(float4(N, 0.0), u_envMatrix).xyz)), 0.0).xyz);
     // refraction
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
         mx_GgxLobe refraction_lobe = mx_ggx_lobe(float2(0.0, 0.0), N, tangent_direction, V);
-        color += mx_ggx_gather_dielectric(refraction_lobe, SR_UsdPreviewSurface_ior, SR_UsdPreviewSurface_ior)
+        color += mx_ggx_gather_dielectric(refraction_lobe, V, SR_UsdPreviewSurface_ior, SR_UsdPreviewSurface_ior)
             * (body_weight * refraction_weight);
     }
     // opacity

@@ -2,9 +2,9 @@
 // shader model 6.0
 
 struct mx_GgxLobe {
-    float3x3 frame;
+    float3 N;
+    float3 x;
     float2 alpha;
-    float3 v;
     float masking;
 };
 struct mx_GgxSamples {
@@ -82,12 +82,12 @@ struct VertexData {
     float3 tangentWorld : TEXCOORD2;
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3x3 frame, float2 alpha, float3 v, float masking)
+mx_GgxLobe make_mx_GgxLobe(float3 N, float3 x, float2 alpha, float masking)
 {
     mx_GgxLobe made;
-    made.frame = frame;
+    made.N = N;
+    made.x = x;
     made.alpha = alpha;
-    made.v = v;
     made.masking = masking;
     return made;
 }
@@ -124,49 +124,6 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
     return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
         -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
         * x);
-}
-
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-float3x3 mx_frame(float3 N, float3 X)
-{
-    float3x3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
-}
-
-// N faces V.
-mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
-{
-    float3x3 frame = mx_frame(N, X);
-    float2 alpha = clamp(roughness, 1e-8, 1.0);
-    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
-    return make_mx_GgxLobe(frame, alpha, v, sqrt(lerp(v.z * v.z, 1.0, alpha.x * alpha.y)));
-}
-
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(mx_GgxLobe lobe, float3 L)
-{
-    float3 l = mul(lobe.frame, L);
-    float3 h = lobe.v + l;
-    float2 slope = h.xy / lobe.alpha;
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
-}
-
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
-float mx_fresnel_dielectric(float cosine, float ior)
-{
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    float2 a = cosine * float2(1.0, ior * ior);
-    float2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
 }
 
 float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
@@ -229,6 +186,43 @@ float3 mx_fresnel(float cosine, float3 n, float3 f90, float film, float film_ior
     if (film > 0.0)
         return mx_film_schlick(cosine, n, f90, film, film_ior);
     return mx_fresnel_schlick(cosine, n, f90);
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(float cosine, float area)
+{
+    return sqrt(lerp(cosine * cosine, 1.0, area));
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    return make_mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float3 H = V + L;
+    float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float2 a = cosine * float2(1.0, ior * ior);
+    float2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
 }
 
 // Rodrigues' formula; the axis has unit length.
@@ -306,22 +300,23 @@ float4 mx_ggx_sample(mx_GgxSamples s, float2 around, float depth, float refract_
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
-mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, float3 V)
 {
+    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     float3 stretch = float3(lobe.alpha, 1.0);
-    float3 cap = normalize(lobe.v * stretch);
+    float3 cap = normalize(v * stretch);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (lobe.v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(lobe.frame, (float3x3)u_envMatrix), stretch, area, lobe.v, lobe.masking, cap, 1.0
-        + cap.z, share * (1.0 + cap.z), weight * u_envLightIntensity, weight * area
-        * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
+        * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float refract_ior, float ior)
+float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float3 V, float refract_ior, float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
@@ -334,9 +329,9 @@ float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float refract_ior, float ior)
 }
 
 // Any other: on a colour, or what it lets through.
-float3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float3 n, float3 f90, float film, float film_ior)
+float3 mx_ggx_gather_film(mx_GgxLobe lobe, float3 V, float limit, float3 n, float3 f90, float film, float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -347,9 +342,9 @@ float3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float3 n, float3 f90, fl
     return samples.weight * sum;
 }
 
-float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float limit, float3 f0, float3 f90)
+float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float3 V, float limit, float3 f0, float3 f90)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -366,38 +361,53 @@ void main(
 {
     float3 color = SR_gltf_pbr_emissive * SR_gltf_pbr_emissive_strength;
     // lights
-    // SR_gltf_pbr
-    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
     float3 N = normalize(vd.normalWorld);
     float3 V = normalize(u_viewPosition - vd.positionWorld);
-    float cos_v = max(abs(dot(N, V)), 1e-8);
-    float2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
-    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    // SR_gltf_pbr
     float3 Nf = faceforward(N, -V, N);
-    float3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_lobe, Nf, X, V);
-    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
-    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
-    float s = 1.0 / max(sheen_rough, 0.005);
-    float v_dot_nf = dot(V, Nf);
-    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
-        * (lerp(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    float3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
-    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
+    float3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
+    float3 f90 = (float3)max(SR_gltf_pbr_specular, 0.0);
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
     float2 specular_roughness = clamp(float2(lerp(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
         * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
     float2 alpha = clamp(specular_roughness, 1e-8, 1.0);
     float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
     float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float3 product = lerp(n, f90, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
-    float3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
+    float3 reflection_scale = difference * lerp(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905)
+        + float3(1.0, 1.0, 1.0);
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, float3(0.33333334, 0.33333334, 0.33333334));
     float iridescence_thickness = SR_gltf_pbr_iridescence_thickness;
     float iridescence_ior = SR_gltf_pbr_iridescence_ior;
+    float3 reflection_film_scale = lerp(mx_fresnel(1.0, n, f90, iridescence_thickness, iridescence_ior), f90,
+        0.04761905) * difference + float3(1.0, 1.0, 1.0);
+    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
+    float2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
+        * (lerp(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
+    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
     float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
         23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (sheen_rough + 0.2)), 0.0, 1.0);
     float substrate_weight = coating_difference * (1.0 - sheen_weight * sheen_albedo);
+    float body_weight = lerp(reflection_throughput, 1.0
+        - dot(product * reflection_film_scale, float3(0.33333334, 0.33333334, 0.33333334)), SR_gltf_pbr_iridescence)
+        * substrate_weight;
+    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
+    float3 diffuse_product = SR_gltf_pbr_base_color
+        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
+    float3 X = normalize(vd.tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_lobe, Nf, X, V);
+    float s = 1.0 / max(sheen_rough, 0.005);
+    float v_dot_nf = dot(V, Nf);
+    float3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
+    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    float3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
     float3 metal_film_product = (difference
         * lerp(mx_fresnel(1.0, limited_base_color, float3(1.0, 1.0, 1.0), iridescence_thickness, iridescence_ior),
         float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
@@ -407,28 +417,13 @@ void main(
     float3 metal_bare_product = (difference
         * lerp(mx_fresnel_schlick(1.0, limited_base_color, float3(1.0, 1.0, 1.0)), float3(1.0, 1.0, 1.0), 0.04761905)
         + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_bare_weight);
-    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
     bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
-    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
-    float3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
-    float3 f90 = (float3)max(SR_gltf_pbr_specular, 0.0);
-    float3 reflection_film_scale = lerp(mx_fresnel(1.0, n, f90, iridescence_thickness, iridescence_ior), f90,
-        0.04761905) * difference + float3(1.0, 1.0, 1.0);
     float3 reflection_film_product = reflection_film_scale
         * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
     float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
-    float3 reflection_scale = difference * lerp(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905)
-        + float3(1.0, 1.0, 1.0);
     float3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
-    float3 product = lerp(n, f90, albedo.y) * albedo.x;
-    float reflection_throughput = 1.0 - dot(product * reflection_scale, float3(0.33333334, 0.33333334, 0.33333334));
-    float body_weight = lerp(reflection_throughput, 1.0
-        - dot(product * reflection_film_scale, float3(0.33333334, 0.33333334, 0.33333334)), SR_gltf_pbr_iridescence)
-        * substrate_weight;
-    float3 diffuse_product = SR_gltf_pbr_base_color
-        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // coating
+        // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         float3 d = u_lightData[i].position - vd.positionWorld;
@@ -442,14 +437,16 @@ void main(
         float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         float3 directional_light_to_light = -u_lightData[i].direction;
         float3 L = type == 1 ? directional_light_to_light : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        color += light * (cos_l / 3.1415927 * diffuse_product);
+        // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0)
             color += light * (SR_gltf_pbr_clearcoat * coating_scale
-                * (mx_ggx_light(coating_lobe, L) * mx_fresnel_dielectric(cosine, 1.5)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
         // fuzz
-        float l_dot_nf = dot(L, Nf);
-        float cos_l = max(l_dot_nf, 1e-8);
         if (sheen_weight > 0.0) {
             float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
             float fuzz_product_2 = cos_l
@@ -458,7 +455,7 @@ void main(
             color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
         }
         // metal_film
-        float ggx_light = mx_ggx_light(lobe, L);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
             color += light * (metal_film_product
                 * (ggx_light * mx_fresnel(cosine, limited_base_color, float3(1.0, 1.0, 1.0), iridescence_thickness,
@@ -474,51 +471,48 @@ void main(
         // reflection
         if (reflection_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
-        // diffuse
-        color += light * (cos_l / 3.1415927 * diffuse_product);
     }
     // environment
+    // diffuse
+    float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+    color += u_envLightIntensity * (diffuse_product * part);
     // coating
     if (SR_gltf_pbr_clearcoat > 0.0)
-        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, 0.0, 1.5);
+        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, V, 0.0, 1.5);
     // fuzz
-    float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz * u_envLightIntensity;
     if (sheen_weight > 0.0)
-        color += environment_irradiance * (SR_gltf_pbr_sheen_color / sheen_weight
-            * (sheen_albedo * (sheen_weight * coating_difference)));
+        color += fuzz_product * part * (sheen_albedo * u_envLightIntensity);
     // metal_film
     float filmed = iridescence_thickness > 0.0 ? 1.0 : 0.0;
     float limit = iridescence_thickness > 0.0 ? 0.0 : 1.0;
     if (metal_film_weight > 0.0) {
-        float3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, limited_base_color, float3(1.0, 1.0, 1.0),
-            iridescence_thickness, iridescence_ior);
-        float3 metal_film_bare = mx_ggx_gather_schlick(lobe, limit, limited_base_color, float3(1.0, 1.0, 1.0));
+        float3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, limited_base_color,
+            float3(1.0, 1.0, 1.0), iridescence_thickness, iridescence_ior);
+        float3 metal_film_bare = mx_ggx_gather_schlick(lobe, V, limit, limited_base_color, float3(1.0, 1.0, 1.0));
         color += metal_film_product * (iridescence_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
     }
     // metal_bare
     if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, limited_base_color, float3(1.0, 1.0, 1.0));
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, limited_base_color, float3(1.0, 1.0, 1.0));
     // reflection_film
     if (reflection_film_visible) {
-        float3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, f90, iridescence_thickness,
+        float3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, f90, iridescence_thickness,
             iridescence_ior);
-        float3 reflection_film_bare = mx_ggx_gather_schlick(lobe, limit, n, f90);
+        float3 reflection_film_bare = mx_ggx_gather_schlick(lobe, V, limit, n, f90);
         color += reflection_film_product
             * (iridescence_thickness > 0.0 ? reflection_film_ggx_gather_film : reflection_film_bare);
     }
     // reflection
     if (reflection_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, 1.0, n, f90);
+        color += reflection_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, f90);
     // refraction
     if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
-        float3 ggx_refraction = mx_ggx_gather_dielectric(lobe, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
+        float3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
         float3 dielectric_bsdf_transmission = limited_base_color
             * (u_refractionTwoSided ? limited_base_color : float3(1.0, 1.0, 1.0)) * ggx_refraction;
         color += dielectric_bsdf_transmission * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
     }
-    // diffuse
-    color += diffuse_product * environment_irradiance;
     // opacity
     float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
     float opacity = 1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3 > SR_gltf_pbr_alpha_mode

@@ -2,9 +2,9 @@
 // shader model 6.0
 
 struct mx_GgxLobe {
-    float3x3 frame;
+    float3 N;
+    float3 x;
     float2 alpha;
-    float3 v;
     float masking;
 };
 struct mx_GgxSamples {
@@ -95,12 +95,12 @@ struct VertexData {
     float3 tangentWorld : TEXCOORD2;
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3x3 frame, float2 alpha, float3 v, float masking)
+mx_GgxLobe make_mx_GgxLobe(float3 N, float3 x, float2 alpha, float masking)
 {
     mx_GgxLobe made;
-    made.frame = frame;
+    made.N = N;
+    made.x = x;
     made.alpha = alpha;
-    made.v = v;
     made.masking = masking;
     return made;
 }
@@ -131,112 +131,6 @@ float mx_fresnel_dielectric(float cosine, float ior)
     return 0.5 * dot(r, r);
 }
 
-// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
-float2 mx_roughness_anisotropy(float roughness, float anisotropy)
-{
-    float squared = clamp(roughness * roughness, 1e-8, 1.0);
-    float aspect = sqrt(1.0 - clamp(anisotropy, 0.0, 0.98));
-    return float2(min(squared / aspect, 1.0), squared * aspect);
-}
-
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
-float mx_bicubic(float4x4 m, float x, float y)
-{
-    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
-}
-
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
-float2 mx_ggx_albedo_fit(float a, float u, float c)
-{
-    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
-        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
-    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
-        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
-        * x);
-}
-
-// Rodrigues' formula; the axis has unit length.
-float3 mx_rotate3d(float3 v, float angle, float3 axis)
-{
-    float c = cos(angle);
-    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
-}
-
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-float3x3 mx_frame(float3 N, float3 X)
-{
-    float3x3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
-}
-
-// N faces V.
-mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
-{
-    float3x3 frame = mx_frame(N, X);
-    float2 alpha = clamp(roughness, 1e-8, 1.0);
-    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
-    return make_mx_GgxLobe(frame, alpha, v, sqrt(lerp(v.z * v.z, 1.0, alpha.x * alpha.y)));
-}
-
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(mx_GgxLobe lobe, float3 L)
-{
-    float3 l = mul(lobe.frame, L);
-    float3 h = lobe.v + l;
-    float2 slope = h.xy / lobe.alpha;
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
-}
-
-// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
-// over it, hence factors.
-void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out float3 extinction)
-{
-    float3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
-    float3 greatest = (1.0 + s) / (1.0 - s);
-    ior = lerp(greatest, (1.0 - s * s) / (1.0 + s * s), edge_color);
-    extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
-}
-
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-float2 mx_fresnel_refract(float cosine, float n, float k)
-{
-    float t = n * n - k * k + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + 4.0 * n * n * k * k);
-    return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
-}
-
-// |(x + iy - u - iv) / (x + iy + u + iv)|^2
-float mx_fresnel_ratio(float2 x, float2 u)
-{
-    return dot(x - u, x - u) / dot(x + u, x + u);
-}
-
-// Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
-// perpendicular part, (n + ik)^2 times the cosine in the parallel part.
-float mx_fresnel_conductor(float cosine, float n, float k)
-{
-    float2 u = mx_fresnel_refract(cosine, n, k);
-    return 0.5 * (mx_fresnel_ratio(float2(cosine, 0.0), u)
-        + mx_fresnel_ratio(cosine * float2(n * n - k * k, 2.0 * n * k), u));
-}
-
-// One channel after the other, which needs a third of the registers.
-float3 mx_fresnel_conductor(float cosine, float3 n, float3 k)
-{
-    return float3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
-        mx_fresnel_conductor(cosine, n.z, k.z));
-}
-
 // A channel after interference, the mean of both polarisations.
 float mx_film_channel(float2 a, float2 re, float2 im, float2 terms)
 {
@@ -257,6 +151,14 @@ float2 mx_film_terms(float2 a, float2 re, float2 im, float d, float3 gauss)
     float2 x = re * c - im * s;
     float2 y = re * s + im * c;
     return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+}
+
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+float2 mx_fresnel_refract(float cosine, float n, float k)
+{
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
 }
 
 // Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
@@ -298,18 +200,110 @@ float3 mx_film_index(float cosine, float3 n, float3 k, float film, float film_io
         -0.4706338, 0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
-float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
-{
-    if (film > 0.0)
-        return mx_film_index(cosine, n, k, film, film_ior);
-    return mx_fresnel_conductor(cosine, n, k);
-}
-
 float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
 {
     if (film > 0.0)
         return mx_film_index(cosine, n, float3(0.0, 0.0, 0.0), film, film_ior);
     return (float3)mx_fresnel_dielectric(cosine, n.x);
+}
+
+// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
+float2 mx_roughness_anisotropy(float roughness, float anisotropy)
+{
+    float squared = clamp(roughness * roughness, 1e-8, 1.0);
+    float aspect = sqrt(1.0 - clamp(anisotropy, 0.0, 0.98));
+    return float2(min(squared / aspect, 1.0), squared * aspect);
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+// Rodrigues' formula; the axis has unit length.
+float3 mx_rotate3d(float3 v, float angle, float3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(float cosine, float area)
+{
+    return sqrt(lerp(cosine * cosine, 1.0, area));
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    return make_mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float3 H = V + L;
+    float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+}
+
+// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
+// over it, hence factors.
+void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out float3 extinction)
+{
+    float3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
+    float3 greatest = (1.0 + s) / (1.0 - s);
+    ior = lerp(greatest, (1.0 - s * s) / (1.0 + s * s), edge_color);
+    extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
+}
+
+// |(x + iy - u - iv) / (x + iy + u + iv)|^2
+float mx_fresnel_ratio(float2 x, float2 u)
+{
+    return dot(x - u, x - u) / dot(x + u, x + u);
+}
+
+// Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
+// perpendicular part, (n + ik)^2 times the cosine in the parallel part.
+float mx_fresnel_conductor(float cosine, float n, float k)
+{
+    float2 u = mx_fresnel_refract(cosine, n, k);
+    return 0.5 * (mx_fresnel_ratio(float2(cosine, 0.0), u)
+        + mx_fresnel_ratio(cosine * float2(n * n - k * k, 2.0 * n * k), u));
+}
+
+// One channel after the other, which needs a third of the registers.
+float3 mx_fresnel_conductor(float cosine, float3 n, float3 k)
+{
+    return float3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
+        mx_fresnel_conductor(cosine, n.z, k.z));
+}
+
+float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, k, film, film_ior);
+    return mx_fresnel_conductor(cosine, n, k);
 }
 
 float3 mx_subsurface_light(float3 falloff, float cos_l)
@@ -395,22 +389,23 @@ float4 mx_ggx_sample(mx_GgxSamples s, float2 around, float depth, float refract_
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
-mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, float3 V)
 {
+    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     float3 stretch = float3(lobe.alpha, 1.0);
-    float3 cap = normalize(lobe.v * stretch);
+    float3 cap = normalize(v * stretch);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (lobe.v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(lobe.frame, (float3x3)u_envMatrix), stretch, area, lobe.v, lobe.masking, cap, 1.0
-        + cap.z, share * (1.0 + cap.z), weight * u_envLightIntensity, weight * area
-        * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
+        * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior, float ior)
+float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float3 V, float limit, float refract_ior, float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -423,9 +418,9 @@ float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior,
 }
 
 // A film on an index of refraction, reflection alone: what most films are.
-float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, float3 n, float3 k, float film, float film_ior)
+float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float3 V, float limit, float3 n, float3 k, float film, float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -436,9 +431,9 @@ float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, float3 n, float3 k
     return samples.weight * sum;
 }
 
-float3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float limit, float3 n, float3 k)
+float3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float3 V, float limit, float3 n, float3 k)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -459,57 +454,34 @@ void main(
     float3 N = normalize(vd.normalWorld);
     float3 V = normalize(u_viewPosition - vd.positionWorld);
     float absolute = abs(dot(N, V));
-    float3 color = SR_standard_surface_emission * SR_standard_surface_emission_color
+    float3 color = SR_standard_surface_emission
+        * (SR_standard_surface_emission_color
         * (1.0 - coat + SR_standard_surface_coat_color
-        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0)))));
+        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
-    float fresnel_bare = mx_fresnel_dielectric(1.0, coat_IOR);
-    float2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
-    float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
-    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
-    float cos_v = max(absolute, 1e-8);
-    float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
-    float coating_scale = lerp(fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float3 Nf = faceforward(N, -V, N);
-    float3 tangent_direction = normalize(vd.tangentWorld);
-    float3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, coat_tangent, V);
+    float3 vector_coat_gamma = (float3)(SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
+    float specular_IOR = SR_standard_surface_specular_IOR;
+    float thin_film_thickness = SR_standard_surface_thin_film_thickness;
+    float thin_film_IOR = SR_standard_surface_thin_film_IOR;
     float coat_blur = SR_standard_surface_coat_roughness * (coat * SR_standard_surface_coat_affect_roughness);
     float2 roughness = mx_roughness_anisotropy(lerp(SR_standard_surface_specular_roughness, 1.0, coat_blur),
         SR_standard_surface_specular_anisotropy);
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(absolute, 1e-8);
     float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
     float difference = 1.0 / albedo.x - 1.0;
-    float3 metal_ior, metal_extinction;
-    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
-        * SR_standard_surface_specular_color, metal_ior, metal_extinction);
-    float thin_film_thickness = SR_standard_surface_thin_film_thickness;
-    float thin_film_IOR = SR_standard_surface_thin_film_IOR;
-    float3 metal_scale = difference * lerp(mx_fresnel(1.0, metal_ior, metal_extinction, thin_film_thickness,
-        thin_film_IOR), float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0);
-    float3 clamped_coat_tint = clamp(lerp(float3(1.0, 1.0, 1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
-    float coating_difference = 1.0 - coat
-        * (lerp(fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    float3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
-    float3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, specular_tangent, V);
-    float dielectric_weight = 1.0 - SR_standard_surface_metalness;
-    bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
-    float3 reflection_weight = clamped_coat_tint
-        * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
-    float specular_IOR = SR_standard_surface_specular_IOR;
     float3 reflection_scale = lerp(mx_fresnel(1.0, (float3)specular_IOR, thin_film_thickness, thin_film_IOR),
         float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
-    float3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
-    float opaque_weight = dielectric_weight * (1.0 - SR_standard_surface_transmission);
-    float thin = float(SR_standard_surface_thin_walled);
-    float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
-    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
-    float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
-        / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
-    float3 vector_coat_gamma = (float3)(SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
-    float3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
+    float fresnel_bare = mx_fresnel_dielectric(1.0, coat_IOR);
+    float2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
+    float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
+    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
+    float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    float coating_scale = lerp(fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_difference = 1.0 - coat
+        * (lerp(fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float3 clamped_coat_tint = clamp(lerp(float3(1.0, 1.0, 1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
     float3 body_weight = (float3(1.0, 1.0, 1.0) - reflection_scale
         * (SR_standard_surface_specular * (lerp(mx_fresnel_dielectric(1.0, specular_IOR), 1.0, albedo.y) * albedo.x)))
         * (coating_difference * clamped_coat_tint);
@@ -517,20 +489,43 @@ void main(
         23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
     float fuzz_throughput = 1.0 - SR_standard_surface_sheen * sheen_albedo;
-    float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
-    float3 diffuse_color = pow(max(SR_standard_surface_base_color, 0.0), vector_coat_gamma);
+    float dielectric_weight = 1.0 - SR_standard_surface_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_standard_surface_transmission);
     float3 diffuse_weight = body_weight * (fuzz_throughput
         * (SR_standard_surface_base * (opaque_weight * (1.0 - SR_standard_surface_subsurface))));
+    float3 diffuse_product = pow(max(SR_standard_surface_base_color, 0.0), vector_coat_gamma) * diffuse_weight;
+    float3 Nf = faceforward(N, -V, N);
     float r2 = SR_standard_surface_diffuse_roughness * SR_standard_surface_diffuse_roughness;
     float2 ab = r2 * float2(-0.5, 0.45) / (r2 + float2(0.33, 0.09)) + float2(1.0, 0.0);
     float s = 1.0 / max(SR_standard_surface_sheen_roughness, 0.005);
     float v_dot_nf = dot(V, Nf);
-    float3 fuzz_weight = body_weight * (SR_standard_surface_sheen * opaque_weight);
-    float3 fuzz_product = SR_standard_surface_sheen_color * fuzz_weight;
+    float3 fuzz_product = SR_standard_surface_sheen_color * (body_weight * (SR_standard_surface_sheen * opaque_weight));
+    float3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
+    float thin = float(SR_standard_surface_thin_walled);
     float translucent_weight = thin * (SR_standard_surface_subsurface * opaque_weight);
     float3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
+    float3 tangent_direction = normalize(vd.tangentWorld);
+    float3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, coat_tangent, V);
+    float3 metal_ior, metal_extinction;
+    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
+        * SR_standard_surface_specular_color, metal_ior, metal_extinction);
+    float3 metal_scale = difference * lerp(mx_fresnel(1.0, metal_ior, metal_extinction, thin_film_thickness,
+        thin_film_IOR), float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0);
+    float3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
+    float3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, specular_tangent, V);
+    bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
+    float3 reflection_weight = clamped_coat_tint
+        * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
+    float3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
+    float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
+    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
+    float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
+        / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
+    float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // coating
+        // fuzz, translucent, diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         float3 d = u_lightData[i].position - vd.positionWorld;
@@ -544,13 +539,23 @@ void main(
         float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         float3 directional_light_to_light = -u_lightData[i].direction;
         float3 L = type == 1 ? directional_light_to_light : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
         float v_dot_l = dot(V, L);
+        float3 diffuse_response = diffuse_product
+            * (cos_l / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l, 0.0) / max(cos_l, cos_v)));
+        float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
+        float fuzz_product_2 = cos_l * ((s + 2.0)
+            * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
+        float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
+        color += light * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
+        // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat > 0.0)
             color += light * (coat * coating_scale
-                * (mx_ggx_light(coating_lobe, L) * mx_fresnel_dielectric(cosine, coat_IOR)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_IOR)));
         // metal
-        float ggx_light = mx_ggx_light(lobe, L);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (SR_standard_surface_metalness > 0.0)
             color += light * (metal_product
                 * (ggx_light * mx_fresnel(cosine, metal_ior, metal_extinction, thin_film_thickness, thin_film_IOR)));
@@ -559,37 +564,36 @@ void main(
             color += light * (reflection_product
                 * (ggx_light * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR)));
         // scatter
-        float l_dot_nf = dot(L, Nf);
         if (scatter_weight > 0.0)
             color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
-        // fuzz, translucent, diffuse
-        float cos_l = max(l_dot_nf, 1e-8);
-        float3 diffuse_response = diffuse_color * diffuse_weight
-            * (cos_l / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l, 0.0) / max(cos_l, cos_v)));
-        float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
-        float fuzz_product_2 = cos_l * ((s + 2.0)
-            * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
-        float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
-        color += light * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
     }
     // environment
+    // fuzz, scatter, diffuse
+    float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+    float2 fit = SR_standard_surface_diffuse_roughness
+        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
+        * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
+    float3 diffuse_response_2 = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    float3 fuzz_response_2 = fuzz_product * part * (sheen_albedo * u_envLightIntensity);
+    color += diffuse_response_2 + (fuzz_response_2 + u_envLightIntensity * (scatter_product * part));
     // coating
     if (coat > 0.0)
-        color += coat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, 1.0, 0.0, coat_IOR);
+        color += coat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, V, 1.0, 0.0, coat_IOR);
     // metal
     float filmed = thin_film_thickness > 0.0 ? 1.0 : 0.0;
     float limit = thin_film_thickness > 0.0 ? 0.0 : 1.0;
     if (SR_standard_surface_metalness > 0.0) {
-        float3 metal_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, metal_ior, metal_extinction,
+        float3 metal_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, metal_ior, metal_extinction,
             thin_film_thickness, thin_film_IOR);
-        float3 metal_bare = mx_ggx_gather_conductor(lobe, limit, metal_ior, metal_extinction);
+        float3 metal_bare = mx_ggx_gather_conductor(lobe, V, limit, metal_ior, metal_extinction);
         color += metal_product * (thin_film_thickness > 0.0 ? metal_ggx_gather_film_index : metal_bare);
     }
     // reflection
     if (reflection_visible) {
-        float3 reflection_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, (float3)specular_IOR,
+        float3 reflection_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, (float3)specular_IOR,
             float3(0.0, 0.0, 0.0), thin_film_thickness, thin_film_IOR);
-        float3 reflection_bare = mx_ggx_gather_dielectric(lobe, limit, 0.0, specular_IOR);
+        float3 reflection_bare = mx_ggx_gather_dielectric(lobe, V, limit, 0.0, specular_IOR);
         color += reflection_product * (thin_film_thickness > 0.0 ? reflection_ggx_gather_film_index : reflection_bare);
     }
     // refraction
@@ -599,26 +603,16 @@ void main(
             + SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
         mx_GgxLobe refraction_lobe = mx_ggx_lobe(mx_roughness_anisotropy(transmission_blurred,
             SR_standard_surface_specular_anisotropy), Nf, specular_tangent, V);
-        float3 ggx_refraction = mx_ggx_gather_dielectric(refraction_lobe, 1.0, specular_IOR, specular_IOR);
+        float3 ggx_refraction = mx_ggx_gather_dielectric(refraction_lobe, V, 1.0, specular_IOR, specular_IOR);
         float3 dielectric_bsdf_transmission = tint * (u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0))
             * ggx_refraction;
         color += dielectric_bsdf_transmission * (body_weight * (SR_standard_surface_transmission * dielectric_weight));
     }
     // translucent
     if (translucent_weight > 0.0)
-        color += translucent_product * (u_envLightIntensity
+        color += u_envLightIntensity * (translucent_product
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
             mx_map_point(normalize(mul(float4(-Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz);
-    // fuzz, scatter, diffuse
-    float2 fit = SR_standard_surface_diffuse_roughness
-        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
-        * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
-    float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz * u_envLightIntensity;
-    float3 diffuse_response_2 = diffuse_color * clamp(fit.x / fit.y, 0.0, 1.0)
-        * (diffuse_weight * environment_irradiance);
-    color += diffuse_response_2 + (environment_irradiance
-        * (fuzz_weight * (SR_standard_surface_sheen_color * sheen_albedo)) + scatter_product * environment_irradiance);
     // opacity
     float opacity_grey = dot(SR_standard_surface_opacity, float3(0.2722287, 0.6740818, 0.0536895));
     if (opacity_grey < u_alphaThreshold)

@@ -2,9 +2,9 @@
 // open_pbr_surface · surfacematerial · mxgen 0.1 · vulkan · complete · 12 closures · 0 textures
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
     vec2 alpha;
-    vec3 v;
     float masking;
 };
 struct mx_GgxSamples {
@@ -88,34 +88,6 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
-vec2 mx_sheen_transform(const float c, const float r)
-{
-    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c) * (r - 1.0)
-        * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
-}
-
-// Into the tangent space around N with x along the unit tangent `x`, and out of it.
-vec3 mx_enter_frame(const vec3 w, const vec3 N, const vec3 x)
-{
-    return vec3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
-}
-
-// Unit tangent along X.
-vec3 mx_tangent(const vec3 N, const vec3 X)
-{
-    return normalize(X - dot(X, N) * N);
-}
-
-float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, const float r)
-{
-    vec2 m = mx_sheen_transform(c, r);
-    vec3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
-    vec3 w = vec3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
-    float scale = m.x / dot(w, w);
-    return max(w.z, 0.0) / 3.1415927 * scale * scale;
-}
-
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(const float cosine, const float ior)
 {
@@ -148,47 +120,6 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
-}
-
-// N faces V.
-mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
-{
-    mat3 frame = mx_frame(N, X);
-    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    return mx_GgxLobe(frame, alpha, v, sqrt(mix(v.z * v.z, 1.0, alpha.x * alpha.y)));
-}
-
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
-// any length.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L)
-{
-    vec3 l = L * lobe.frame;
-    vec3 h = lobe.v + l;
-    vec2 slope = h.xy / lobe.alpha;
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, 1e-8);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
-}
-
-vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
-{
-    float x = 1.0 - cosine;
-    float x3 = x * x * x;
-    return mix(f0, vec3(1.0), x3 * x * x) - bend * (cosine * x3 * x3);
-}
-
 // A channel after interference, the mean of both polarisations.
 float mx_film_channel(const vec2 a, const vec2 re, const vec2 im, const vec2 terms)
 {
@@ -211,41 +142,6 @@ vec2 mx_film_terms(const vec2 a, const vec2 re, const vec2 im, const float d, co
     return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// Amplitudes of the film's own interface.
-vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
-{
-    vec2 x = vec2(cosine, ior * cosine);
-    vec2 u = vec2(ior * inside, inside);
-    return (x - u) / (x + u);
-}
-
-// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
-vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 bend, const float film, const float film_ior)
-{
-    float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    vec2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
-        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), vec3(0.0)));
-    vec2 re = vec2(-r.x, r.x);
-    float x = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, re, vec2(0.0), d, vec3(2.2399, 0.153868, -0.0045282)));
-    re = vec2(-r.y, r.y);
-    float y = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.7953, 1.000222, -0.0093046)));
-    re = vec2(-r.z, r.z);
-    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * vec3(x, y, mx_film_channel(a, re, vec2(0.0),
-        mx_film_terms(a, re, vec2(0.0), d, vec3(2.2084, 1.001122, -0.0066121)))), vec3(0.0), vec3(1.0));
-}
-
-vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
-{
-    if (film > 0.0)
-        return mx_film_schlick(cosine, n, k, film, film_ior);
-    return mx_fresnel_schlick(cosine, n, k);
-}
-
 // The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
 vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
 {
@@ -263,6 +159,14 @@ void mx_film_base(const float cosine, const float n, const float k, out vec2 re,
     vec2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
     re = (x * x + y * y - dot(u, u)) / norm;
     im = 2.0 * (y * u.x - x * u.y) / norm;
+}
+
+// Amplitudes of the film's own interface.
+vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+{
+    vec2 x = vec2(cosine, ior * cosine);
+    vec2 u = vec2(ior * inside, inside);
+    return (x - u) / (x + u);
 }
 
 // A film on the index n + ik.
@@ -290,6 +194,95 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float 
     if (film > 0.0)
         return mx_film_index(cosine, n, film, film_ior);
     return vec3(mx_fresnel_dielectric(cosine, n.x));
+}
+
+// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+vec2 mx_sheen_transform(const float c, const float r)
+{
+    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c) * (r - 1.0)
+        * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+}
+
+// Into the tangent space around N with x along the unit tangent `x`, and out of it.
+vec3 mx_enter_frame(const vec3 w, const vec3 N, const vec3 x)
+{
+    return vec3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
+}
+
+// Unit tangent along X.
+vec3 mx_tangent(const vec3 N, const vec3 X)
+{
+    return normalize(X - dot(X, N) * N);
+}
+
+float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, const float r)
+{
+    vec2 m = mx_sheen_transform(c, r);
+    vec3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
+    vec3 w = vec3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
+    float scale = m.x / dot(w, w);
+    return max(w.z, 0.0) / 3.1415927 * scale * scale;
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(mix(cosine * cosine, 1.0, area));
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+}
+
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
+{
+    float x = 1.0 - cosine;
+    float x3 = x * x * x;
+    return mix(f0, vec3(1.0), x3 * x * x) - bend * (cosine * x3 * x3);
+}
+
+// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
+vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 bend, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    vec2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), vec3(0.0)));
+    vec2 re = vec2(-r.x, r.x);
+    float x = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, vec2(0.0), d, vec3(2.2399, 0.153868, -0.0045282)));
+    re = vec2(-r.y, r.y);
+    float y = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.7953, 1.000222, -0.0093046)));
+    re = vec2(-r.z, r.z);
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * vec3(x, y, mx_film_channel(a, re, vec2(0.0),
+        mx_film_terms(a, re, vec2(0.0), d, vec3(2.2084, 1.001122, -0.0066121)))), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, k, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, k);
 }
 
 vec3 mx_subsurface_light(const vec3 falloff, const float cos_l)
@@ -384,21 +377,24 @@ vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, 
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
 {
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(lobe.v * stretch);
+    vec3 cap = normalize(v * stretch);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (lobe.v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * lobe.frame, stretch, area, lobe.v, lobe.masking, cap, 1.0 + cap.z, share
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
         * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float limit, const float refract_ior, const float ior)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float limit, const float refract_ior,
+    const float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -411,10 +407,10 @@ vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float limit, const fl
 }
 
 // Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const float limit, const vec3 n, const vec3 k, const float film,
-    const float film_ior)
+vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const vec3 k,
+    const float film, const float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -425,9 +421,9 @@ vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const float limit, const vec3 n, 
     return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const float limit, const vec3 f0, const vec3 bend)
+vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 f0, const vec3 bend)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -439,10 +435,10 @@ vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const float limit, const vec3 
 }
 
 // A film on an index of refraction, reflection alone: what most films are.
-vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const float limit, const vec3 n, const float film,
+vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const float film,
     const float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
@@ -467,20 +463,44 @@ void main()
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float absolute = abs(dot(N, V));
-    vec3 color = SR_open_pbr_surface_emission_luminance * SR_open_pbr_surface_emission_color
+    vec3 color = SR_open_pbr_surface_emission_luminance
+        * (SR_open_pbr_surface_emission_color
         * (1.0 - coat_weight + SR_open_pbr_surface_coat_color
-        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0)))));
+        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
-    vec3 Nf = faceforward(N, -V, N);
+    vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
+    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
+    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
+    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
+    float ior_relative = mix(SR_open_pbr_surface_specular_ior,
+        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
+    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
+        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
+    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
+    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
+    vec2 roughness = mx_open_pbr_anisotropy(mix(SR_open_pbr_surface_specular_roughness,
+        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
+        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
+    vec2 alpha = clamp(roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(absolute, 1e-8);
-    float limited_cos_v = min(cos_v, 1.0);
+    vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float product = mix(fresnel_bare, 1.0, albedo.y) * albedo.x;
+    float difference = 1.0 / albedo.x - 1.0;
+    float reflection_scale = difference * mix(fresnel_bare, 1.0, 0.04761905) + 1.0;
+    vec3 reflection_throughput = vec3(1.0 - product * reflection_scale);
+    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
+    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
+    vec3 reflection_film_scale = mix(mx_fresnel(1.0, vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
+        * difference + vec3(1.0);
     float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
     float x = (cos_v - r * (r * (r * (1.7932 - r * (r * 0.95943)) - 1.14885) - 0.193854) / (r + 0.046391)) / width;
     float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
     float fuzz_product = r * (r * (r * 0.119681 - 0.0207818) + 0.000654023);
-    float sheen_albedo = max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
-    vec3 fuzz_product_2 = SR_open_pbr_surface_fuzz_color * (SR_open_pbr_surface_fuzz_weight * sheen_albedo);
+    float fuzz_product_2 = SR_open_pbr_surface_fuzz_weight
+        * max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
     float coating_fresnel_bare = mx_fresnel_dielectric(1.0, coat_ior);
     vec2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
         SR_open_pbr_surface_coat_roughness_anisotropy);
@@ -488,25 +508,7 @@ void main()
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     float coating_scale = mix(coating_fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float fuzz_difference = 1.0 - SR_open_pbr_surface_fuzz_weight * sheen_albedo;
-    float coating_product = coating_scale * (coat_weight * fuzz_difference);
-    vec3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
-    float metal_film_weight = SR_open_pbr_surface_specular_weight
-        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
-    vec2 roughness = mx_open_pbr_anisotropy(mix(SR_open_pbr_surface_specular_roughness,
-        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
-        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
-    vec2 alpha = clamp(roughness, 1e-8, 1.0);
-    float a = sqrt(alpha.x * alpha.y);
-    vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
-    float difference = 1.0 / albedo.x - 1.0;
-    vec3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
-    vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
-    vec3 schlick_bend = mix(n, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
-    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
-    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
-    float coated_weight = fuzz_difference
+    float coated_weight = (1.0 - fuzz_product_2)
         * (1.0 - coat_weight * (mix(coating_fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
     vec3 substrate_darkened_weight = coated_weight
         * clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0);
@@ -517,6 +519,30 @@ void main()
         SR_open_pbr_surface_base_metalness) * (1.0 - coat_escape));
     vec3 substrate_weight = substrate_darkened_weight
         * clamp(mix(vec3(1.0), darkening, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
+    vec3 body_weight = mix(reflection_throughput, vec3(1.0) - product * reflection_film_scale,
+        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
+    vec3 sheet_front_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0,
+        1.0)));
+    vec3 Nf = faceforward(N, -V, N);
+    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
+    vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
+        / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
+    vec3 sheet_back_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
+        1.0)));
+    float limited_cos_v = min(cos_v, 1.0);
+    vec3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
+    float coating_product = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
+    vec3 X = normalize(vd.tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
+    float metal_film_weight = SR_open_pbr_surface_specular_weight
+        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
+    vec3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
+    vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
+    vec3 schlick_bend = mix(n, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
     vec3 metal_film_product = (difference
         * mix(mx_fresnel(1.0, n, schlick_bend, film_thickness, thin_film_ior), vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_film_weight);
@@ -525,57 +551,29 @@ void main()
         * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
     vec3 metal_bare_product = (difference * mix(mx_fresnel_schlick(1.0, n, schlick_bend), vec3(1.0), 0.04761905)
         + vec3(1.0)) * (substrate_weight * metal_bare_weight);
-    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
     bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
-    float ior_relative = mix(SR_open_pbr_surface_specular_ior,
-        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
-    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
-        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
-    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
-    vec3 reflection_film_scale = mix(mx_fresnel(1.0, vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
-        * difference + vec3(1.0);
     vec3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
     float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
-    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
-    float reflection_scale = difference * mix(fresnel_bare, 1.0, 0.04761905) + 1.0;
     vec3 reflection_product = limited_specular_color * (substrate_weight * reflection_weight);
-    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
-    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
     float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
     vec3 subsurface_falloff = vec3(-2.0)
         / (scaled_curvature * max(SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale,
         0.1));
-    vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
-    float product = mix(fresnel_bare, 1.0, albedo.y) * albedo.x;
-    vec3 reflection_throughput = vec3(1.0 - product * reflection_scale);
-    vec3 body_weight = mix(reflection_throughput, vec3(1.0) - product * reflection_film_scale,
-        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
     vec3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
     float diffuse_weight = SR_open_pbr_surface_base_weight
         * (opaque_weight * (1.0 - SR_open_pbr_surface_subsurface_weight));
     vec3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
     vec3 diffuse_product = base_positive * (body_weight * diffuse_weight);
-    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
     float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
     float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
     vec3 fujii_multiple = base_positive * mean / (vec3(1.0) - base_positive * max(1.0 - mean, 0.0));
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
     float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
     float diffuse_greater_2 = max(1.0 - mean, 1e-8);
-    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
-    vec3 sheet_front_weight = scaled_sheet_weight
-        * (body_weight * clamp(SR_open_pbr_surface_subsurface_color
-        * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0, 1.0));
-    vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
-        / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
-    vec3 sheet_back_product = subsurface_positive
-        * (scaled_sheet_weight * (body_weight
-        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
-        1.0)));
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // fuzz
+        // sheet_front, sheet_back
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
@@ -589,16 +587,23 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
-        if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_2);
-        // coating
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
         float v_dot_l = dot(V, L);
+        float s = v_dot_l - cos_v * cos_l;
+        float greater = max(cos_l, cos_v);
+        vec3 sheet_front_response = sheet_front_product * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
+        // fuzz
+        if (SR_open_pbr_surface_fuzz_weight > 0.0)
+            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
+        // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat_weight > 0.0)
             color += light * (coating_product
-                * (mx_ggx_light(coating_lobe, L) * mx_fresnel_dielectric(cosine, coat_ior)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
         // metal_film
-        float ggx_light = mx_ggx_light(lobe, L);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
             color += light * (metal_film_product
                 * (ggx_light * mx_fresnel(cosine, n, schlick_bend, film_thickness, thin_film_ior)));
@@ -613,13 +618,9 @@ void main()
         if (reflection_weight > 0.0)
             color += light * (reflection_scale * reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
         // scatter
-        float l_dot_nf = dot(L, Nf);
         if (scatter_weight > 0.0)
             color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
         // diffuse
-        float cos_l = max(l_dot_nf, 1e-8);
-        float s = v_dot_l - cos_v * cos_l;
-        float greater = max(cos_l, cos_v);
         if (diffuse_weight > 0.0) {
             float diffuse_s = s / greater;
             vec3 diffuse_product_2 = fujii_multiple
@@ -629,41 +630,45 @@ void main()
                 * (cos_l / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
                 + diffuse_product_2)));
         }
-        // sheet_front, sheet_back
-        vec3 sheet_front_response = subsurface_positive * sheet_front_weight
-            * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
     }
     // environment
+    // fuzz, sheet_front, scatter
+    float envLightIntensity = u_envLightIntensity;
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
+        * vec2(1.4385, 2.0315)) + vec2(1.0);
+    vec3 sheet_front_response_2 = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    vec3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response_2;
+    color += envLightIntensity * (scatter_product * part) + sum;
     // coating
     if (coat_weight > 0.0)
-        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, 1.0, 0.0, coat_ior);
+        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, V, 1.0, 0.0, coat_ior);
     // metal_film
     float filmed = film_thickness > 0.0 ? 1.0 : 0.0;
     float limit = film_thickness > 0.0 ? 0.0 : 1.0;
     if (metal_film_weight > 0.0) {
-        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, schlick_bend, film_thickness,
+        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, schlick_bend, film_thickness,
             thin_film_ior);
-        vec3 metal_film_bare = mx_ggx_gather_schlick(lobe, limit, n, schlick_bend);
+        vec3 metal_film_bare = mx_ggx_gather_schlick(lobe, V, limit, n, schlick_bend);
         color += metal_film_product * (film_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
     }
     // metal_bare
     if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, n, schlick_bend);
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, schlick_bend);
     // reflection_film
     if (reflection_film_visible) {
-        vec3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, vec3(ior), film_thickness,
-            thin_film_ior);
-        vec3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, limit, 0.0, ior);
+        vec3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, vec3(ior),
+            film_thickness, thin_film_ior);
+        vec3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, V, limit, 0.0, ior);
         color += reflection_film_product
             * (film_thickness > 0.0 ? reflection_film_ggx_gather_film_index : reflection_film_bare);
     }
     // reflection
     if (reflection_weight > 0.0)
-        color += reflection_product * (reflection_scale * mx_ggx_gather_dielectric(lobe, 1.0, 0.0, ior));
+        color += reflection_scale * (reflection_product * mx_ggx_gather_dielectric(lobe, V, 1.0, 0.0, ior));
     // refraction
     if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
-        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, 1.0, ior, ior);
+        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, 1.0, ior, ior);
         vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);
         vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
@@ -675,22 +680,12 @@ void main()
     }
     // sheet_back
     if (scaled_sheet_weight > 0.0)
-        color += sheet_back_product * (u_envLightIntensity
+        color += envLightIntensity * (sheet_back_product
             * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(-Nf, 0.0)).xyz)), 0.0).xyz);
     // diffuse
-    vec3 environment_irradiance = textureLod(u_envIrradiance,
-        mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz * u_envLightIntensity;
     if (diffuse_weight > 0.0)
-        color += mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
-            * (diffuse_product * environment_irradiance);
-    // fuzz, sheet_front, scatter
-    vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
-        * vec2(1.4385, 2.0315)) + vec2(1.0);
-    vec3 sheet_front_response_2 = subsurface_positive * clamp(fit.x / fit.y, 0.0, 1.0)
-        * (sheet_front_weight * environment_irradiance);
-    color += scatter_product * environment_irradiance
-        + (SR_open_pbr_surface_fuzz_weight * (SR_open_pbr_surface_fuzz_color * sheen_albedo * environment_irradiance)
-        + sheet_front_response_2);
+        color += envLightIntensity * (mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
+            * (diffuse_product * part));
     // opacity
     if (SR_open_pbr_surface_geometry_opacity < u_alphaThreshold)
         discard;

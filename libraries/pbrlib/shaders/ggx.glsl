@@ -40,21 +40,19 @@ vec3 mx_ggx_local(mat3 frame, vec3 V)
     return max(V * frame, vec3(-1.0, -1.0, MX_EPSILON));
 }
 
-// The lobe as lights see it. Its frame faces the viewer.
+// The lobe as lights see it: five numbers beside the normal.
 struct mx_GgxLobe {
-    mat3 frame;
-    vec2 alpha;    // roughness along x and y
-    vec3 v;        // direction to the viewer, in the frame
-    float masking; // of v
+    vec3 N;        // faces the viewer
+    vec3 x;        // unit tangent
+    vec2 alpha;    // roughness along x and across
+    float masking; // of the viewer
 };
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(vec2 roughness, vec3 N, vec3 X, vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
     vec2 alpha = mx_ggx_alpha(roughness);
-    vec3 v = mx_ggx_local(frame, V);
-    return mx_GgxLobe(frame, alpha, v, mx_ggx_masking(v.z, alpha.x * alpha.y));
+    return mx_GgxLobe(N, mx_tangent(N, X), alpha, mx_ggx_masking(max(dot(N, V), MX_EPSILON), alpha.x * alpha.y));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor of the reflection
@@ -122,18 +120,19 @@ float mx_half_cosine(vec3 V, vec3 L)
     return sqrt(clamp(0.5 + 0.5 * dot(V, L), MX_EPSILON, 1.0));
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of any length.
-float mx_ggx_light(mx_GgxLobe lobe, vec3 L)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor. The facet's normal V + L has any length. Its
+// cross product with N serves all lobes of one normal.
+float mx_ggx_light(mx_GgxLobe lobe, vec3 V, vec3 L)
 {
-    vec3 l = L * lobe.frame;
-    vec3 h = lobe.v + l;
-    vec2 slope = h.xy / lobe.alpha;
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(l.z, MX_EPSILON);
-    float square = dot(h, h);
-    float e = dot(slope, slope) + h.z * h.z;
-    return square * square * cos_l
-         / (2.0 * MX_PI * area * e * e * (lobe.v.z * mx_ggx_masking(cos_l, area) + cos_l * lobe.masking));
+    float cos_v = max(dot(lobe.N, V), MX_EPSILON);
+    float cos_l = max(dot(lobe.N, L), MX_EPSILON);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (2.0 * MX_PI * area * e * e * (cos_v * mx_ggx_masking(cos_l, area) + cos_l * lobe.masking));
 }
 
 // ---- masking by direction -------------------------------------------------------------------------------------------
@@ -162,7 +161,7 @@ vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, v
 {
     return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, exponent, film, film_ior)
          * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
-                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_facing(N, V), X, V), L))
+                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_facing(N, V), X, V), V, L))
          * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior);
 }
 
@@ -215,14 +214,16 @@ struct mx_GgxSamples {
     float level;   // where their mip levels begin
 };
 
-mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe)
+mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, vec3 V)
 {
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = mx_ggx_local(frame, V);
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(lobe.v * stretch);
+    vec3 cap = normalize(v * stretch);
     float share = option_environment == 2 ? 1.0 / float(max(u_envRadianceSamples, 1)) : 0.0;
-    float weight = share * (lobe.v.z + lobe.masking);
-    return mx_GgxSamples(mx_map_frame(lobe.frame), stretch, area, lobe.v, lobe.masking, cap, 1.0 + cap.z, share * (1.0 + cap.z),
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share * (1.0 + cap.z),
                          option_environment == 2 ? weight * u_envLightIntensity : 0.0,
                          option_environment == 2
                              ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)) : 0.0);
@@ -257,9 +258,9 @@ vec4 mx_ggx_sample(mx_GgxSamples s, vec2 around, float depth, float refract_ior)
 const mat2 MX_GOLDEN_TURN = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior, float ior)
+vec3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
@@ -272,9 +273,9 @@ vec3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior, f
     return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float limit, vec3 n, vec3 k)
+vec3 mx_ggx_gather_conductor(mx_GgxLobe lobe, vec3 V, float limit, vec3 n, vec3 k)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
@@ -286,9 +287,9 @@ vec3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float limit, vec3 n, vec3 k)
     return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float limit, float refract_ior, vec3 f0, vec3 bend, vec3 f90, float exponent)
+vec3 mx_ggx_gather_schlick(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, vec3 f0, vec3 bend, vec3 f90, float exponent)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
@@ -301,18 +302,18 @@ vec3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float limit, float refract_ior, vec3
     return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather(mx_GgxLobe lobe, float limit, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent)
+vec3 mx_ggx_gather(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent)
 {
     if (model == "dielectric")
-        return mx_ggx_gather_dielectric(lobe, limit, refract_ior, n.x);
-    return model == "conductor" ? mx_ggx_gather_conductor(lobe, limit, n, k)
-                                : mx_ggx_gather_schlick(lobe, limit, refract_ior, n, k, f90, exponent);
+        return mx_ggx_gather_dielectric(lobe, V, limit, refract_ior, n.x);
+    return model == "conductor" ? mx_ggx_gather_conductor(lobe, V, limit, n, k)
+                                : mx_ggx_gather_schlick(lobe, V, limit, refract_ior, n, k, f90, exponent);
 }
 
 // A film on an index of refraction, reflection alone: what most films are.
-vec3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, vec3 n, vec3 k, float film, float film_ior)
+vec3 mx_ggx_gather_film_index(mx_GgxLobe lobe, vec3 V, float limit, vec3 n, vec3 k, float film, float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
@@ -325,10 +326,10 @@ vec3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, vec3 n, vec3 k, floa
 }
 
 // Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float refract_ior, bool is_index, vec3 n, vec3 k, vec3 f90, float exponent,
+vec3 mx_ggx_gather_film(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, bool is_index, vec3 n, vec3 k, vec3 f90, float exponent,
                         float film, float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
@@ -344,10 +345,10 @@ vec3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float refract_ior, bool is
 
 // What goes through a solid sphere with `--integrator path`: wherever it meets the other side as much is reflected as on its way in, f, since
 // the angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets all leave at once, as MaterialX does.
-vec3 mx_ggx_gather_solid(mx_GgxLobe lobe, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
+vec3 mx_ggx_gather_solid(mx_GgxLobe lobe, vec3 V, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                          float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe);
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step)
@@ -381,10 +382,10 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, ve
     // A loop that no pixel needs is over at once, a branch that none takes may not be: both loops stand side by side, one of them empty.
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
     float filmed = film > 0.0 ? 1.0 : 0.0;
-    vec3 bare = mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent);
+    vec3 bare = mx_ggx_gather(lobe, V, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent);
     if (model == "schlick")
-        return scale * (film > 0.0 ? mx_ggx_gather_film(lobe, filmed, 0.0, false, n, k, f90, exponent, film, film_ior) : bare);
-    return scale * (film > 0.0 ? mx_ggx_gather_film_index(lobe, filmed, n, k, film, film_ior) : bare);
+        return scale * (film > 0.0 ? mx_ggx_gather_film(lobe, V, filmed, 0.0, false, n, k, f90, exponent, film, film_ior) : bare);
+    return scale * (film > 0.0 ? mx_ggx_gather_film_index(lobe, V, filmed, n, k, film, film_ior) : bare);
 }
 
 // What it refracts.
@@ -397,7 +398,7 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, int mo
         return mx_ggx_prefiltered(roughness, N, V, ior, model, n, k, f90, exponent, film, film_ior);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
     if (option_integrator == 1)
-        return mx_ggx_gather_solid(lobe, ior, mode, model, n, k, f90, exponent, film, film_ior);
-    return film > 0.0 ? mx_ggx_gather_film(lobe, film > 0.0 ? 1.0 : 0.0, ior, model != "schlick", n, k, f90, exponent, film, film_ior)
-                      : mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, ior, model, n, k, f90, exponent);
+        return mx_ggx_gather_solid(lobe, V, ior, mode, model, n, k, f90, exponent, film, film_ior);
+    return film > 0.0 ? mx_ggx_gather_film(lobe, V, film > 0.0 ? 1.0 : 0.0, ior, model != "schlick", n, k, f90, exponent, film, film_ior)
+                      : mx_ggx_gather(lobe, V, film > 0.0 ? 0.0 : 1.0, ior, model, n, k, f90, exponent);
 }
