@@ -21,8 +21,7 @@ static bool has_loop(const struct shader *shader, ir_ref ref)
 {
     if (ir_get(shader->graph, ref)->op != IR_CALL)
         return false;
-    const struct lang_function *fn =
-        lang_function(shader->unit, shader_callee(shader, ref), NULL);
+    const struct lang_function *fn = lang_function(shader->unit, shader_callee(shader, ref), NULL);
     return !(fn->flags & LANG_FN_STRAIGHT);
 }
 
