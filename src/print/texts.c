@@ -43,7 +43,7 @@ static const char *watch_type(void *user_data, ir_type_id type)
 }
 
 /* few shaders have longer ones, and the image has room for many shorter */
-enum { MAX_TEXT = 720 };
+enum { MAX_TEXT = 660 };
 
 void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, struct arena *arena)
 {

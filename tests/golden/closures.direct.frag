@@ -87,7 +87,7 @@ void main()
     mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(facing, normalize(vd.tangentWorld), V);
     vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75
         * vec3(0.6, 0.1, 0.05);
-    for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
+    for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
         float intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;

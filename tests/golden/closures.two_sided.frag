@@ -125,7 +125,7 @@ void main()
     vec3 h = faceforward(N, -V, N);
     mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(h, normalize(vd.tangentWorld), V);
     float coat_throughput = 1.0 - mix(0.033735953, 1.0, coat_albedo.y) * coat_albedo.x * scale;
-    for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
+    for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
         float intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;

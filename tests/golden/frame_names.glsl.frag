@@ -69,7 +69,7 @@ void main()
     vec2 ab = PublicUniforms_2 * PublicUniforms_2 * vec2(-0.5, 0.45)
         / (PublicUniforms_2 * PublicUniforms_2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
     float cos_v = max(abs(dot(normal_N, V)), 1e-8);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;

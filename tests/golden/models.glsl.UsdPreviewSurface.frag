@@ -13,8 +13,7 @@ struct mx_GgxSamples {
     float area;
     vec3 v;
     float masking;
-    vec3 cap;
-    float end;
+    vec3 top;
     float step;
     float weight;
     float level;
@@ -210,15 +209,15 @@ vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, c
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
 vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.cap);
+    vec3 cap = mx_ggx_cap(around, depth, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
@@ -230,11 +229,11 @@ mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
     vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(v * stretch);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
-        * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const vec3 f0, const vec3 f90)
@@ -242,7 +241,7 @@ vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const vec3 f0, c
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
         vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
@@ -255,7 +254,7 @@ vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const vec3 V, const vec3 n, 
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
         vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
@@ -278,7 +277,7 @@ vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float r
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
         vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
@@ -333,7 +332,7 @@ void main()
         0.04761905) + vec3(1.0)) * (metal_weight * coating_difference);
     mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), N, tangent_direction, V);
     vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;

@@ -13,8 +13,7 @@ struct mx_GgxSamples {
     float area;
     float3 v;
     float masking;
-    float3 cap;
-    float end;
+    float3 top;
     float step;
     float weight;
     float level;
@@ -105,8 +104,8 @@ mx_GgxLobe make_mx_GgxLobe(float3 N, float3 x, float2 alpha, float masking)
     return made;
 }
 
-mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 cap,
-    float end, float step, float weight, float level)
+mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 top,
+    float step, float weight, float level)
 {
     mx_GgxSamples made;
     made.to_map = to_map;
@@ -114,8 +113,7 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     made.area = area;
     made.v = v;
     made.masking = masking;
-    made.cap = cap;
-    made.end = end;
+    made.top = top;
     made.step = step;
     made.weight = weight;
     made.level = level;
@@ -308,15 +306,19 @@ float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
 
 float3 mx_subsurface_light(float3 falloff, float cos_l)
 {
-    float theta = acos(cos_l);
+    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
     float3 light = float3(0.0, 0.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
-        float d = abs(sin(0.5 * x));
+    float2 middle = float2(0.9987955, 0.04906767);
+    while (middle.x > 0.0) {
+        float d = middle.y;
         float3 e = exp(falloff * d);
         float3 profile = (e + e * e * e) / d;
-        light += profile * max(cos(theta + x), 0.0);
-        sum += profile;
+        float along = cos_l * (1.0 - 2.0 * d * d);
+        float across = sin_l * (2.0 * d * middle.x);
+        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
+        sum += 2.0 * profile;
+        middle = mul(middle, float2x2(0.9951847, 0.09801714, -0.09801714, 0.9951847));
     }
     return light / (3.1415927 * sum);
 }
@@ -375,15 +377,15 @@ float4 mx_ggx_sample_at(mx_GgxSamples s, float3 h, float shrink, float spread, f
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top.
-float3 mx_ggx_cap(float2 around, float depth, float3 v)
+// cap is below its top, `top` = v + z.
+float3 mx_ggx_cap(float2 around, float depth, float3 top)
 {
-    return float3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
 float4 mx_ggx_sample(mx_GgxSamples s, float2 around, float depth, float refract_ior)
 {
-    float3 cap = mx_ggx_cap(around, depth, s.cap);
+    float3 cap = mx_ggx_cap(around, depth, s.top);
     float3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
@@ -395,11 +397,11 @@ mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, float3 V)
     float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     float3 stretch = float3(lobe.alpha, 1.0);
-    float3 cap = normalize(v * stretch);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = share * (v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
-        * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
+        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
@@ -408,7 +410,7 @@ float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float3 V, float limit, float re
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
         float4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
@@ -423,7 +425,7 @@ float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float3 V, float limit, float3 n
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
         float4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_index(light.w, n, k, film, film_ior) * light.xyz;
         around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
@@ -436,7 +438,7 @@ float3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float3 V, float limit, float3 n,
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
         float4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
         around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
@@ -524,7 +526,7 @@ void main(
     float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
         / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
     float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // fuzz, translucent, diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;

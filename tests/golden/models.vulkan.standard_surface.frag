@@ -13,8 +13,7 @@ struct mx_GgxSamples {
     float area;
     vec3 v;
     float masking;
-    vec3 cap;
-    float end;
+    vec3 top;
     float step;
     float weight;
     float level;
@@ -272,15 +271,19 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film
 
 vec3 mx_subsurface_light(const vec3 falloff, const float cos_l)
 {
-    float theta = acos(cos_l);
+    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
     vec3 light = vec3(0.0);
     vec3 sum = vec3(0.0);
-    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
-        float d = abs(sin(0.5 * x));
+    vec2 middle = vec2(0.9987955, 0.04906767);
+    while (middle.x > 0.0) {
+        float d = middle.y;
         vec3 e = exp(falloff * d);
         vec3 profile = (e + e * e * e) / d;
-        light += profile * max(cos(theta + x), 0.0);
-        sum += profile;
+        float along = cos_l * (1.0 - 2.0 * d * d);
+        float across = sin_l * (2.0 * d * middle.x);
+        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
+        sum += 2.0 * profile;
+        middle = mat2(0.9951847, 0.09801714, -0.09801714, 0.9951847) * middle;
     }
     return light / (3.1415927 * sum);
 }
@@ -339,15 +342,15 @@ vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, c
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
 vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.cap);
+    vec3 cap = mx_ggx_cap(around, depth, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
@@ -359,11 +362,11 @@ mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
     vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(v * stretch);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share
-        * (1.0 + cap.z), weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
@@ -373,7 +376,7 @@ vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float l
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
         vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
@@ -389,7 +392,7 @@ vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const vec3 V, const float l
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
         vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_index(light.w, n, k, film, film_ior) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
@@ -402,7 +405,7 @@ vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const vec3 V, const float li
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step) {
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
         vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
@@ -488,7 +491,7 @@ void main()
     vec3 subsurface_falloff = vec3(-2.0)
         / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
     vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // fuzz, translucent, diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;

@@ -51,7 +51,7 @@ void main()
     // SR_clay
     vec3 N = faceforward(direction, -V, direction);
     float cos_v = max(abs(dot(direction, V)), 1e-8);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;

@@ -193,11 +193,11 @@ vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, strin
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and Benyoub 2023, "Sampling
-// Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the cap is below its top. Times `stretch` it is
-// one of the rough surface.
-vec3 mx_ggx_cap(vec2 around, float depth, vec3 v)
+// Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the cap is below its top, `top` = v + z. Times
+// `stretch` it is one of the rough surface.
+vec3 mx_ggx_cap(vec2 around, float depth, vec3 top)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
 // The lobe as samples of the environment see it.
@@ -207,8 +207,7 @@ struct mx_GgxSamples {
     float area;    // product of both
     vec3 v;        // direction to the viewer, in the frame
     float masking; // of v
-    vec3 cap;      // v, stretched
-    float end;     // depth of the cap
+    vec3 top;      // of the cap of visible normals; its z is the depth of the cap
     float step;    // between the depths of samples
     float weight;  // of one
     float level;   // where their mip levels begin
@@ -220,10 +219,10 @@ mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, vec3 V)
     vec3 v = mx_ggx_local(frame, V);
     float area = lobe.alpha.x * lobe.alpha.y;
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 cap = normalize(v * stretch);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
     float share = option_environment == 2 ? 1.0 / float(max(u_envRadianceSamples, 1)) : 0.0;
     float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, cap, 1.0 + cap.z, share * (1.0 + cap.z),
+    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, top, share * top.z,
                          option_environment == 2 ? weight * u_envLightIntensity : 0.0,
                          option_environment == 2
                              ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)) : 0.0);
@@ -248,7 +247,7 @@ vec4 mx_ggx_sample_at(mx_GgxSamples s, vec3 h, float shrink, float spread, float
 
 vec4 mx_ggx_sample(mx_GgxSamples s, vec2 around, float depth, float refract_ior)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.cap);
+    vec3 cap = mx_ggx_cap(around, depth, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
@@ -263,7 +262,7 @@ vec3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, vec3 V, float limit, float refrac
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
         vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
@@ -278,7 +277,7 @@ vec3 mx_ggx_gather_conductor(mx_GgxLobe lobe, vec3 V, float limit, vec3 n, vec3 
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
         vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
@@ -292,7 +291,7 @@ vec3 mx_ggx_gather_schlick(mx_GgxLobe lobe, vec3 V, float limit, float refract_i
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
         vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         vec3 f = mx_fresnel_schlick(light.w, f0, bend, f90, exponent);
@@ -316,7 +315,7 @@ vec3 mx_ggx_gather_film_index(mx_GgxLobe lobe, vec3 V, float limit, vec3 n, vec3
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
         vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_index(light.w, n, k, film, film_ior) * light.xyz;
@@ -332,7 +331,7 @@ vec3 mx_ggx_gather_film(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior,
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.end; depth += samples.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
         vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         vec3 f = is_index ? mx_film_index(light.w, n, k, film, film_ior)
@@ -351,9 +350,9 @@ vec3 mx_ggx_gather_solid(mx_GgxLobe lobe, vec3 V, float ior, int mode, string mo
     mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.end; depth += samples.step)
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step)
     {
-        vec3 cap = mx_ggx_cap(around, depth, samples.cap);
+        vec3 cap = mx_ggx_cap(around, depth, samples.top);
         vec3 h = cap * samples.stretch;
         float shrink = 1.0 / dot(h, h);
         float spread = shrink * dot(cap, cap);
