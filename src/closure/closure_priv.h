@@ -8,6 +8,10 @@
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 
+/* describe.c: writes the weight of a leaf as an expression, with the names of inputs and nodes. */
+void closure_describe_weight(const struct shader *shader, const struct closure_leaf *leaf,
+                             struct text *out);
+
 /* Its unit normal. */
 ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 
