@@ -6,7 +6,7 @@
 #ifndef MXG_CHECK_BASELINE_H
 #define MXG_CHECK_BASELINE_H
 
-#include "check/names.h"
+#include "cli/names.h"
 #include "check/record.h"
 #include "check/report_reader.h"
 

@@ -326,7 +326,7 @@ static bool prepare(struct check *check)
         check->jobs = cores > 0 ? (size_t)cores : 1;
     if (check->jobs > MAX_JOBS)
         check->jobs = MAX_JOBS;
-    if (check->time_limit == 0 || check->time_limit > MAX_TIME_LIMIT)
+    if (check->time_limit == 0)
         check->time_limit = MAX_TIME_LIMIT;
     struct check_run *run = &check->reports.run;
     run->targets = check->targets.items;
@@ -437,7 +437,8 @@ int command_check(const struct command *command, int argc, char **argv)
     struct arg args[16 + NUM_SINK_KINDS + NUM_MEASURES] = {
         {"target", 't', ARG_LIST, "T,...", "targets (default: glsl)", &check.target_args},
         {"jobs", 'j', ARG_SIZE, "N",
-         "documents checked at the same time (default: number of cores)", &check.jobs},
+         "documents checked at the same time; 0: number of cores (default: 0)", &check.jobs,
+         .high = MAX_JOBS},
         {"files-from", 0, ARG_LIST, "FILE",
          "reads paths from a file, one on each line; '-' is standard input", &check.files_from},
         {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &check.no_compile},
@@ -445,7 +446,7 @@ int command_check(const struct command *command, int argc, char **argv)
          "renders each element, for the gallery and for comparison with a baseline", &check.render},
         {"time-limit", 0, ARG_SIZE, "S",
          "limit in seconds for one step: one element for one target; 0: none (default: 120)",
-         &check.time_limit},
+         &check.time_limit, .high = MAX_TIME_LIMIT},
         {"cache", 0, ARG_TEXT, "DIR", "keeps results, and checks only changed documents again",
          &check.cache_folder},
         {"shard", 0, ARG_TEXT, "K/N",

@@ -98,7 +98,8 @@ uint64_t cli_hash(uint64_t hash, const char *text);
  */
 char *cli_copy(const char *text, size_t len);
 
-/* generate.c, check/check.c, inspect.c, bind.c, library.c, validate.c, render.c, explain.c */
+/* generate.c, check/check.c, inspect.c, bind.c, library.c, validate.c, render.c, explain.c,
+ * format.c */
 int command_generate(const struct command *command, int argc, char **argv);
 int command_check(const struct command *command, int argc, char **argv);
 int command_inspect(const struct command *command, int argc, char **argv);
@@ -107,5 +108,7 @@ int command_library(const struct command *command, int argc, char **argv);
 int command_validate(const struct command *command, int argc, char **argv);
 int command_explain(const struct command *command, int argc, char **argv);
 int command_render(const struct command *command, int argc, char **argv);
+int command_format(const struct command *command, int argc, char **argv);
+int command_upgrade(const struct command *command, int argc, char **argv);
 
 #endif

@@ -63,14 +63,16 @@ int command_explain(const struct command *command, int argc, char **argv)
     int code;
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_LIBRARY_IS_INPUT, argc, argv,
                   &code)) {
-        bool found = true;
-        if (cli.parser.inputs.len == 0 && markdown)
+        bool found = !(folder && markdown);
+        if (!found)
+            fputs("mxgen: option '--output' does not apply: --markdown prints\n", stderr);
+        else if (cli.parser.inputs.len == 0 && markdown)
             explain_all();
         else if (cli.parser.inputs.len == 0 && folder)
             write_examples(&cli, folder);
         else if (cli.parser.inputs.len == 0)
             explain_list();
-        for (size_t i = 0; i < cli.parser.inputs.len; ++i) {
+        for (size_t i = 0; i < cli.parser.inputs.len && !(folder && markdown); ++i) {
             if (i && !folder && !markdown)
                 putchar('\n');
             found = explain(&cli, cli.parser.inputs.items[i], folder, markdown) && found;

@@ -5,10 +5,25 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
+#include "cli/outputs.h"
 #include "doc/library.h"
 
 #include <string.h>
 #include <unistd.h>
+
+/* False after an error: the output is an input. */
+static bool claim_output(struct cli *cli, const char *path)
+{
+    struct outputs outputs = {0};
+    bool good = true;
+    for (size_t i = 1; i < cli->parser.inputs.len; ++i)
+        good = outputs_read(&outputs, &cli->report, cli->parser.inputs.items[i]) && good;
+    for (uint32_t i = 0; i < mxg_library_num_files(cli->library); ++i)
+        good = outputs_read(&outputs, &cli->report, mxg_library_file(cli->library, i)) && good;
+    good = good && outputs_write(&outputs, &cli->report, path, "-o");
+    outputs_finish(&outputs);
+    return good;
+}
 
 static bool write_output(struct cli *cli, const char *path, const void *data, size_t size)
 {
@@ -16,6 +31,8 @@ static bool write_output(struct cli *cli, const char *path, const void *data, si
         fwrite(data, 1, size, stdout);
         return true;
     }
+    if (!claim_output(cli, path))
+        return false;
     const char *reason = files_write(path, data, size);
     if (reason)
         report_error(&cli->report, "output-failed", "cannot write '%s': %s", path, reason);
@@ -69,11 +86,12 @@ static void list(struct cli *cli, const struct library_args *args)
 static const struct action {
     const char *name;
     void (*run)(struct cli *cli, const struct library_args *args);
-    bool on_builtin; /* the paths extend the built-in library */
-} actions[] = {{"pack", pack, false},
-               {"list", list, false},
-               {"expand", expand, false},
-               {"doc", library_doc, true}};
+    bool on_builtin;            /* the paths extend the built-in library */
+    bool has_output, has_pages; /* takes -o; takes --html, --markdown and --pictures */
+} actions[] = {{"pack", pack, .has_output = true},
+               {"list", list},
+               {"expand", expand, .has_output = true},
+               {"doc", library_doc, true, true, true}};
 #define NUM_ACTIONS (sizeof actions / sizeof *actions)
 
 static const struct action *find_action(const char *name)
@@ -84,6 +102,21 @@ static const struct action *find_action(const char *name)
     }
     fprintf(stderr, "mxgen: 'library %s' is none of pack, list, expand, doc\n", name);
     return NULL;
+}
+
+/* False after a message about an option that the action does not take. */
+static bool check_options(const struct cli *cli, const struct action *action)
+{
+    static const char *const names[] = {"output", "html", "markdown", "pictures"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        if ((i == 0 ? action->has_output : action->has_pages)
+            || !args_is_given(&cli->parser, names[i]))
+            continue;
+        fprintf(stderr, "mxgen: option '--%s' does not apply to 'library %s'\n", names[i],
+                action->name);
+        return false;
+    }
+    return true;
 }
 
 /* Loads the library from the paths; without paths the built-in one. */
@@ -121,9 +154,10 @@ int command_library(const struct command *command, int argc, char **argv)
     if (cli_start(&cli, command, args, sizeof args / sizeof *args,
                   CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv, &code)) {
         const struct action *action = find_action(cli.parser.inputs.items[0]);
-        if (action && load(&cli, action))
+        bool is_sane = action && check_options(&cli, action);
+        if (is_sane && load(&cli, action))
             action->run(&cli, &values);
-        code = !action ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+        code = !is_sane ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;
     }
     cli_finish(&cli);
     return code;

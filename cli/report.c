@@ -217,7 +217,7 @@ static bool is_about_rest(struct report *report, const mxg_diagnostic *diagnosti
     return is_note && is_told;
 }
 
-void report_list(struct report *report, const mxg_diagnostics *list)
+static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)
 {
     uint32_t count = mxg_diagnostics_count(list);
     bool shown = false; /* the message of the notes was printed */
@@ -225,7 +225,8 @@ void report_list(struct report *report, const mxg_diagnostics *list)
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
         if (diagnostic.parent == i)
-            shown = admit(report, &diagnostic);
+            shown = (!only_errors || diagnostic.severity == MXG_SEVERITY_ERROR)
+                    && admit(report, &diagnostic);
         if (!shown || !is_shown(report, &diagnostic) || is_about_rest(report, &diagnostic))
             continue;
         report->len = 0;
@@ -233,6 +234,16 @@ void report_list(struct report *report, const mxg_diagnostics *list)
         fputs(report->text ? report->text : "", stderr);
     }
     report->errors += mxg_diagnostics_errors(list);
+}
+
+void report_list(struct report *report, const mxg_diagnostics *list)
+{
+    print_list(report, list, false);
+}
+
+void report_errors(struct report *report, const mxg_diagnostics *list)
+{
+    print_list(report, list, true);
 }
 
 static void print_own(const struct report *report, const char *level, int colour, const char *id,

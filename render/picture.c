@@ -38,6 +38,8 @@ static bool choose_mesh(struct painting *painting)
 static bool fail(struct painting *painting, const struct subject *subject)
 {
     const struct bind *bind = painting->bind;
+    if (bind && bind->id && strcmp(bind->id, "output-clash") == 0)
+        painting->painter->has_clash = true;
     report_error(&painting->painter->cli->report, bind && bind->id ? bind->id : "render-failed",
                  "%s: %s", subject->element ? subject->element : subject->path,
                  bind ? bind->reason : "out of memory");
@@ -50,9 +52,17 @@ static struct bind bind_of(const struct painting *painting, const struct subject
     return (struct bind){.result = painting->result,
                          .scene = &painting->scene,
                          .document = subject->path,
+                         .files = painter->files,
                          .values = painter->values,
                          .num_values = painter->num_values,
                          .checker = painter->checker};
+}
+
+static void tell_warning(const struct painting *painting)
+{
+    const struct bind *bind = painting->bind;
+    if (bind->reason[0]) /* a checker replaces a texture, or a texture has bad pixels */
+        report_warning(&painting->painter->cli->report, bind->id, "%s", bind->reason);
 }
 
 bool painting_open(struct painter *painter, const struct subject *subject,
@@ -70,8 +80,7 @@ bool painting_open(struct painter *painter, const struct subject *subject,
     *painting->bind = bind_of(painting, subject);
     if (!render_open(&painting->render, &painter->gpu, painting->bind, width, height))
         return fail(painting, subject);
-    if (painting->bind->reason[0]) /* a checker replaces the texture */
-        report_warning(&painter->cli->report, painting->bind->id, "%s", painting->bind->reason);
+    tell_warning(painting);
     return true;
 }
 
@@ -80,6 +89,26 @@ void painting_aim(struct painting *painting)
     struct mesh mesh = painting->scene.mesh;
     painting->scene = painting->painter->scene;
     painting->scene.mesh = mesh;
+}
+
+/* A picture with such pixels is written, because it shows their place, but it is an error. */
+static void tell_bad_pixels(struct painter *painter, const mxg_result *result,
+                            const struct image *picture)
+{
+    const float *value = picture->pixels;
+    size_t count = (size_t)picture->width * picture->height, num_bad = 0, first = 0;
+    for (size_t i = 0; i < count; ++i, value += 4) {
+        if (isfinite(value[0] + value[1] + value[2] + value[3]))
+            continue;
+        first = num_bad++ ? first : i;
+    }
+    mxg_shader_info info = {offsetof(mxg_shader_info, topology)};
+    mxg_result_info(result, &info);
+    if (num_bad)
+        report_error(&painter->cli->report, "bad-pixels",
+                     "'%s': %zu of %zu pixels are NaN or infinite, the first at %zu,%zu from the "
+                     "top left",
+                     info.path, num_bad, count, first % picture->width, first / picture->width);
 }
 
 /* Averages the samples of each pixel. */
@@ -113,8 +142,10 @@ bool painting_draw(struct painting *painting, struct image *out)
         report_error(&painter->cli->report, painting->bind->id, "%s", painting->bind->reason);
         return false;
     }
-    return resolve(painter, painting->samples, out)
-           || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    if (!resolve(painter, painting->samples, out))
+        return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    tell_bad_pixels(painter, painting->result, out);
+    return true;
 }
 
 void painting_close(struct painting *painting)
@@ -142,6 +173,10 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
         *painting.bind = bind_of(&painting, subject);
         good = trace_picture(&painter->gpu, painting.bind, painter->width, painter->height,
                              &painter->trace, out->pixels);
+    }
+    if (good && painting.bind && out->pixels) {
+        tell_warning(&painting);
+        tell_bad_pixels(painter, painting.result, out);
     }
     if (painting.result && !(good && painting.bind && out->pixels))
         good = mxg_result_source(painting.result, MXG_STAGE_PIXEL, NULL) ? fail(&painting, subject)

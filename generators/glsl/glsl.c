@@ -27,6 +27,8 @@ const struct lang_syntax glsl_syntax = {
     .wide_constants = true,
     .sizes_count_layers = true,
     .in_images = true,
+    .infinity = LANG_INFINITY,
+    .nan = LANG_NAN,
     .param_out = "out ",
     .param_inout = "inout ",
 };

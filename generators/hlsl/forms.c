@@ -2,8 +2,6 @@
 /* How HLSL writes what depends on types, and the functions that it lacks (helpers). */
 #include "generators/hlsl/hlsl.h"
 
-#include <math.h>
-
 static const char parts[] = "xyzw";
 
 static unsigned components(ir_type_id type)
@@ -228,17 +226,13 @@ const char *hlsl_maker(void *user_data, const char *type)
     return maker->name;
 }
 
-/* Every component is written; no literal is infinite or no number. */
+/* Every component is written. */
 bool hlsl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
                       struct text *out)
 {
     const struct ir_type_info *info = ir_type_info(type);
-    if (info->components == 1) {
-        bool is_written = type == IR_TYPE_FLOAT && !isfinite(words->f);
-        if (is_written)
-            text_fmt(out, "asfloat(0x%08xu)", (unsigned)words->u);
-        return is_written;
-    }
+    if (info->components == 1)
+        return false;
     text_put(out, style->types[type]);
     for (unsigned i = 0; i < info->components; i++) {
         text_str(out, i ? ", " : "(");

@@ -62,6 +62,8 @@ static const struct lang_syntax syntax = {
     .constant = "static const ",
     .array_braces = true,
     .sampler_type = "SamplerState",
+    .infinity = "asfloat(0x7f800000u)",
+    .nan = "asfloat(0x7fc00000u)",
     .write_value = hlsl_write_value,
 };
 

@@ -173,8 +173,7 @@ const char *sandbox_fault(const struct mxg_context *context, const char *path);
 void sandbox_finish(struct mxg_context *context);
 
 /*
- * folder.c: true if the path is a folder. The functions after this one list the files in a folder
- * whose name ends with `suffix`, sorted.
+ * folder.c: true if the path is a folder.
  */
 bool folder_exists(const char *path);
 /*
@@ -186,7 +185,10 @@ struct path_list {
     const char **items;
     uint32_t len, cap;
 };
-/* NULL, or the reason why the folder is unreadable. */
+/*
+ * Appends the regular files below a folder whose names end with `suffix`, sorted. Follows links to
+ * folders, and lists each folder once. Returns NULL, or the reason why a folder is unreadable.
+ */
 const char *folder_list(struct arena *arena, const char *path, const char *suffix,
                         struct path_list *out);
 
@@ -210,6 +212,21 @@ struct option_value {
 const struct option_value *options_default(struct arena *arena);
 const char *option_key(enum option_id option); /* "interface" */
 const struct option_value *options_values(const mxg_options *options);
+
+/* ---- Definitions: library.c ---- */
+
+/* mxg_library_nodedef and mxg_library_port, for the layer of a library or of a document. */
+mxg_status definition_info(const struct library *lib, uint32_t index, mxg_nodedef *out);
+mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t index,
+                           mxg_port *out);
+
+/* ---- Documents: document.c ---- */
+
+/*
+ * Indexes a document whose tree is complete, and finds its renderables. The document takes the
+ * names of `files`.
+ */
+void document_finish(struct mxg_document *document, struct file_source *files);
 
 /* ---- Elements: renderable.c, element.c ---- */
 

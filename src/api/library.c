@@ -307,11 +307,10 @@ bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const ch
            && has_implementation(&library->layer, nodedef, found);
 }
 
-mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
+mxg_status definition_info(const struct library *lib, uint32_t index, mxg_nodedef *out)
 {
-    if (index >= mxg_library_num_nodedefs(library))
+    if (index >= library_num_nodedefs(lib))
         return MXG_ERROR_ARGUMENT;
-    const struct library *lib = &library->layer;
     const struct nodedef *def = library_nodedef(lib, index);
     const char *file = doc_place(&lib->doc, def->element).file;
     mxg_nodedef full = {
@@ -329,12 +328,16 @@ mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_n
     return struct_write(out, &full, sizeof full);
 }
 
-mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
-                            mxg_port *out)
+mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
 {
-    if (nodedef >= mxg_library_num_nodedefs(library))
+    return library ? definition_info(&library->layer, index, out) : MXG_ERROR_ARGUMENT;
+}
+
+mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t index,
+                           mxg_port *out)
+{
+    if (nodedef >= library_num_nodedefs(lib))
         return MXG_ERROR_ARGUMENT;
-    const struct library *lib = &library->layer;
     const struct nodedef *def = library_nodedef(lib, nodedef);
     if (index >= (uint32_t)def->num_inputs + def->num_outputs)
         return MXG_ERROR_ARGUMENT;
@@ -360,4 +363,10 @@ mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32
         .uistep = attr_text(lib, port->element, STR_uistep),
     };
     return struct_write(out, &full, sizeof full);
+}
+
+mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
+                            mxg_port *out)
+{
+    return library ? definition_port(&library->layer, nodedef, index, out) : MXG_ERROR_ARGUMENT;
 }

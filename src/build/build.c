@@ -91,6 +91,8 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->host = (struct lang_host){.user_data = b,
                                  .global = global_node,
                                  .texture = build_read_tiles,
+                                 .bad_index = build_report_index,
+                                 .too_large = build_report_large,
                                  .max_inline_nodes = INLINE_NODES};
     b->document = ARENA_NEW(b->arena, struct instance);
     b->document->nodedef = LIBRARY_NONE;

@@ -86,6 +86,7 @@ struct builder {
     VEC(ir_ref) geomprops;          /* value per geomprop name, in pairs (name, ref) */
     ir_ref *globals;                /* by id: host data of functions, after the first use */
     struct build_prefix path, name; /* prefixes of the paths and names of a node's inputs */
+    elem_id called;                 /* the node whose implementation is lowered; 0: none */
     ir_ref missing_texel;           /* the current node's texel outside all tiles of its image */
     struct recorder *recorder;      /* network.c; NULL: one shader is built */
     bool has_colorspace;            /* the library has transforms to the option's colour space */
@@ -275,7 +276,11 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
 /* The default of an input in the network's layers; type VOID or 0: it has no number. */
 struct ir_value build_network_default(struct builder *b, const struct port *port);
 
-/* dynamic.c: builds nodes in C; false if the definition has no such code. */
+/* lang_host.too_large and bad_index. */
+void build_report_large(void *user_data);
+void build_report_index(void *user_data, int32_t index, uint32_t length);
+
+/* dynamic.c: builds nodes in C; false after a report that the definition has no such code. */
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
 
 #endif

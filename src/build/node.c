@@ -3,6 +3,8 @@
 #include "build/build_priv.h"
 #include "lower/lower.h"
 
+#include <ctype.h>
+
 static void call_expressions(struct builder *b, const struct implementation *impl,
                              const ir_ref *args, ir_ref *results)
 {
@@ -33,7 +35,8 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     assert(family->nodedef == impl->nodedef);
     const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
-    ir_ref operands[256], base = 0;
+    ir_ref base = 0;
+    ir_ref *operands = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs + 2u);
     unsigned n = 1;
     operands[0] = ir_const_float(b->graph, 1.0f);
     for (unsigned i = 0; i < def->num_inputs; i++) {
@@ -77,62 +80,108 @@ const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
     return NULL;
 }
 
-/* "{{in1}}" becomes "{{0}}": verbatim expressions of the shader refer to operands by number. */
-static str_id number_inputs(struct builder *b, const struct nodedef *def, const struct port *ports,
-                            str_id source)
+/* The length of the word between "{{" and "}}" at p; 0: none is there. */
+static size_t placeholder_length(const char *p)
+{
+    size_t len = 0;
+    if (p[0] == '{' && p[1] == '{')
+        while (isalnum((unsigned char)p[2 + len]) || p[2 + len] == '_' || p[2 + len] == ':')
+            len++;
+    return len && p[2 + len] == '}' && p[3 + len] == '}' ? len : 0;
+}
+
+/*
+ * "{{in1}}" becomes "{{0}}": verbatim expressions of the shader refer to operands by number. 0
+ * after a report: the definition has no such input.
+ */
+static str_id number_inputs(struct builder *b, const struct implementation *impl, str_id source)
 {
     struct text out;
     text_init(&out, b->arena);
     for (const char *p = build_text(b, source); *p;) {
-        const char *end = p[0] == '{' && p[1] == '{' ? strstr(p, "}}") : NULL;
-        str_id name = end ? str_find(b->shader->strings, p + 2, (size_t)(end - p - 2)) : 0;
-        int index = -1;
-        for (int i = 0; name && i < def->num_inputs; i++)
-            index = ports[i].name == name ? i : index;
-        if (index < 0) {
+        size_t len = placeholder_length(p);
+        if (!len) {
             text_char(&out, *p++);
             continue;
         }
+        str_id name = str_intern(b->shader->strings, p + 2, len);
+        int index = library_find_input(b->lib, impl->nodedef, name);
+        if (index < 0) {
+            diag_add(b->diags, DIAG_ID_lang_unknown, doc_place(&b->lib->doc, impl->element),
+                     "input", build_text(b, name), "");
+            return 0;
+        }
         text_fmt(&out, "{{%d}}", index);
-        p = end + 2;
+        p += len + 4;
     }
     return str_intern(b->shader->strings, out.data, out.len);
 }
 
-static uint32_t verbatim_of(struct builder *b, const struct implementation *impl,
-                            const struct port *outputs, unsigned num_outputs)
+/* The index of the source in the shader, which has each source once. */
+static uint32_t find_verbatim(const struct shader *shader, const struct shader_verbatim *wanted)
 {
+    uint32_t i = 0;
+    for (; i < shader->verbatim.len; i++) {
+        const struct shader_verbatim *have = &shader->verbatim.items[i];
+        if (have->source == wanted->source && have->function == wanted->function
+            && have->expression == wanted->expression)
+            break;
+    }
+    return i;
+}
+
+/* Reports outputs that verbatim source cannot compute. */
+static bool has_values(struct builder *b, const struct implementation *impl, bool is_function)
+{
+    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
+    const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
+    const char *fault = NULL;
+    if (!is_function && def->num_outputs > 1)
+        fault = "an expression has one value, but the node has several outputs";
+    for (uint32_t i = 0; i < def->num_outputs; i++)
+        if (ir_type_is_closure(library_type_ir(b->lib, outputs[i].type))
+            || ir_type_is_shader(library_type_ir(b->lib, outputs[i].type)))
+            fault = "source for one target computes no closure and no shader";
+    if (fault)
+        diag_add(b->diags, DIAG_ID_function_signature, doc_place(&b->lib->doc, impl->element),
+                 build_text(b, impl->name), build_text(b, def->name), fault);
+    return !fault;
+}
+
+/* LIBRARY_NONE after a report. */
+static uint32_t verbatim_of(struct builder *b, const struct implementation *impl)
+{
+    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
+    const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
     const struct verbatim *source = library_verbatim(b->lib, impl->ref);
     struct shader_verbatim v = {.first_result = b->shader->result_types.len};
+    if (!has_values(b, impl, source->function != 0))
+        return LIBRARY_NONE;
     if (source->function) {
         v.source = source->source;
         v.function = source->function;
-        v.num_results = num_outputs;
-        for (unsigned i = 0; i < num_outputs; i++)
-            vec_push(b->arena, &b->shader->result_types, library_type_ir(b->lib, outputs[i].type));
-    } else {
-        const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
-        v.expression =
-            number_inputs(b, library_nodedef(b->lib, impl->nodedef), ports, source->source);
+        v.num_results = def->num_outputs;
+    } else if (!(v.expression = number_inputs(b, impl, source->source))) {
+        return LIBRARY_NONE;
     }
-    assert(v.first_result + v.num_results == b->shader->result_types.len);
-    for (uint32_t i = 0; i < b->shader->verbatim.len; i++) {
-        const struct shader_verbatim *have = &b->shader->verbatim.items[i];
-        if (have->source == v.source && have->function == v.function
-            && have->expression == v.expression)
-            return i;
-    }
+    uint32_t index = find_verbatim(b->shader, &v);
+    if (index < b->shader->verbatim.len)
+        return index;
     vec_push(b->arena, &b->shader->verbatim, v);
-    return b->shader->verbatim.len - 1;
+    for (uint32_t i = 0; i < v.num_results; i++)
+        vec_push(b->arena, &b->shader->result_types, library_type_ir(b->lib, outputs[i].type));
+    return index;
 }
 
-static void call_verbatim(struct builder *b, const struct implementation *impl, const ir_ref *args,
+/* False after a report. */
+static bool call_verbatim(struct builder *b, const struct implementation *impl, const ir_ref *args,
                           ir_ref *results)
 {
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
-    uint32_t index = verbatim_of(b, impl, outputs, def->num_outputs);
-    assert(index < b->shader->verbatim.len);
+    uint32_t index = verbatim_of(b, impl);
+    if (index == LIBRARY_NONE)
+        return false;
     bool function = b->shader->verbatim.items[index].function != 0;
     uint32_t callee = ir_add_callee(
         b->graph,
@@ -143,6 +192,7 @@ static void call_verbatim(struct builder *b, const struct implementation *impl, 
         results[i] = function ? ir_build(b->graph, IR_RESULT,
                                          library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1)
                               : call;
+    return true;
 }
 
 /*
@@ -155,26 +205,49 @@ static ir_ref dark_light(struct builder *b)
     return ir_build(b->graph, IR_LIGHT_SHADER, IR_TYPE_LIGHT, 0, args, 3);
 }
 
-static void call(struct builder *b, const struct frame *frame, ir_ref *results)
+void build_report_large(void *user_data)
+{
+    struct builder *b = user_data;
+    diag_add(b->diags, DIAG_ID_lang_limit,
+             doc_place(build_doc(b), b->called ? b->called : build_doc(b)->root),
+             "the arguments and results of the function have more than 128 numbers and vectors");
+}
+
+void build_report_index(void *user_data, int32_t index, uint32_t length)
+{
+    struct builder *b = user_data;
+    const struct document *doc = build_doc(b);
+    elem_id input = b->called ? doc_child_of_kind(doc, b->called, KIND_INPUT, STR_index) : 0;
+    if (b->called) /* else the function is one of a closure or of the interface */
+        diag_add(b->diags, DIAG_ID_index_out_of_range,
+                 input ? doc_attr_place(doc, input, STR_value) : doc_place(doc, b->called), index,
+                 length, length - 1);
+}
+
+/* False after a report. */
+static bool call(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct implementation *impl = frame->impl;
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     if (library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type)
         == IR_TYPE_LIGHT) {
         results[0] = dark_light(b);
-        return;
+        return true;
     }
     uint32_t first_node = b->graph->nodes.len;
+    b->called = frame->node.element;
     bool has_tiles = build_note_textures(b, frame);
     assert(frame->node.nodedef == impl->nodedef);
     if (impl->kind == IMPL_EXPRESSION)
         call_expressions(b, impl, frame->args, results);
     else if (impl->kind == IMPL_FUNCTION)
         lang_lower_call(b->shader->unit, b->graph, &b->host, impl->ref, frame->args, results);
-    else
-        call_verbatim(b, impl, frame->args, results);
+    else if (!call_verbatim(b, impl, frame->args, results))
+        return false;
     if (has_tiles)
         build_check_tiles(b, frame, first_node);
+    b->called = 0;
+    return true;
 }
 
 static void build_by_implementation(struct builder *b, const struct frame *frame, ir_ref *results)
@@ -185,13 +258,14 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     switch ((enum impl_kind)impl->kind) {
     case IMPL_EXPRESSION:
     case IMPL_FUNCTION:
-    case IMPL_VERBATIM: call(b, frame, results); return;
+    case IMPL_VERBATIM:
+        if (call(b, frame, results))
+            return;
+        break;
     case IMPL_FAMILY: build_leaf(b, impl, frame->args, results); return;
     case IMPL_DYNAMIC:
         if (build_dynamic(b, frame, results))
             return;
-        diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, impl->element),
-                 build_text(b, impl->name), build_text(b, def->node));
         break;
     case IMPL_GRAPH:
     case IMPL_BROKEN: break;

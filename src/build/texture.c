@@ -140,8 +140,9 @@ static void note_reader(struct builder *b, const struct nodedef *def, const stru
 static ir_ref as_texel(struct builder *b, ir_ref value)
 {
     ir_ref parts[4] = {value};
-    unsigned have = value ? ir_type_info(ir_type_of(b->graph, value))->components : 0,
-             n = have ? 1 : 0;
+    ir_type_id type = value ? ir_type_of(b->graph, value) : IR_TYPE_VOID;
+    bool is_color = ir_type_is_float(type) && !ir_type_is_matrix(type);
+    unsigned have = is_color ? ir_type_info(type)->components : 0, n = have ? 1 : 0;
     if (have == 4)
         return value;
     for (unsigned i = have; i < 4; i++)

@@ -99,6 +99,8 @@ static void append(struct diag_list *list, enum diag_id id, struct diag_place pl
     if (!is_note)
         list->last = list->items.len;
     place.file = keep_file(list, place.file);
+    if (place.path)
+        place.path = arena_strndup(list->arena, place.path, strlen(place.path));
     vec_push(list->arena, &list->items,
              (struct diag){.id = id,
                            .severity = severity,

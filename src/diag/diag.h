@@ -31,7 +31,8 @@ enum diag_id {
 struct diag_place {
     const char *file; /* as the user wrote it; NULL: no file */
     uint32_t line, column;
-    uint32_t length; /* code points to underline; 0 means 1 */
+    uint32_t length;  /* code points to underline; 0 means 1 */
+    const char *path; /* of the element in its document, if it has no line; otherwise NULL */
 };
 
 struct diag {

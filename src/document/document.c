@@ -171,7 +171,7 @@ void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_
     e->column = column;
 }
 
-void doc_remove_element(struct document *doc, elem_id element)
+static void unlink_element(struct document *doc, elem_id element)
 {
     struct element *e = own(doc, element);
     if (!e->parent)
@@ -192,15 +192,26 @@ void doc_remove_element(struct document *doc, elem_id element)
     link_of(doc, element)->previous = 0;
 }
 
+void doc_remove_element(struct document *doc, elem_id element)
+{
+    const struct element *e = own(doc, element);
+    if (!e->parent)
+        return;
+    if (link_of(doc, element)->comments)
+        doc_move_comments(doc, element, e->next ? e->next : e->parent,
+                          e->next ? COMMENT_BEFORE : COMMENT_LAST);
+    unlink_element(doc, element);
+}
+
 void doc_move_element(struct document *doc, elem_id element, elem_id new_parent)
 {
-    doc_remove_element(doc, element);
+    unlink_element(doc, element);
     link_last(doc, new_parent, element);
 }
 
 void doc_move_before(struct document *doc, elem_id element, elem_id sibling)
 {
-    doc_remove_element(doc, element);
+    unlink_element(doc, element);
     struct element *e = own(doc, element);
     elem_id previous = link_of(doc, sibling)->previous;
     assert(!previous || own(doc, previous)->next == sibling);
@@ -229,8 +240,8 @@ uint16_t doc_add_file(struct document *doc, str_id name)
 
 struct doc_mark doc_mark(const struct document *doc, elem_id root)
 {
-    return (struct doc_mark){doc->elements.len, doc->attrs.len, *doc_element(doc, root),
-                             doc->has_templates};
+    return (struct doc_mark){doc->elements.len,      doc->attrs.len,          doc->comments.len,
+                             doc->comment_lists.len, *doc_element(doc, root), doc->has_templates};
 }
 
 void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mark)
@@ -239,8 +250,10 @@ void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mar
     assert(mark->num_elements <= doc->elements.len && mark->num_attrs <= doc->attrs.len);
     doc->elements.len = doc->links.len = mark->num_elements;
     doc->attrs.len = mark->num_attrs;
+    doc->comments.len = mark->num_comments;
+    doc->comment_lists.len = mark->num_comment_lists;
     *own(doc, root) = mark->root;
-    link_of(doc, root)->last_child = 0;
+    *link_of(doc, root) = (struct doc_link){0};
     doc->has_templates = mark->has_templates;
 }
 
@@ -307,18 +320,36 @@ const char *doc_file_name(const struct document *doc, uint16_t file)
     return str_text(doc->strings, doc->files.items[file - doc->first_file]);
 }
 
+/* NULL: the element has a line. */
+static const char *kept_path(const struct document *doc, elem_id element)
+{
+    doc = doc_layer(doc, element);
+    uint32_t first = 0, num = doc->paths.len;
+    while (num) {
+        uint32_t half = num / 2;
+        elem_id at = doc->paths.items[first + half].element;
+        if (at == element)
+            return doc->paths.items[first + half].path;
+        first = at < element ? first + half + 1 : first;
+        num = at < element ? num - half - 1 : half;
+    }
+    return NULL;
+}
+
 struct diag_place doc_place(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);
-    return (struct diag_place){
-        .file = doc_file_name(doc, e->file), .line = e->line, .column = e->column};
+    return (struct diag_place){.file = doc_file_name(doc, e->file),
+                               .path = kept_path(doc, element),
+                               .line = e->line,
+                               .column = e->column};
 }
 
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr)
 {
     struct diag_place place = doc_place(doc, element);
     const struct attribute *found = doc_attr(doc, element, attr);
-    if (found && found->column) {
+    if (found && found->column && place.line) {
         place.line += found->line_delta;
         place.column = found->column;
     }

@@ -82,9 +82,35 @@ struct attribute {
     uint16_t column;     /* of the value's first character */
 };
 
+/* The path of an element without a line. */
+struct doc_place_path {
+    elem_id element;
+    const char *path;
+};
+
 /* Links for constant-time insertion and removal while the tree grows. */
 struct doc_link {
     elem_id last_child, previous;
+    uint32_t comments; /* index in `comment_lists`, plus 1; 0 = none */
+};
+
+/* The place of a comment relative to its element. */
+enum comment_place {
+    COMMENT_BEFORE, /* on the lines before the element */
+    COMMENT_LAST,   /* inside the element, after its last child */
+    COMMENT_BEHIND, /* on the line on which the element ends */
+    NUM_COMMENT_PLACES
+};
+
+/* A comment of the file, or a blank line. Only doc_write reads comments. */
+struct doc_comment {
+    str_id text;   /* between "<!--" and "-->"; 0: a blank line */
+    uint32_t next; /* in the same place: index plus 1; 0 = none */
+};
+
+/* The comments of an element by place: indices plus 1; 0 = none. */
+struct comment_lists {
+    uint32_t first[NUM_COMMENT_PLACES], last[NUM_COMMENT_PLACES];
 };
 
 struct document {
@@ -98,11 +124,15 @@ struct document {
     bool has_templates;           /* a <template> was added after the last expansion */
     bool has_attributedefs;       /* an <attributedef> was added somewhere */
     bool is_global;               /* no element has a namespace (set by doc_qualify_names) */
+    bool keeps_comments;          /* the reader adds the comments of files */
     VEC(struct element) elements; /* elements of this layer */
     VEC(struct attribute) attrs;
     VEC(str_id) files;          /* names from the user or from includes */
     VEC(struct doc_link) links; /* parallel to `elements`; empty in an image layer */
-    struct table names;         /* (parent, name) → element: doc_index_names */
+    VEC(struct doc_comment) comments;
+    VEC(struct comment_lists) comment_lists;
+    VEC(struct doc_place_path) paths; /* ascending by element: doc_keep_paths */
+    struct table names;               /* (parent, name) → element: doc_index_names */
 };
 
 /* Makes an empty document with a root element <materialx>. */
@@ -131,11 +161,25 @@ void doc_set_category(struct document *doc, elem_id element, str_id category);
 void doc_set_name(struct document *doc, elem_id element, str_id name);
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
                    uint16_t column);
-/* Unlinks the element from its parent. Its parent becomes 0. */
+/*
+ * Unlinks the element from its parent. Its parent becomes 0. Its comments go to the next sibling,
+ * or to the end of the parent.
+ */
 void doc_remove_element(struct document *doc, elem_id element);
 /* Appends the element to the children of another parent. */
 void doc_move_element(struct document *doc, elem_id element, elem_id new_parent);
 void doc_move_before(struct document *doc, elem_id element, elem_id sibling);
+/* comment.c */
+
+/* Appends a comment, or a blank line (text 0), to the element's comments in a place. */
+void doc_add_comment(struct document *doc, elem_id element, enum comment_place place, str_id text);
+/* Moves the comments of an element before another one, or to the end of the other's children. */
+void doc_move_comments(struct document *doc, elem_id from, elem_id to, enum comment_place place);
+/* The first comment of an element in a place: an index plus 1; 0 = none. */
+uint32_t doc_first_comment(const struct document *doc, elem_id element, enum comment_place place);
+
+/* document.c */
+
 static inline bool doc_is_full(const struct document *doc)
 {
     return doc->max_elements && doc->elements.len >= doc->max_elements;
@@ -148,7 +192,7 @@ uint16_t doc_add_file(struct document *doc, str_id name);
  * must have no children at the mark.
  */
 struct doc_mark {
-    uint32_t num_elements, num_attrs;
+    uint32_t num_elements, num_attrs, num_comments, num_comment_lists;
     struct element root;
     bool has_templates;
 };
@@ -233,7 +277,36 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
 void doc_qualify_names(struct document *doc);
 
 /*
- * write.c: writes the tree as MaterialX XML with two spaces per level, for `mxgen library expand`.
+ * edit.c: edits of a complete document. The numbers of elements stay.
+ */
+
+/*
+ * Fills a document of doc_init with the tree of another one, above the same base. Its strings must
+ * be a copy of the other's (strpool_copy).
+ */
+void doc_copy(struct document *doc, const struct document *from);
+/*
+ * Appends a copy of an element of any document, with all below it and their comments; `name` 0
+ * keeps the name. The copies have no line. 0: the document is full (doc_is_full).
+ */
+elem_id doc_copy_element(struct document *doc, elem_id parent, const struct document *from,
+                         elem_id element, str_id name);
+/* True for the root and for elements of this layer that are below it. */
+bool doc_has_element(const struct document *doc, elem_id element);
+/* True if an element can have this name ("MaterialX Names": letters, digits, '_', namespaces). */
+bool doc_is_name(const char *text);
+/*
+ * Renames an element, indexes it, and changes the references to it. Time: linear in the elements of
+ * the layer.
+ */
+void doc_rename(struct document *doc, elem_id element, str_id name);
+/* Keeps the paths of elements without a line, for doc_place. Call it when the tree is complete. */
+void doc_keep_paths(struct document *doc);
+
+/*
+ * write.c: writes the tree as MaterialX XML: an element per line, two spaces per level, the name
+ * first, then the attributes in their order, with the comments and single blank lines of the file.
+ * Reading the text gives an equal tree.
  */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
 

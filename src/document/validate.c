@@ -59,34 +59,6 @@ static const char *text_of(const struct validation *v, str_id id)
     return str_text(v->doc->strings, id);
 }
 
-static bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
-static bool is_letter(char c)
-{
-    /* for both cases; characters before 'a' wrap to large values */
-    unsigned letter = ((unsigned char)c | 0x20u) - 'a';
-    return letter < 26 || c == '_';
-}
-
-/* Letters, digits and '_', no digit first ("MaterialX Names"), with an optional namespace. */
-static bool is_name(const char *text)
-{
-    for (; *text; text++) {
-        if (!is_letter(*text))
-            return false;
-        while (is_letter(*text) || is_digit(*text))
-            text++;
-        if (!*text)
-            return true;
-        if (*text != ':')
-            return false;
-    }
-    return false;
-}
-
 /* The reader turns an unknown element into a node. */
 static bool is_foreign(const struct validation *v, elem_id element)
 {
@@ -135,7 +107,7 @@ static void check_name(struct validation *v, elem_id element)
     if (!e->name && rules[e->kind].named)
         diag_add(v->diags, DIAG_ID_name_missing, doc_place(v->doc, element),
                  text_of(v, e->category));
-    if (e->name && !is_name(text_of(v, e->name)))
+    if (e->name && !doc_is_name(text_of(v, e->name)))
         diag_add(v->diags, DIAG_ID_bad_name, doc_place(v->doc, element), text_of(v, e->name));
 }
 

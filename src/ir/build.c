@@ -6,19 +6,8 @@
 #include "ir/internal.h"
 
 #include <assert.h>
-#include <math.h>
 
 enum { MAX_FOLD_ARGS = 16 }; /* a mat4 from scalars */
-
-static bool is_finite(const struct ir_value *value)
-{
-    const struct ir_type_info *info = ir_type_info(value->type);
-    if (info->scalar == IR_TYPE_FLOAT)
-        for (unsigned i = 0; i < info->components; i++)
-            if (!isfinite(value->w[i].f))
-                return false;
-    return true;
-}
 
 static ir_ref fold(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                    const ir_ref *args, unsigned num_args)
@@ -26,7 +15,7 @@ static ir_ref fold(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
     struct ir_value values[MAX_FOLD_ARGS], result;
     for (unsigned i = 0; i < num_args; i++)
         ir_get_const(graph, args[i], &values[i]);
-    if (!ir_eval_op(op, type, attr, values, num_args, &result) || !is_finite(&result))
+    if (!ir_eval_op(op, type, attr, values, num_args, &result))
         return 0;
     assert(result.type == type);
     return ir_intern_const(graph, type, result.w);

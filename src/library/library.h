@@ -136,7 +136,8 @@ struct unit { /* <unit> of a <unitdef> */
 
 struct user_type { /* <typedef> that is not a standard type */
     str_id name, semantic;
-    ir_type_id ir; /* a struct of the lang unit, or VOID */
+    ir_type_id ir;     /* a struct of the lang unit, or VOID */
+    uint16_t reserved; /* 0: a library image holds these bytes, so the record has no padding */
     elem_id element;
 };
 

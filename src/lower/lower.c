@@ -8,7 +8,7 @@
 
 #include <assert.h>
 
-enum { MAX_EVAL_STEPS = 20000, FEW_SLOTS = 32, FEW_LEAVES = 64 };
+enum { FEW_SLOTS = 32, FEW_LEAVES = 64 };
 
 unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
 {
@@ -130,7 +130,7 @@ static bool evaluate(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *ou
     for (uint32_t i = 0; i < num_in; i++)
         if (!ir_get_const(lo->graph, in[i], &args[i]))
             return false;
-    if (!lang_eval_call(lo->unit, id, args, results, MAX_EVAL_STEPS, lo->graph->arena))
+    if (!lang_eval_constant(lo->unit, id, args, results, lo->graph->arena))
         return false;
     for (uint32_t i = 0; i < num_out; i++)
         out[i] = ir_const(lo->graph, &results[i]);
@@ -401,12 +401,20 @@ void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 
 /* The entry */
 
+static void report_large(const struct lower *lo)
+{
+    if (lo->host->too_large)
+        lo->host->too_large(lo->host->user_data);
+}
+
 static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref *results)
 {
     lo->inputs = args; /* the inputs of the expression; it has no variables */
     results[0] = lower_single(lo, lower_node(lo, ast_returned(lo->frame->layer, lo->frame->fn)));
-    if (lo->failed)
-        results[0] = ir_poison(lo->graph, lo->frame->fn->return_type);
+    if (!lo->failed)
+        return;
+    results[0] = ir_poison(lo->graph, lo->frame->fn->return_type);
+    report_large(lo);
 }
 
 /* True if the call's arguments and results fit into the fixed arrays. */
@@ -449,6 +457,7 @@ static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir
 
 static void poison_whole_results(struct lower *lo, ir_ref *results)
 {
+    report_large(lo);
     const struct lang_function *fn = lo->frame->fn;
     if (fn->return_type != IR_TYPE_VOID)
         *results++ = ir_poison(lo->graph, graph_type(lo, fn->return_type));

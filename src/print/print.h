@@ -50,6 +50,7 @@ struct lang_syntax {
     bool defines_constants;
     const char *constant;            /* prefix of a constant at file scope: "const " */
     bool float_literals_need_suffix; /* 1.0f */
+    const char *infinity, *nan;      /* expressions, the highest precedence (docs/ir.md) */
     bool wide_constants;             /* max(v, vec3(0.0)), where a target has max(v, 0.0), too */
     bool array_braces;               /* arrays are built as {a, b}, not float[2](a, b) */
     /*
@@ -149,6 +150,13 @@ struct lang_names {
      */
     const struct lang_pieces *(*form)(void *user_data, const struct lang_use *use);
 };
+
+/*
+ * Constant expressions of GLSL: a literal beyond the range of float is infinity (GLSL 4.60 section
+ * 4.1.4), and IEEE 754 defines 0 / 0.
+ */
+#define LANG_INFINITY "1e39"
+#define LANG_NAN "(0.0 / 0.0)"
 
 extern const struct lang_syntax lang_syntax_portable; /* prints what the parser reads */
 

@@ -84,6 +84,8 @@ const struct lang_syntax lang_syntax_portable = {
     .param_in_assigned = "",
     .param_out = "out ",
     .param_inout = "inout ",
+    .infinity = LANG_INFINITY,
+    .nan = LANG_NAN,
 };
 
 const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op)

@@ -95,8 +95,9 @@ static float shortened(float f)
 
 static void print_float(const struct lang_syntax *syntax, float f, struct text *out)
 {
-    if (isnan(f) || isinf(f)) { /* no target has literals for these */
-        text_str(out, isnan(f) ? "(0.0 / 0.0)" : f > 0 ? "(1.0 / 0.0)" : "(-1.0 / 0.0)");
+    if (!isfinite(f)) { /* docs/ir.md, "Infinities and NaN" */
+        text_str(out, isinf(f) && signbit(f) ? "-" : "");
+        text_str(out, isnan(f) ? syntax->nan : syntax->infinity);
         return;
     }
     size_t begin = out->len;
@@ -149,7 +150,7 @@ static unsigned count_needed(const struct ir_type_info *info, const union ir_wor
 /* A literal with a sign binds less tightly than other ones. */
 static bool has_sign(ir_type_id type, union ir_word word)
 {
-    return type == IR_TYPE_FLOAT ? signbit(word.f) && isfinite(word.f)
+    return type == IR_TYPE_FLOAT ? signbit(word.f) && !isnan(word.f)
                                  : type == IR_TYPE_INT && word.i < 0 && word.i != INT32_MIN;
 }
 

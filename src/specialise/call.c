@@ -8,8 +8,6 @@
 
 #include <assert.h>
 
-enum { MAX_EVAL_STEPS = 20000 };
-
 static lang_ref evaluate(struct spec *s, const struct lang_node *call, const lang_ref *args,
                          unsigned num_args)
 {
@@ -24,8 +22,7 @@ static lang_ref evaluate(struct spec *s, const struct lang_node *call, const lan
     struct ir_value *values = arena_alloc(s->unit->arena, num_args * sizeof *values), result;
     for (unsigned i = 0; i < num_args; i++)
         spec_get(s, args[i], &values[i]);
-    if (!lang_eval_call(s->unit, call->a, values, &result, MAX_EVAL_STEPS, s->unit->arena)
-        || !spec_is_finite(&result))
+    if (!lang_eval_constant(s->unit, call->a, values, &result, s->unit->arena))
         return 0;
     return spec_constant(s, &result);
 }

@@ -3,17 +3,6 @@
 #include "specialise/spec.h"
 
 #include <assert.h>
-#include <math.h>
-
-bool spec_is_finite(const struct ir_value *value)
-{
-    if (ir_type_info(value->type)->scalar != IR_TYPE_FLOAT)
-        return true;
-    for (unsigned i = 0; i < ir_type_info(value->type)->components; i++)
-        if (!isfinite(value->w[i].f))
-            return false;
-    return true;
-}
 
 static lang_ref fold_constants(struct spec *s, const struct lang_node *op, const lang_ref *args,
                                unsigned num_args)
@@ -24,7 +13,7 @@ static lang_ref fold_constants(struct spec *s, const struct lang_node *op, const
     struct ir_value values[AST_MAX_OPERANDS], result;
     for (unsigned i = 0; i < num_args; i++)
         spec_get(s, args[i], &values[i]);
-    if (!ir_eval_op(op->op, op->type, op->b, values, num_args, &result) || !spec_is_finite(&result))
+    if (!ir_eval_op(op->op, op->type, op->b, values, num_args, &result))
         return 0;
     return spec_constant(s, &result);
 }

@@ -115,7 +115,6 @@ bool spec_has_effects(const struct spec *s, lang_ref ref);
 
 /* call.c. Before resolve, a call has 1 + the callee's variant in c. */
 lang_ref spec_call(struct spec *s, struct lang_node call);
-bool spec_is_finite(const struct ir_value *value); /* fold.c */
 
 /* resolve.c: resolves the calls of the variant. */
 void spec_resolve(struct spec *s);

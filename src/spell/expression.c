@@ -125,21 +125,37 @@ static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
     text_char(spell->out, braces ? '}' : ')');
 }
 
+enum { MAX_OPERANDS = 1 << 20 }; /* a bound of the numbers read */
+
+/* The number in "{{number}}" at *p, which moves behind it; -1: none is there. */
+static int read_operand(const char **p)
+{
+    const char *at = *p + 2;
+    int index = 0;
+    if (strncmp(*p, "{{", 2) != 0 || *at < '0' || *at > '9')
+        return -1;
+    for (; *at >= '0' && *at <= '9' && index < MAX_OPERANDS; at++)
+        index = index * 10 + (*at - '0');
+    if (strncmp(at, "}}", 2) != 0)
+        return -1;
+    *p = at + 2;
+    return index;
+}
+
 /* The expression with its operands, in parentheses, where {{i}} stands. */
 static void write_verbatim(struct spell *spell, ir_ref ref, str_id expression)
 {
     const char *p = str_text(spell->shader->strings, expression);
     text_char(spell->out, '(');
     while (*p) {
-        if (p[0] != '{' || p[1] != '{') {
+        int index = read_operand(&p);
+        if (index < 0) {
             text_char(spell->out, *p++);
             continue;
         }
-        uint32_t index = 0;
-        for (p += 2; *p >= '0' && *p <= '9'; p++)
-            index = index * 10 + (uint32_t)(*p - '0');
-        p += strncmp(p, "}}", 2) == 0 ? 2 : 0;
-        spell_expression(spell, ir_arg(spell->shader->graph, ref, index), LANG_PREC_POSTFIX);
+        assert((uint32_t)index < ir_get(spell->shader->graph, ref)->num_args);
+        spell_expression(spell, ir_arg(spell->shader->graph, ref, (uint32_t)index),
+                         LANG_PREC_POSTFIX);
     }
     text_char(spell->out, ')');
 }

@@ -182,6 +182,8 @@ static void test_print_target(void)
         .param_in_assigned = "",
         .param_out = "out ",
         .param_inout = "inout ",
+        .infinity = "INFINITY",
+        .nan = "NAN",
         .float_literals_need_suffix = true,
         .array_braces = true,
     };
@@ -280,7 +282,7 @@ static void test_reach(void)
 static bool evaluate(struct fixture *f, const char *name, const struct ir_value *args,
                      struct ir_value *results, uint32_t steps)
 {
-    return lang_eval_call(&f->generated, find(f, name), args, results, steps, &f->arena);
+    return lang_eval_call(&f->generated, find(f, name), args, results, &steps, &f->arena);
 }
 
 static bool is_near(float a, double b)

@@ -602,7 +602,7 @@ static float run_split(struct layers *l)
         if (l->lib.base->impls.items[i].kind == IMPL_FUNCTION)
             id = l->lib.base->impls.items[i].ref;
     if (!REQUIRE(id != LANG_NONE)
-        || !REQUIRE(lang_eval_call(&l->lib.unit, id, &in, out, 1000, &l->arena)))
+        || !REQUIRE(lang_eval_call(&l->lib.unit, id, &in, out, &(uint32_t){1000}, &l->arena)))
         return NAN;
     return out[1].w[0].f;
 }

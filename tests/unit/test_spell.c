@@ -6,6 +6,8 @@
 #include "shader_fixture.h"
 #include "test.h"
 
+#include <math.h>
+
 static const char *folder;
 
 static const char *spell(struct fixture *f, const char *target_name, enum shader_stage_id stage,
@@ -648,6 +650,39 @@ static void check_words(const struct lang_syntax *syntax)
     REQUIRE(!lang_syntax_is_reserved(syntax, "roughness", 9));
 }
 
+/* The table of docs/ir.md. */
+static void check_infinities(const struct target *target)
+{
+    static const struct {
+        const char *base, *infinity, *nan;
+    } spellings[] = {{"genglsl", "1e39", "(0.0 / 0.0)"},
+                     {"genhlsl", "asfloat(0x7f800000u)", "asfloat(0x7fc00000u)"},
+                     {"genosl", "3.4028235e+38", "0.0"}};
+    const float values[] = {INFINITY, -INFINITY, NAN};
+    for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
+        if (!target_is_a(target, spellings[i].base))
+            continue;
+        struct fixture f;
+        struct lang_style style;
+        fixture_open(&f, "");
+        lang_style_init(&style, target->syntax, &f.arena);
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
+            struct text is, expected;
+            text_init(&is, &f.arena);
+            text_init(&expected, &f.arena);
+            text_fmt(&expected, "%s%s", k == 1 ? "(-" : "",
+                     k == 2 ? spellings[i].nan : spellings[i].infinity);
+            text_str(&expected, k == 1 ? ")" : "");
+            lang_print_value(&style, &f.strings, IR_TYPE_FLOAT, &(union ir_word){.f = values[k]},
+                             LANG_PREC_POSTFIX, &is);
+            REQUIRE_STR(text_cstr(&is), text_cstr(&expected));
+        }
+        fixture_close(&f);
+        return;
+    }
+    REQUIRE(!"a target without a spelling of infinity");
+}
+
 static void test_targets(void)
 {
     REQUIRE(target_find("glsl") == target_find("genglsl"));
@@ -660,6 +695,7 @@ static void test_targets(void)
         walk_ops(*target);
         check_reserved((*target)->syntax);
         check_words((*target)->syntax);
+        check_infinities(*target);
     }
     fixture_close(&f);
     check_reserved(&lang_syntax_portable);
