@@ -3,6 +3,7 @@
 """The tests of the Python package: all test_*.py of this folder. Afterwards every public function has been called, and every function
 of the C library is used. Arguments: the root of the project, a folder with the package ("": the installed one), the program."""
 import inspect
+import os
 import pathlib
 import re
 import sys
@@ -13,6 +14,7 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path += [str(FOLDER.parent), str(FOLDER)]
 from checks import check, finish
 
+os.environ.pop("LD_PRELOAD", None) # the sanitizer of this process, but not of the program
 if sys.argv[2]:
     sys.path.insert(0, sys.argv[2])
 import mxgen
@@ -25,6 +27,8 @@ common.PROGRAM = sys.argv[3]
 CALLED = set()
 # A package gets along without these: Python frees objects, and version numbers are in the text.
 NOT_USED = {"mxg_version", "mxg_library_ref"}
+# README.md, "Missing features": the package has no scenes yet.
+SCENES = re.compile(r"mxg_(scene|bind|bindings|slot)(_|$)")
 
 
 def remember(frame, event, _argument):
@@ -61,6 +65,8 @@ def check_library():
     declared = set(re.findall(r"MXG_API [^;]*?\b(mxg_\w+)\(", headers))
     package = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "python/mxgen").glob("*.py"))
     for name in sorted(declared - NOT_USED):
+        if SCENES.match(name):
+            continue
         check(f"lib.{name}" in package, f"the Python package does not use {name}")
     check(len(declared) > 80, f"the headers declare {len(declared)} functions only")
 

@@ -233,6 +233,23 @@ class Lifetimes(unittest.TestCase):
         gc.collect()
         self.assertEqual((shader.pixel, found.errors), (expected, 0))
 
+    def test_nothing_leaks(self):
+        """The limit of a context counts all its objects: a few rounds fit in, all rounds do not."""
+        context = mxgen.Context(max_memory=8_000_000)
+
+        def make():
+            document = context.parse(common.GOLD)
+            context.parse(common.BROKEN).validate()
+            document.edit().add("noise2d", "n", "float")
+            return document.edit().end().generate("glsl", options={"interface": "reduced"}), document.xml(), context.format(common.GOLD)
+
+        with self.assertRaises(MemoryError):
+            held = [make() for _ in range(300)]
+        held = None
+        self.assertIsNone(held)
+        for _ in range(300):
+            make()
+
     def test_threads(self):
         document = mxgen.Context().parse(common.GOLD)
         expected = document.generate("glsl").pixel

@@ -226,7 +226,7 @@ class DiagnosticObjects(unittest.TestCase):
 
     def test_notes(self):
         text = common.GOLD.replace("</materialx>", '<noise2d name="Spots" type="float" /></materialx>')
-        first = mxgen.Context().parse(text).validate()[0]
+        first = mxgen.Context().parse(text).diagnostics[0]
         notes = first.notes
         self.assertTrue(notes and all(note.severity == mxgen.Severity.NOTE for note in notes))
 

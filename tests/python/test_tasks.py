@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tasks of PyMaterialX's tutorials, with this package: docs/python.md has both side by side."""
+import contextlib
+import io
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -77,3 +80,15 @@ class Tasks(unittest.TestCase):
                     edit[shader].value("specular_roughness", 0.25, "float")
             for shader in shaders:
                 self.assertEqual(edit.document[shader.path + "/specular_roughness"].value, 0.25)
+
+    def test_programs_of_the_documentation(self):
+        """Every program of README.md and docs/python.md runs in the root of the project."""
+        root = common.EXAMPLES.resolve().parent
+        pages = [root / "README.md", root / "docs/python.md"]
+        programs = [program for page in pages for program in re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)]
+        self.assertGreater(len(programs), 2)
+        for program in programs:
+            out = io.StringIO()
+            with contextlib.redirect_stdout(out), contextlib.chdir(root):
+                exec(compile(program, "documentation", "exec"), {})
+            self.assertEqual("print" in program, bool(out.getvalue()))
