@@ -226,8 +226,8 @@ class Context(Native):
         if self._user == me:
             raise Error("a callback cannot use its own context; make another context")
         with self._lock:
-            self._user = me
             try:
+                self._user = me
                 yield self._handle.pointer
             finally:
                 self._user = None

@@ -108,6 +108,7 @@ class Edit(Native):
         self._handle = handle
         self._context = context
         self._library = library
+        self._source = source
         self._document: Document | None = None
 
     # ---- Calls ----
@@ -156,8 +157,13 @@ class Edit(Native):
         return Draft(self, number) if number else None
 
     def __getitem__(self, path: str | Element) -> Draft:
-        """An element by path, or the copy of an element of the document that the edit comes from. Raises KeyError."""
-        found = self.find(path.path if isinstance(path, Element) else path)
+        """An element by path, or an element of the document that the edit comes from, also after a new name. Raises KeyError."""
+        if isinstance(path, Element):
+            self._pointer()
+            if path.document is not self._source:
+                raise ValueError("the edit comes from another document")
+            return Draft(self, path.number)
+        found = self.find(path)
         if found is None:
             raise KeyError(path)
         return found

@@ -163,7 +163,8 @@ class Edits(unittest.TestCase):
             self.assertEqual(shader, edit["SR"])
             self.assertEqual(len({shader, edit["SR"], edit["Gold"]}), 2)
             self.assertEqual(shader.number, built["SR"].number)
-            shader.rename("Shader").set("xpos", "1").set("ypos", "2").set("ypos", None)
+            self.assertEqual(edit[built["SR"]].rename("Shader"), edit[built["SR"]])
+            shader.set("xpos", "1").set("ypos", "2").set("ypos", None)
             edit["Spots"].remove()
             shader.value("specular_roughness", 0.1)
             self.assertIsNone(edit.find("Spots"))
@@ -229,6 +230,14 @@ class Edits(unittest.TestCase):
         one, two = self.context.edit(), self.context.edit()
         with self.assertRaisesRegex(ValueError, "another edit"):
             one.add("add", "a", "float").connect("in1", two.add("add", "a", "float"))
+        with self.assertRaisesRegex(ValueError, "another document"):
+            one[self.build()["SR"]]
+        removed = self.build()
+        with removed.edit() as edit:
+            edit["Spots"].remove()
+            edit["SR"].value("specular_roughness", 0.5)
+            with self.assertRaisesRegex(mxgen.EditError, "no such element"):
+                edit[removed["Spots"]].rename("Dots")
         other = mxgen.Context()
         with self.assertRaises(ValueError):
             self.context.edit(self.build(), library=other.library)
