@@ -144,14 +144,13 @@ static VkGraphicsPipelineCreateInfo fixed_state(void)
         .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
     static const VkPipelineDepthStencilStateCreateInfo depth = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-    return (VkGraphicsPipelineCreateInfo){
-        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-        .flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR,
-        .pInputAssemblyState = &assembly,
-        .pViewportState = &viewports,
-        .pRasterizationState = &raster,
-        .pMultisampleState = &samples,
-        .pDepthStencilState = &depth};
+    return (VkGraphicsPipelineCreateInfo){.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                          .flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR,
+                                          .pInputAssemblyState = &assembly,
+                                          .pViewportState = &viewports,
+                                          .pRasterizationState = &raster,
+                                          .pMultisampleState = &samples,
+                                          .pDepthStencilState = &depth};
 }
 
 /* One buffer of floats for each vertex input. */
@@ -185,8 +184,8 @@ static VkPipeline make_pipeline(VkDevice device, const struct shader_interface *
         .pVertexAttributeDescriptions = inputs};
     VkPipelineColorBlendAttachmentState blends[MAX_OUTPUTS];
     VkFormat formats[MAX_OUTPUTS];
-    uint32_t num_outputs = interface->num_outputs < MAX_OUTPUTS ? interface->num_outputs
-                                                                : MAX_OUTPUTS;
+    uint32_t num_outputs =
+        interface->num_outputs < MAX_OUTPUTS ? interface->num_outputs : MAX_OUTPUTS;
     for (uint32_t i = 0; i < num_outputs; i++) {
         blends[i] = (VkPipelineColorBlendAttachmentState){.colorWriteMask = 15};
         formats[i] = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -195,10 +194,10 @@ static VkPipeline make_pipeline(VkDevice device, const struct shader_interface *
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = num_outputs,
         .pAttachments = blends};
-    VkPipelineRenderingCreateInfo rendering = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-        .colorAttachmentCount = num_outputs,
-        .pColorAttachmentFormats = formats};
+    VkPipelineRenderingCreateInfo rendering = {.sType =
+                                                   VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+                                               .colorAttachmentCount = num_outputs,
+                                               .pColorAttachmentFormats = formats};
     VkGraphicsPipelineCreateInfo info = fixed_state();
     info.pNext = &rendering;
     info.stageCount = 2;

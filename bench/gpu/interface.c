@@ -123,8 +123,8 @@ bool interface_of_module(const uint32_t *words, size_t num_words, VkShaderStageF
         ids[i].set = ids[i].binding = ids[i].location = ABSENT;
     for (size_t at = HEADER; is_good && at < num_words;) {
         size_t length = words[at] >> 16;
-        is_good = length > 0 && length <= num_words - at
-                  && read_instruction(words + at, ids, stage, out);
+        is_good =
+            length > 0 && length <= num_words - at && read_instruction(words + at, ids, stage, out);
         at += length;
     }
     free(ids);

@@ -241,11 +241,12 @@ static void test_statements(void)
         (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}),
         f->shader.rules.neutral_names = true;
         effect(f, EFFECT_VAR, f->color, v); use_twice(f, sine(f, "n", v)););
-    STATEMENTS("    vec3 color = v;\n    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) "
-               "{\n        color += u_lightData[i].direction;\n    }\n",
-               &plain, effect(f, EFFECT_VAR, f->color, v);
-               effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
-               effect(f, EFFECT_END, 0, 0););
+    STATEMENTS(
+        "    vec3 color = v;\n    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) "
+        "{\n        color += u_lightData[i].direction;\n    }\n",
+        &plain, effect(f, EFFECT_VAR, f->color, v);
+        effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
+        effect(f, EFFECT_END, 0, 0););
 }
 
 /* The whole pixel stage, from `from` on. */
