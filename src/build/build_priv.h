@@ -257,6 +257,9 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family);
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
 
+/* verbatim.c: calls source for one target. Source that mxgen cannot call is an error. */
+void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *results);
+
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
 

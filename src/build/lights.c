@@ -212,10 +212,10 @@ void build_lights(struct builder *b, const char *const *items, uint32_t num_item
         int32_t type;
         if (strcmp(items[i], "none") == 0 || !number_of(b, items[i], (int64_t)i + 1, &type))
             continue;
-        uint32_t nodedef = find_light(b, name, strlen(name));
+        uint32_t nodedef = find_light(b, name, strlen(name)), before = b->diags->num_errors;
         bool is_bound = nodedef != LIBRARY_NONE ? add_defined_light(b, nodedef, type)
                                                 : add_light_element(b, name, type);
-        if (!is_bound && is_said)
+        if (!is_bound && is_said && b->diags->num_errors == before)
             diag_add(b->diags, DIAG_ID_unknown_light, nowhere, name,
                      light_hint(b, name, strlen(name)));
     }

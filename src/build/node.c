@@ -77,74 +77,6 @@ const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
     return NULL;
 }
 
-/* "{{in1}}" becomes "{{0}}": verbatim expressions of the shader refer to operands by number. */
-static str_id number_inputs(struct builder *b, const struct nodedef *def, const struct port *ports,
-                            str_id source)
-{
-    struct text out;
-    text_init(&out, b->arena);
-    for (const char *p = build_text(b, source); *p;) {
-        const char *end = p[0] == '{' && p[1] == '{' ? strstr(p, "}}") : NULL;
-        str_id name = end ? str_find(b->shader->strings, p + 2, (size_t)(end - p - 2)) : 0;
-        int index = -1;
-        for (int i = 0; name && i < def->num_inputs; i++)
-            index = ports[i].name == name ? i : index;
-        if (index < 0) {
-            text_char(&out, *p++);
-            continue;
-        }
-        text_fmt(&out, "{{%d}}", index);
-        p = end + 2;
-    }
-    return str_intern(b->shader->strings, out.data, out.len);
-}
-
-static uint32_t verbatim_of(struct builder *b, const struct implementation *impl,
-                            const struct port *outputs, unsigned num_outputs)
-{
-    const struct verbatim *source = library_verbatim(b->lib, impl->ref);
-    struct shader_verbatim v = {.first_result = b->shader->result_types.len};
-    if (source->function) {
-        v.source = source->source;
-        v.function = source->function;
-        v.num_results = num_outputs;
-        for (unsigned i = 0; i < num_outputs; i++)
-            vec_push(b->arena, &b->shader->result_types, library_type_ir(b->lib, outputs[i].type));
-    } else {
-        const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
-        v.expression =
-            number_inputs(b, library_nodedef(b->lib, impl->nodedef), ports, source->source);
-    }
-    assert(v.first_result + v.num_results == b->shader->result_types.len);
-    for (uint32_t i = 0; i < b->shader->verbatim.len; i++) {
-        const struct shader_verbatim *have = &b->shader->verbatim.items[i];
-        if (have->source == v.source && have->function == v.function
-            && have->expression == v.expression)
-            return i;
-    }
-    vec_push(b->arena, &b->shader->verbatim, v);
-    return b->shader->verbatim.len - 1;
-}
-
-static void call_verbatim(struct builder *b, const struct implementation *impl, const ir_ref *args,
-                          ir_ref *results)
-{
-    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
-    const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
-    uint32_t index = verbatim_of(b, impl, outputs, def->num_outputs);
-    assert(index < b->shader->verbatim.len);
-    bool function = b->shader->verbatim.items[index].function != 0;
-    uint32_t callee = ir_add_callee(
-        b->graph,
-        (struct ir_callee){.kind = IR_CALLEE_VERBATIM, .index = index, .name = def->name});
-    ir_type_id type = function ? IR_TYPE_VOID : library_type_ir(b->lib, outputs[0].type);
-    ir_ref call = ir_build(b->graph, IR_VERBATIM, type, callee, args, def->num_inputs);
-    for (uint32_t i = 0; i < def->num_outputs; i++)
-        results[i] = function ? ir_build(b->graph, IR_RESULT,
-                                         library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1)
-                              : call;
-}
-
 /*
  * A light function needs the shaded point, which only the light loop has. Outside it, such a node
  * is a light without emission.
@@ -159,8 +91,9 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct implementation *impl = frame->impl;
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
-    if (library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type)
-        == IR_TYPE_LIGHT) {
+    ir_type_id type =
+        library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type);
+    if (type == IR_TYPE_LIGHT && impl->kind != IMPL_VERBATIM) {
         results[0] = dark_light(b);
         return;
     }
@@ -172,7 +105,7 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
     else if (impl->kind == IMPL_FUNCTION)
         lang_lower_call(b->shader->unit, b->graph, &b->host, impl->ref, frame->args, results);
     else
-        call_verbatim(b, impl, frame->args, results);
+        build_verbatim(b, frame, results);
     if (has_tiles)
         build_check_tiles(b, frame, first_node);
 }

@@ -91,6 +91,9 @@ struct family {
 struct verbatim {
     str_id source;   /* the text of the file, including the files that it includes */
     str_id function; /* 0: the text is an inline expression */
+    /* the first reason why it is not portable, and its place */
+    str_id reason, reason_file;
+    uint32_t reason_line, reason_column;
 };
 
 /* The source of the value of a node's input. */
