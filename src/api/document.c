@@ -6,7 +6,7 @@
 
 struct load {
     mxg_document *document;
-    struct library *base;
+    const mxg_library *base;
     const char *name, *data; /* data NULL: read the file `name` */
     size_t size;
     struct file_source files;
@@ -21,7 +21,10 @@ static void read_layer(void *arg)
     const struct xml_limits *limits = &document->object.context->xml_limits;
     struct xml_files files = file_source_for_xml(&load->files);
     struct lang_reader reader = file_source_for_lang(&load->files);
-    library_init(layer, &document->object.arena, load->base);
+    /* only its reference count changes */
+    library_init(layer, &document->object.arena, (struct library *)(uintptr_t)&load->base->layer);
+    for (uint32_t i = 0; i < load->base->folders.len; i++)
+        vec_push(&document->object.arena, &load->files.folders, load->base->folders.items[i]);
     layer->trust = document->object.context->trust;
     if (load->data) {
         vec_push(&document->object.arena, &load->files.names,
@@ -30,6 +33,7 @@ static void read_layer(void *arg)
     } else {
         xml_read_file(&layer->doc, &files, limits, load->name, diags);
     }
+    layer->knows_target = target_exists;
     library_index(layer, &reader, diags);
     library_keep_matches(layer, &document->object.arena);
     document_find_renderables(document, &load->files.scratch);
@@ -48,7 +52,7 @@ static mxg_status load_document(mxg_context *context, mxg_library *library, stru
     load->document = object_new(context, sizeof *load->document, &library->object);
     if (!load->document)
         return MXG_ERROR_MEMORY;
-    load->base = &library->layer;
+    load->base = library;
     struct object *object = &load->document->object;
     if (!sandbox_admit_file(context, load->name)) {
         object_unref(object);

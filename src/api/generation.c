@@ -160,6 +160,8 @@ static void name_shader(struct generation *g)
     shader->value_type = value_type(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
     lang_style_init(shader->style, g->result->target->syntax, shader->arena);
+    for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
+        shader->source_language = t->source;
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
 }
 
@@ -259,7 +261,8 @@ struct closure_host generation_closure_host(struct builder *builder, struct clos
 void generation_start_closures(struct generation *g)
 {
     const struct option_value *lights = &g->options[OPTION_lights];
-    build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
+    if (!g->result->target->closures) /* otherwise the renderer has the lights */
+        build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
     g->closure_host = generation_closure_host(g->builder, &g->point);
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,

@@ -241,8 +241,8 @@ bool build_has_tokens(const struct builder *b, elem_id node);
 
 /* The implementation of a definition for the target; NULL after a diagnostic. */
 const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
-/* The function that implements a definition for the target; LIBRARY_NONE if no function does. */
-uint32_t build_light_function(struct builder *b, uint32_t nodedef);
+/* The implementation of a definition for the target; NULL: there is none. */
+const struct implementation *build_best_implementation(const struct builder *b, uint32_t nodedef);
 /*
  * The definition of a node for a type: "ND_constant_color3" for "constant"; LIBRARY_NONE if the
  * library has none.
@@ -259,6 +259,10 @@ void build_call(struct builder *b, const struct implementation *impl, const ir_r
 
 /* verbatim.c: calls source for one target. Source that mxgen cannot call is an error. */
 void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *results);
+/* True if the source is the function of a light shader. */
+bool build_is_light_source(const struct builder *b, const struct implementation *impl);
+/* Adds the function of a light shader to the shader; UINT32_MAX after a diagnostic. */
+uint32_t build_light_source(struct builder *b, const struct implementation *impl);
 
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
@@ -278,7 +282,13 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
 /* The default of an input in the network's layers; type VOID or 0: it has no number. */
 struct ir_value build_network_default(struct builder *b, const struct port *port);
 
-/* dynamic.c: builds nodes in C; false if the definition has no such code. */
+/*
+ * dynamic.c. True if the node makes a closure or shader of other closures and shaders, as layers
+ * do: mxgen's own code for such a node also serves where a library has source for it, because the
+ * closures below it are no values.
+ */
+bool build_is_combined(const struct builder *b, const struct frame *frame);
+/* Builds nodes in C; false if the definition has no such code. */
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
 
 #endif

@@ -343,13 +343,27 @@ static const struct {
     {STR_chosen_input, build_chosen_input},
 };
 
+bool build_is_combined(const struct builder *b, const struct frame *frame)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    bool is_result = false, is_operand = false;
+    for (unsigned i = 0; i < def->num_inputs + def->num_outputs; i++) {
+        ir_type_id type = library_type_ir(b->lib, ports[i].type);
+        bool is_opaque = ir_type_is_closure(type) || ir_type_is_shader(type);
+        is_result |= is_opaque && i >= def->num_inputs;
+        is_operand |= is_opaque && i < def->num_inputs;
+    }
+    return is_result && is_operand;
+}
+
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)
 {
-    assert(frame->impl->kind == IMPL_DYNAMIC && frame->impl->nodedef == frame->node.nodedef);
+    assert(frame->impl->nodedef == frame->node.nodedef);
     struct call call = {b, frame, library_nodedef(b->lib, frame->node.nodedef),
                         library_ports(b->lib, frame->node.nodedef, NULL), IR_TYPE_VOID};
     call.type = library_type_ir(b->lib, call.ports[call.def->num_inputs].type);
-    bool is_chosen = frame->impl->ref == STR_chosen_input;
+    bool is_chosen = frame->impl->kind == IMPL_DYNAMIC && frame->impl->ref == STR_chosen_input;
     str_id name = is_chosen ? STR_chosen_input : call.def->node;
     for (size_t i = 0; i < sizeof dynamic_nodes / sizeof *dynamic_nodes; i++)
         if (dynamic_nodes[i].node == name) {

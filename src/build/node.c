@@ -93,7 +93,8 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     ir_type_id type =
         library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type);
-    if (type == IR_TYPE_LIGHT && impl->kind != IMPL_VERBATIM) {
+    bool is_usable = impl->kind != IMPL_VERBATIM || build_is_light_source(b, impl);
+    if (type == IR_TYPE_LIGHT && is_usable) {
         results[0] = dark_light(b);
         return;
     }
@@ -116,9 +117,13 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     switch ((enum impl_kind)impl->kind) {
+    case IMPL_VERBATIM:
+        if (build_is_combined(b, frame) && build_dynamic(b, frame, results))
+            return;
+        call(b, frame, results);
+        return;
     case IMPL_EXPRESSION:
-    case IMPL_FUNCTION:
-    case IMPL_VERBATIM: call(b, frame, results); return;
+    case IMPL_FUNCTION: call(b, frame, results); return;
     case IMPL_FAMILY: build_leaf(b, impl, frame->args, results); return;
     case IMPL_DYNAMIC:
         if (build_dynamic(b, frame, results))
@@ -127,6 +132,7 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
                  build_text(b, impl->name), build_text(b, def->node));
         break;
     case IMPL_GRAPH:
+    case IMPL_FOREIGN:
     case IMPL_BROKEN: break;
     }
     for (uint32_t i = 0; i < def->num_outputs; i++)

@@ -77,6 +77,16 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host)
  */
 enum { MAX_LEAF_NODES = 50 };
 
+bool closure_has(const struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                 enum leaf_function which)
+{
+    const struct ir_node *node = ir_get(shader->graph, leaf);
+    const struct source_leaf *source = closure_source(shader, leaf);
+    assert(node->op == IR_LEAF && which < NUM_LEAF_FUNCTIONS);
+    return source ? closure_source_has(source, node->type, which)
+                  : host->leaf_functions(host->user_data, node->attr)[which] != LANG_NONE;
+}
+
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results)
 {
@@ -110,6 +120,8 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
                     enum leaf_function which, const ir_ref *light)
 {
     assert(which != LEAF_SAMPLE);
+    if (closure_source(shader, leaf))
+        return closure_call_source(shader, host, leaf, which, light);
     ir_ref result[1];
     return closure_call_all(shader, host, leaf, which, light, result) ? result[0] : 0;
 }

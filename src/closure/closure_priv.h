@@ -15,6 +15,33 @@ ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results);
 
+/* source.c: leaves whose functions are verbatim source. */
+
+/* The source of a LEAF; NULL: its functions are portable. */
+const struct source_leaf *closure_source(const struct shader *shader, ir_ref leaf);
+/* closure_call for such a leaf. */
+ir_ref closure_call_source(struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                           enum leaf_function which, const ir_ref *light);
+bool closure_source_has(const struct source_leaf *source, ir_type_id type,
+                        enum leaf_function which);
+
+/* A closure as two colours, for source that takes a closure. An EDF has no throughput. */
+struct closure_value {
+    ir_ref response, throughput;
+};
+/* value.c: the value of a closure for host->context. root 0: no closure. */
+struct closure_value closure_evaluate(struct shader *shader, const struct closure_host *host,
+                                      ir_ref root);
+/* Calls the functions of a source leaf over the values of its closure operands (by operand). */
+struct closure_value closure_call_with(struct shader *shader, const struct closure_host *host,
+                                       ir_ref leaf, enum source_context context,
+                                       const ir_ref *light, const struct closure_value *operands);
+
+/* flatten.c: the throughput of a leaf with its weight. */
+ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf);
+/* The throughput of an operator whose operands let these fractions pass. */
+ir_ref closure_operator_throughput(struct ir_graph *graph, ir_ref operator_, ir_ref a, ir_ref b);
+
 /* scatter.c: writes the function for path tracers. Emission and alpha may be 0: black and 1. */
 void closure_scatter(struct shader *shader, const struct closure_host *host,
                      const struct closure_list *list, const struct closure_lighting *lighting,

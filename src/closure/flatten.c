@@ -61,22 +61,21 @@ ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 static ir_ref modified_base(const struct flattener *f, ir_ref ref)
 {
     const struct ir_node *node = ir_get(f->graph, ref);
-    if (node->op != IR_LEAF
-        || f->host->leaf_functions(f->host->user_data, node->attr)[LEAF_FACTOR] == LANG_NONE)
+    if (node->op != IR_LEAF || !closure_has(f->shader, f->host, ref, LEAF_FACTOR))
         return 0;
     return ir_arg(f->graph, ref, node->num_args - 1);
 }
 
 /* ---- throughput, upwards ---- */
 
-static ir_ref leaf_throughput(struct flattener *f, ir_ref ref)
+ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf)
 {
-    assert(ir_get(f->graph, ref)->op == IR_LEAF);
-    struct ir_graph *g = f->graph;
-    if (ir_type_of(g, ref) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
+    struct ir_graph *g = shader->graph;
+    assert(ir_get(g, leaf)->op == IR_LEAF);
+    if (ir_type_of(g, leaf) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
         return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
-    ir_ref through = closure_call(f->shader, f->host, ref, LEAF_THROUGHPUT, NULL);
-    ir_ref weight = ir_arg(g, ref, 0);
+    ir_ref through = closure_call(shader, host, leaf, LEAF_THROUGHPUT, NULL);
+    ir_ref weight = ir_arg(g, leaf, 0);
     if (!through) /* opaque */
         return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
     if (ir_const_is(g, weight, 1.0f))
@@ -92,26 +91,28 @@ static ir_ref through_of(const struct flattener *f, ir_ref ref)
                                       : ir_const_splat(f->graph, IR_TYPE_VEC3, 1.0f);
 }
 
-static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
+ir_ref closure_operator_throughput(struct ir_graph *g, ir_ref ref, ir_ref a, ir_ref b)
 {
-    struct ir_graph *g = f->graph;
-    const struct ir_node node = *ir_get(g, ref);
-    assert(is_operator(&node));
-    ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
-    switch (node.op) {
-    case IR_LAYER: return ir_op2(g, IR_MUL, through_of(f, a), through_of(f, b));
-    case IR_CLOSURE_MIX: {
-        ir_ref mix = ir_arg(g, ref, 2);
-        return ir_op3(g, IR_MIX, through_of(f, a), through_of(f, b), mix);
-    }
+    switch (ir_get(g, ref)->op) {
+    case IR_LAYER: return ir_op2(g, IR_MUL, a, b);
+    case IR_CLOSURE_MIX: return ir_op3(g, IR_MIX, a, b, ir_arg(g, ref, 2));
     case IR_CLOSURE_ADD: {
         /* 1 - ((1 - Ta) + (1 - Tb)), which must not become negative */
-        ir_ref sum = ir_op2(g, IR_ADD, through_of(f, a), through_of(f, b));
+        ir_ref sum = ir_op2(g, IR_ADD, a, b);
         ir_ref rest = ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f));
         return ir_op2(g, IR_MAX, rest, ir_const_float(g, 0.0f));
     }
-    default: /* scaling a closure does not change its throughput */ return through_of(f, a);
+    default: /* scaling a closure does not change its throughput */ return a;
     }
+}
+
+static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
+{
+    assert(is_operator(ir_get(f->graph, ref)));
+    bool has_base = ir_get(f->graph, ref)->op != IR_CLOSURE_SCALE;
+    ir_ref b = has_base ? ir_arg(f->graph, ref, 1) : 0;
+    ir_ref of_a = through_of(f, ir_arg(f->graph, ref, 0)), of_b = through_of(f, b);
+    return closure_operator_throughput(f->graph, ref, of_a, of_b);
 }
 
 /* Marks the operands of the top of each layer: their throughputs are needed. */
@@ -150,7 +151,7 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
         if (modified_base(f, ref)) /* a modifier has the throughput of its base */
             f->throughputs[ref] = f->throughputs[modified_base(f, ref)];
         else if (op == IR_LEAF)
-            f->throughputs[ref] = leaf_throughput(f, ref);
+            f->throughputs[ref] = closure_leaf_throughput(f->shader, f->host, ref);
         else if (is_operator(ir_get(f->graph, ref)))
             f->throughputs[ref] = operator_throughput(f, ref);
         closure_name(f->shader, f->throughputs[ref], ref, "throughput");

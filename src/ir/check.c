@@ -137,6 +137,7 @@ static const char *callee_problem(const struct ir_graph *graph, enum ir_op op, u
         return "there is no such callee";
     enum ir_callee_kind kind = graph->callees.items[attr].kind;
     bool fits = op == IR_LEAF ? kind == IR_CALLEE_FAMILY || kind == IR_CALLEE_CLOSURE
+                                    || kind == IR_CALLEE_SOURCE
                               : kind == (op == IR_CALL ? IR_CALLEE_FUNCTION : IR_CALLEE_VERBATIM);
     return fits ? NULL : "the callee is not of the op's kind";
 }

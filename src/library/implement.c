@@ -35,9 +35,8 @@ static uint32_t parse_expression(struct indexer *ix, uint32_t nodedef, unsigned 
                                  library_type_ir(ix->lib, out->type), file, where, diags);
 }
 
-/* Parses one inline expression per output: of the <implementation>, or of its <output> children. */
-static bool parse_expressions(struct indexer *ix, struct implementation *impl, str_id source,
-                              uint32_t file, struct diag_list *diags)
+bool index_parse_expressions(struct indexer *ix, struct implementation *impl, str_id source,
+                             uint32_t file, struct diag_list *diags)
 {
     const struct document *doc = &ix->lib->doc;
     const struct nodedef *def = library_nodedef(ix->lib, impl->nodedef);
@@ -132,8 +131,8 @@ static const char *check_signature(const struct indexer *ix, const struct implem
     return NULL;
 }
 
-static bool find_implementation_function(struct indexer *ix, struct implementation *impl,
-                                         str_id name, uint32_t file, struct diag_list *diags)
+bool index_find_function(struct indexer *ix, struct implementation *impl, str_id name,
+                         uint32_t file, struct diag_list *diags)
 {
     const struct library *lib = ix->lib;
     const struct nodedef *def = library_nodedef(lib, impl->nodedef);
@@ -177,7 +176,8 @@ static bool find_implementation_function(struct indexer *ix, struct implementati
 static bool parse_source(struct indexer *ix, struct implementation *impl, struct diag_list *diags)
 {
     elem_id element = impl->element;
-    str_id file_name = index_attr(ix, element, STR_file), function = index_attr(ix, element, STR_function);
+    str_id file_name = index_attr(ix, element, STR_file),
+           function = index_attr(ix, element, STR_function);
     str_id source = index_attr(ix, element, STR_sourcecode);
     uint32_t file = LANG_NONE;
     const char *from = index_file(ix, element);
@@ -194,8 +194,8 @@ static bool parse_source(struct indexer *ix, struct implementation *impl, struct
             return false;
     }
     if (function)
-        return find_implementation_function(ix, impl, function, file, diags);
-    return parse_expressions(ix, impl, source, file, diags);
+        return index_find_function(ix, impl, function, file, diags);
+    return index_parse_expressions(ix, impl, source, file, diags);
 }
 
 static void refuse_source(struct indexer *ix, const struct implementation *impl, const char *reason,
@@ -203,6 +203,15 @@ static void refuse_source(struct indexer *ix, const struct implementation *impl,
 {
     diag_add(diags, DIAG_ID_untrusted_source, doc_place(&ix->lib->doc, impl->element),
              index_text(ix, impl->name), reason);
+}
+
+void index_break(struct indexer *ix, struct implementation *impl, const struct diag_list *faults)
+{
+    impl->kind = IMPL_BROKEN;
+    impl->ref = ix->lib->deferred->items.len;
+    impl->count = faults->items.len;
+    for (uint32_t i = 0; i < faults->items.len; i++)
+        vec_push(ix->arena, &ix->lib->deferred->items, faults->items.items[i]);
 }
 
 /* Source for a target that does not parse stays verbatim; a portable implementation must parse. */
@@ -216,13 +225,12 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
         refuse_source(ix, impl, "it is for one target only", &faults);
     else if (parse_source(ix, impl, &faults))
         return;
-    if (impl->target && ix->lib->trust == LIBRARY_TRUST_ALL && index_verbatim(ix, impl, &faults))
+    struct diag_list unfit;
+    diag_list_init(&unfit, ix->arena);
+    bool is_trusted = impl->target && ix->lib->trust == LIBRARY_TRUST_ALL;
+    if (is_trusted && index_verbatim(ix, impl, &faults, &unfit))
         return;
-    impl->kind = IMPL_BROKEN;
-    impl->ref = ix->lib->deferred->items.len;
-    impl->count = faults.items.len;
-    for (uint32_t i = 0; i < faults.items.len; i++)
-        vec_push(ix->arena, &ix->lib->deferred->items, faults.items.items[i]);
+    index_break(ix, impl, is_trusted ? &unfit : &faults);
 }
 
 static void add_impl(struct indexer *ix, struct implementation impl)
@@ -255,6 +263,12 @@ static elem_id find_nodegraph(const struct library *lib, str_id name)
     return found;
 }
 
+/* True if mxgen does not have the target. */
+static bool is_foreign(const struct indexer *ix, str_id target)
+{
+    return target && ix->lib->knows_target && !ix->lib->knows_target(index_text(ix, target));
+}
+
 void index_implementation(struct indexer *ix, elem_id element)
 {
     struct library *lib = ix->lib;
@@ -282,12 +296,16 @@ void index_implementation(struct indexer *ix, elem_id element)
         impl.ref = find_nodegraph(lib, graph);
         if (!impl.ref)
             diag_add(ix->diags, DIAG_ID_dangling_nodegraph,
-                     doc_attr_place(&lib->doc, element, STR_nodegraph), str_text(&lib->strings, graph), "");
+                     doc_attr_place(&lib->doc, element, STR_nodegraph),
+                     str_text(&lib->strings, graph), "");
         if (!impl.ref)
             return;
-    } else if (index_attr(ix, element, STR_file) || index_attr(ix, element, STR_sourcecode) || outputs) {
+    } else if (is_foreign(ix, impl.target)) {
+        impl.kind = IMPL_FOREIGN;
+    } else if (index_attr(ix, element, STR_file) || index_attr(ix, element, STR_sourcecode)
+               || outputs) {
         parse_implementation(ix, &impl);
-    } else {
+    } else if (index_attr(ix, element, STR_function) || !index_served(ix, &impl)) {
         impl.kind = IMPL_DYNAMIC;
         impl.ref = index_attr(ix, element, STR_function);
     }

@@ -3,7 +3,7 @@
  * finish: from what builders asked for to what can be spelled. The pixel stage comes first, since
  * it decides what the vertex stage must hand on.
  */
-#include "shader/shader.h"
+#include "shader/source.h"
 
 #include <assert.h>
 
@@ -31,10 +31,11 @@ static void complete_loops(struct shader *shader, enum shader_stage_id id)
         mark_read(shader, shader->light_members.items[i], id);
 }
 
-/* What portable functions, which are called and not seen through, read from the host. */
+/* The host data that called functions and verbatim sources read. */
 static void add_globals(struct shader *shader, enum shader_stage_id id)
 {
     const struct lang_reach *reach = &shader->stages[id].reach;
+    shader_mark_sources(shader, id);
     for (uint32_t i = 0; i < reach->globals.len; i++) {
         const struct lang_global *global = lang_global(shader->unit, reach->globals.items[i], NULL);
         if (global->kind == LANG_GLOBAL_UNIFORM)

@@ -232,9 +232,9 @@ static void test_implementations(void)
     REQUIRE(family->functions[FAMILY_EVAL] != LANG_NONE);
     REQUIRE(family->functions[FAMILY_ALBEDO] != LANG_NONE);
     REQUIRE_EQ(family->functions[FAMILY_THROUGHPUT], LANG_NONE);
-    const struct verbatim *verbatim = library_verbatim(&l.lib, 0);
+    const struct verbatim *verbatim = library_verbatim(&l.lib, 0, NULL);
     REQUIRE_STR(layers_text(&l, verbatim->function), "old");
-    REQUIRE_STR(layers_text(&l, verbatim->source), files[2].text);
+    REQUIRE_STR(layers_text(&l, library_source(&l.lib, verbatim->file, NULL)->text), files[2].text);
     layers_close(&l);
 }
 
