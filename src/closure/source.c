@@ -168,11 +168,10 @@ struct closure_value closure_call_with(struct shader *shader, const struct closu
     ir_type_id type = shader->result_types.items[verbatim->first_result];
     put(&c, struct_of(&c, type, nothing(&c)));
     ir_push_origin(g, node.origin);
-    uint32_t callee = ir_add_callee(
-        g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
-                              .index = index,
-                              .name = verbatim->function,
-                              .derivative = source.has_derivatives});
+    uint32_t callee = ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                                          .index = index,
+                                                          .name = verbatim->function,
+                                                          .derivative = source.has_derivatives});
     ir_ref call = ir_build(g, IR_VERBATIM, IR_TYPE_VOID, callee, c.args, c.num_args);
     ir_ref result = ir_build(g, IR_RESULT, type, 1, &call, 1);
     struct closure_value value = {result, 0};
@@ -212,8 +211,8 @@ ir_ref closure_call_source(struct shader *shader, const struct closure_host *hos
     if (which == LEAF_ABSORPTION)
         at.context = SOURCE_TRANSMISSION;
     at.light = light ? light : host->light;
-    struct closure_value value = closure_call_with(shader, &at, leaf, at.context, at.light,
-                                                   operands_of(shader, &at, leaf));
+    struct closure_value value =
+        closure_call_with(shader, &at, leaf, at.context, at.light, operands_of(shader, &at, leaf));
     if (which == LEAF_THROUGHPUT)
         return value.throughput;
     if (which != LEAF_ABSORPTION)

@@ -36,8 +36,8 @@ static ir_ref response_of(struct evaluation *e, ir_ref leaf)
         [SOURCE_INDIRECT] = LEAF_ENVIRONMENT,
         [SOURCE_EMISSION] = LEAF_EMISSION,
     };
-    ir_ref response = closure_call(e->shader, e->host, leaf, functions[e->host->context],
-                                   e->host->light);
+    ir_ref response =
+        closure_call(e->shader, e->host, leaf, functions[e->host->context], e->host->light);
     return response ? multiply(e, response, ir_arg(e->graph, leaf, 0))
                     : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f);
 }

@@ -195,6 +195,8 @@ static bool parse_source(struct indexer *ix, struct implementation *impl, struct
     }
     if (function)
         return index_find_function(ix, impl, function, file, diags);
+    if (source && impl->target)
+        source = index_expression(ix, source);
     return index_parse_expressions(ix, impl, source, file, diags);
 }
 
@@ -305,7 +307,8 @@ void index_implementation(struct indexer *ix, elem_id element)
     } else if (index_attr(ix, element, STR_file) || index_attr(ix, element, STR_sourcecode)
                || outputs) {
         parse_implementation(ix, &impl);
-    } else if (index_attr(ix, element, STR_function) || !index_served(ix, &impl)) {
+    } else if (index_attr(ix, element, STR_function) == STR_chosen_input
+               || !index_served(ix, &impl)) {
         impl.kind = IMPL_DYNAMIC;
         impl.ref = index_attr(ix, element, STR_function);
     }

@@ -64,6 +64,11 @@ bool index_served(struct indexer *ix, struct implementation *impl);
  * The text of a source file, interned; 0 after a diagnostic. `from` is the file that refers to it.
  */
 str_id index_read_source(struct indexer *ix, elem_id element, str_id file, struct diag_list *diags);
+/*
+ * An expression for one target without the semicolons at its end: MaterialX makes statements of
+ * expressions.
+ */
+str_id index_expression(struct indexer *ix, str_id source);
 /* True if the file holds an inline expression. */
 bool index_is_inline(const struct indexer *ix, str_id file);
 /*

@@ -38,6 +38,15 @@ str_id index_read_source(struct indexer *ix, elem_id element, str_id file, struc
     return str_intern(&ix->lib->strings, text, len);
 }
 
+str_id index_expression(struct indexer *ix, str_id source)
+{
+    const char *text = index_text(ix, source);
+    size_t len = str_len(&ix->lib->strings, source), trimmed = len;
+    while (trimmed && strchr(" \t\r\n;", text[trimmed - 1]))
+        trimmed--;
+    return trimmed == len || !trimmed ? source : str_intern(&ix->lib->strings, text, trimmed);
+}
+
 /* Keeps the first fault: the reason why the source is not portable. */
 static void keep_reason(struct indexer *ix, struct verbatim *verbatim,
                         const struct diag_list *faults)
@@ -76,7 +85,8 @@ static bool add_expressions(struct indexer *ix, const struct implementation *imp
                      "each output needs an <output> child with sourcecode");
             return false;
         }
-        vec_push(ix->arena, &ix->lib->refs, own ? own : source);
+        str_id expression = index_expression(ix, own ? own : source);
+        vec_push(ix->arena, &ix->lib->refs, expression);
     }
     return true;
 }
@@ -254,6 +264,15 @@ static bool add_function(struct indexer *ix, const struct implementation *impl,
     return fits;
 }
 
+/* True if the last error is at the implementation, not inside a source file. */
+static bool is_told_here(const struct indexer *ix, const struct implementation *impl,
+                         const struct diag_list *diags)
+{
+    const char *file =
+        diags->last < diags->items.len ? diags->items.items[diags->last].place.file : NULL;
+    return file && strcmp(file, index_file(ix, impl->element)) == 0;
+}
+
 bool index_verbatim(struct indexer *ix, struct implementation *impl, const struct diag_list *faults,
                     struct diag_list *diags)
 {
@@ -264,7 +283,12 @@ bool index_verbatim(struct indexer *ix, struct implementation *impl, const struc
         verbatim.file = index_source_file(
             ix, index_file(ix, impl->element), index_text(ix, file), index_text(ix, impl->name),
             doc_attr_place(&ix->lib->doc, impl->element, STR_file), diags);
-        if (verbatim.file == LIBRARY_NONE || !index_implied_includes(ix, impl, &verbatim, diags))
+        bool is_read =
+            verbatim.file != LIBRARY_NONE && index_implied_includes(ix, impl, &verbatim, diags);
+        if (!is_read && !is_told_here(ix, impl, diags))
+            diag_add(diags, DIAG_ID_source_used_by, doc_place(&ix->lib->doc, impl->element),
+                     index_text(ix, impl->name));
+        if (!is_read)
             return false;
     }
     bool is_good = verbatim.function ? add_function(ix, impl, &verbatim, diags)

@@ -85,8 +85,7 @@ static uint32_t variable_of(struct shader *shader, const char *name, size_t len)
     str_id uniform = str_intern(shader->strings, text.data, text.len);
     if (shader_knows_uniform(uniform))
         return shader_private_uniform(shader, uniform, IR_TYPE_VOID, 0);
-    ir_ref stream =
-        shader_stream(shader, str_intern(shader->strings, name, len), IR_TYPE_VOID);
+    ir_ref stream = shader_stream(shader, str_intern(shader->strings, name, len), IR_TYPE_VOID);
     bool is_variable = stream && ir_get(shader->graph, stream)->op == IR_STREAM;
     return is_variable ? ir_get(shader->graph, stream)->attr : UINT32_MAX;
 }
@@ -184,7 +183,8 @@ static void declare(struct reader *r, const struct scan_word *name)
     r->source.declares |= helper_bit(r->shader, name);
 }
 
-/* A name at file scope before one of these marks is declared: "float f(", "vec3 a =", "struct S {". */
+/* A name at file scope before one of these marks is declared: "float f(", "vec3 a =", "struct S {".
+ */
 static void note_declaration(struct reader *r, const struct scan_word *mark)
 {
     if (r->depth == 0 && !r->is_value && r->last.len && strchr("(=;[{,", *mark->text))
@@ -310,8 +310,7 @@ static uint64_t with_needed(const struct shader *shader, uint64_t wanted)
 {
     for (uint32_t i = shader->source_language ? shader->source_language->num_helpers : 0; i-- > 0;)
         if (wanted >> i & 1)
-            wanted |= uses_of(shader, shader_helper_text(shader, i))
-                      & (((uint64_t)1 << i) - 1);
+            wanted |= uses_of(shader, shader_helper_text(shader, i)) & (((uint64_t)1 << i) - 1);
     return wanted;
 }
 

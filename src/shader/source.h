@@ -80,7 +80,7 @@ struct source_leaf {
 /* A text: a file. */
 struct shader_source {
     str_id text;
-    uint32_t first_include, num_includes; /* in source_refs: a source per #include, in order */
+    uint32_t first_include, num_includes;   /* in source_refs: a source per #include, in order */
     uint32_t first_variable, num_variables; /* in source_refs: variables of its tokens */
     uint32_t first_name, num_names;         /* in source_refs: str_id of the names it declares */
     uint64_t uses, declares;                /* bits: names of helpers */

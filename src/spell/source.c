@@ -22,7 +22,8 @@ static void write_token(struct spell *spell, const struct scan_word *word)
         spell_name(spell, spell->variables[token->variable]);
 }
 
-/* Copies the text. The nesting of includes is bounded (library/source.c), so this recursion is, too. */
+/* Copies the text. The nesting of includes is bounded (library/source.c), so this recursion is,
+ * too. */
 static void write_source(struct writer *w, uint32_t index)
 {
     struct spell *spell = w->spell;
@@ -50,8 +51,15 @@ static void write_source(struct writer *w, uint32_t index)
         from = scan.at;
     }
     text_mem(spell->out, from, (size_t)(scan.end - from));
-    if (scan.end > text && scan.end[-1] != '\n')
-        spell_text(spell, "\n");
+    spell_text(spell, scan.end > text && scan.end[-1] == '\n' ? "" : "\n");
+}
+
+static void write_root(struct writer *w, uint32_t index)
+{
+    if (w->written[index])
+        return;
+    write_source(w, index);
+    spell_text(w->spell, "\n");
 }
 
 static void write_helpers(struct spell *spell, uint64_t helpers)
@@ -72,7 +80,7 @@ void spell_verbatim_sources(struct spell *spell)
         assert(spell->stage->verbatim.items[i] < shader->verbatim.len);
         const struct shader_verbatim *v = &shader->verbatim.items[spell->stage->verbatim.items[i]];
         for (uint32_t k = 0; k < v->num_sources; k++)
-            write_source(&w, shader->source_refs.items[v->first_source + k]);
+            write_root(&w, shader->source_refs.items[v->first_source + k]);
     }
     spell->verbatim_end = spell->out->len;
 }

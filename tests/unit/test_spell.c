@@ -306,7 +306,8 @@ static void test_verbatim(void)
     vec_push(&f.arena, &f.shader.result_types, IR_TYPE_VEC3);
     struct source_fault fault;
     str_id text = word(&f, "void theirs(vec3 a, out vec3 b) { b = a; }\n");
-    vec_push(&f.arena, &f.shader.source_refs, shader_add_source(&f.shader, text, NULL, 0, &fault));
+    uint32_t source = shader_add_source(&f.shader, text, NULL, 0, &fault);
+    vec_push(&f.arena, &f.shader.source_refs, source);
     vec_push(&f.arena, &f.shader.verbatim,
              (struct shader_verbatim){.first_source = f.shader.source_refs.len - 1,
                                       .num_sources = 1,
