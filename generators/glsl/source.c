@@ -23,6 +23,7 @@ static const struct source_token tokens[] = {
     {"albedoTable", "u_albedoTable", NULL},
     {"albedoTableSize", "64", NULL},
     {"lightData", "u_lightData", NULL},
+    {SOURCE_INSTANCE, "", NULL}, /* "$vd.$normalWorld": the name of a stream has its instance */
 };
 
 static const char *const derivatives[] = {"dFdx", "dFdy", "fwidth", "texture"};

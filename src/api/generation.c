@@ -101,6 +101,7 @@ static void set_build_options(struct generation *g)
         .distance_unit = option_name(g, OPTION_distance_unit),
         .angle_unit = str_intern_z(&g->result->strings, "degree"),
         .strings = caps & CAP_STRINGS,
+        .closures = g->result->target->closures != NULL,
         .neutral_names = o[OPTION_names].number != 0,
         .short_names = caps & CAP_SCOPED_PARAMETERS,
         .environment = o[OPTION_environment].number,

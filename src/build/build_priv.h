@@ -285,7 +285,7 @@ struct ir_value build_network_default(struct builder *b, const struct port *port
 /*
  * dynamic.c. True if the node makes a closure or shader of other closures and shaders, as layers
  * do: mxgen's own code for such a node also serves where a library has source for it, because the
- * closures below it are no values.
+ * closures below it are no values. For targets with closures this holds for all shaders.
  */
 bool build_is_combined(const struct builder *b, const struct frame *frame);
 /* Builds nodes in C; false if the definition has no such code. */

@@ -348,13 +348,15 @@ bool build_is_combined(const struct builder *b, const struct frame *frame)
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     bool is_result = false, is_operand = false;
+    ir_type_id type = library_type_ir(b->lib, ports[def->num_inputs].type);
     for (unsigned i = 0; i < def->num_inputs + def->num_outputs; i++) {
-        ir_type_id type = library_type_ir(b->lib, ports[i].type);
-        bool is_opaque = ir_type_is_closure(type) || ir_type_is_shader(type);
+        ir_type_id of_port = library_type_ir(b->lib, ports[i].type);
+        bool is_opaque = ir_type_is_closure(of_port) || ir_type_is_shader(of_port);
         is_result |= is_opaque && i >= def->num_inputs;
         is_operand |= is_opaque && i < def->num_inputs;
     }
-    return is_result && is_operand;
+    /* closures of a target combine without the structs that hardware targets have for shaders */
+    return is_result && (is_operand || (b->options->closures && !ir_type_is_closure(type)));
 }
 
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)

@@ -19,6 +19,12 @@ static ir_type_id type_of(const struct source_call *c, unsigned port)
     return library_type_ir(c->b->lib, c->ports[port].type);
 }
 
+/* True for a function with a calling convention of closures in hardware targets. */
+static bool has_convention(const struct source_call *c)
+{
+    return c->verbatim->function && !c->verbatim->is_plain;
+}
+
 /* ---- Messages ---- */
 
 static void fail(const struct source_call *c, ir_ref *results)
@@ -363,6 +369,21 @@ static uint32_t add_leaf(struct shader *shader, const struct source_leaf *leaf)
     return shader->source_leaves.len - 1;
 }
 
+/* An expression or a function whose result is a closure of the target. */
+static uint32_t add_native(const struct source_call *c, const struct shader_verbatim *files)
+{
+    struct shader *shader = c->b->shader;
+    struct shader_verbatim v = *files;
+    v.function = c->verbatim->function;
+    if (!v.function)
+        v.expression = number_inputs(c, c->layer->refs.items[c->verbatim->first_expression]);
+    v.num_results = v.function ? 1 : 0;
+    v.first_result = shader->result_types.len;
+    if (v.function)
+        vec_push(shader->arena, &shader->result_types, type_of(c, c->def->num_inputs));
+    return add_verbatim(c, &v);
+}
+
 static void build_leaf(const struct source_call *c, const struct shader_verbatim *files,
                        const ir_ref *args, unsigned num_args, ir_ref *results)
 {
@@ -371,6 +392,7 @@ static void build_leaf(const struct source_call *c, const struct shader_verbatim
                                .answers = answers_of(c),
                                .has_derivatives = has_derivatives(c, files),
                                .nodedef = c->impl->nodedef};
+    bool is_native = !has_convention(c);
     ir_type_id *types = ARENA_ARRAY(shader->arena, ir_type_id, num_args);
     for (unsigned i = 0; i < c->def->num_inputs; i++)
         types[i] = type_of(c, i);
@@ -379,8 +401,12 @@ static void build_leaf(const struct source_call *c, const struct shader_verbatim
         leaf.verbatim[i] = c->verbatim->contexts >> i & 1
                                ? add_context(c, files, (enum source_context)i)
                                : UINT32_MAX;
+    if (is_native) {
+        leaf.convention = SOURCE_NATIVE;
+        leaf.verbatim[0] = add_native(c, files);
+    }
     uint32_t index = add_leaf(shader, &leaf);
-    shader->source_is_1_38 |= leaf.convention != SOURCE_CLOSURE_DATA;
+    shader->source_is_1_38 |= !is_native && leaf.convention != SOURCE_CLOSURE_DATA;
     ir_ref *operands = ARENA_ARRAY(c->b->arena, ir_ref, num_args + 1);
     operands[0] = ir_const_float(c->b->graph, 1.0f);
     memcpy(operands + 1, args, num_args * sizeof *args);
@@ -399,13 +425,14 @@ static void build_leaf(const struct source_call *c, const struct shader_verbatim
  */
 static const struct port *unusable_port(const struct source_call *c)
 {
+    bool is_value = !ir_type_is_closure(type_of(c, c->def->num_inputs));
     for (unsigned i = 0; i < c->def->num_inputs + c->def->num_outputs; i++) {
         ir_type_id type = type_of(c, i);
         bool is_result = i >= c->def->num_inputs && c->verbatim->function
                          && (type == IR_TYPE_SURFACE || type == IR_TYPE_DISPLACEMENT);
         bool is_shader = ir_type_is_shader(type) && !is_result;
-        if (is_shader || (ir_type_is_closure(type) && c->verbatim->is_plain)
-            || (ir_type_is_closure(type) && !c->verbatim->function))
+        bool is_wrong = is_value || has_convention(c) == c->b->options->closures;
+        if (is_shader || (ir_type_is_closure(type) && is_wrong))
             return &c->ports[i];
     }
     return NULL;
@@ -456,10 +483,10 @@ void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *result
     }
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, c.def->num_inputs + LIBRARY_NUM_EXTRA_INPUTS);
     unsigned num_args = put_arguments(&c, args);
-    if (!c.verbatim->function)
-        call_expressions(&c, &v, args, num_args, results);
-    else if (c.verbatim->is_plain)
-        call_function(&c, &v, args, num_args, results);
-    else
+    if (ir_type_is_closure(type_of(&c, c.def->num_inputs)))
         build_leaf(&c, &v, args, num_args, results);
+    else if (!c.verbatim->function)
+        call_expressions(&c, &v, args, num_args, results);
+    else
+        call_function(&c, &v, args, num_args, results);
 }

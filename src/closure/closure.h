@@ -106,6 +106,9 @@ bool closure_is_surface(const struct shader *shader, ir_ref root);
 ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                     enum leaf_function which, const ir_ref *light);
 
+/* The source of a LEAF; NULL: its functions are portable. */
+const struct source_leaf *closure_source(const struct shader *shader, ir_ref leaf);
+
 /* True if a leaf has a function. */
 bool closure_has(const struct shader *shader, const struct closure_host *host, ir_ref leaf,
                  enum leaf_function which);

@@ -17,8 +17,6 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
 
 /* source.c: leaves whose functions are verbatim source. */
 
-/* The source of a LEAF; NULL: its functions are portable. */
-const struct source_leaf *closure_source(const struct shader *shader, ir_ref leaf);
 /* closure_call for such a leaf. */
 ir_ref closure_call_source(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                            enum leaf_function which, const ir_ref *light);

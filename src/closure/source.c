@@ -94,7 +94,10 @@ static void put_closure_data(struct call *c)
                         point,
                         ir_const_float(c->graph, 1.0f)};
     ir_type_id type = shader_source_struct(c->shader, SOURCE_STRUCT_CLOSURE_DATA);
-    put(c, ir_build(c->graph, IR_CONSTRUCT, type, 0, members, sizeof members / sizeof *members));
+    ir_ref data =
+        ir_build(c->graph, IR_CONSTRUCT, type, 0, members, sizeof members / sizeof *members);
+    ir_suggest_name(c->graph, data, str_intern_z(c->shader->strings, "closure_data"), IR_NAME_ROLE);
+    put(c, data);
 }
 
 static void put_values(struct call *c)

@@ -195,7 +195,7 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
                                    uint32_t attr, const ir_ref *args, unsigned num_args)
 {
     ir_type_id from = num_args ? ir_type_of(graph, args[0]) : IR_TYPE_VOID;
-    bool is_value = op == IR_CALL || op == IR_RESULT;
+    bool is_value = op == IR_CALL || (op == IR_RESULT && ir_get(graph, args[0])->op != IR_VERBATIM);
     if (is_value && (ir_type_is_closure(type) || ir_type_is_shader(type)))
         return "a call gives a closure or a shader, which no later step would see";
     switch (op) {

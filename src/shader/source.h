@@ -25,6 +25,9 @@ struct source_token {
     const char *variable; /* a private uniform, without "u_" */
 };
 
+/* The token for the instance of vertex data. The '.' after it is left out, too. */
+#define SOURCE_INSTANCE "vd"
+
 enum { SOURCE_MAX_HELPERS = 64 };
 
 /* The verbatim source of a target: generators. */
@@ -65,6 +68,7 @@ enum source_convention {
      */
     SOURCE_VALUES,
     SOURCE_NOTHING, /* a volume of MaterialX 1.38 */
+    SOURCE_NATIVE,  /* in a target with closures: the result is one */
 };
 
 /* A closure in source, the callee of a LEAF. Operands of the LEAF: 1, then all inputs in order. */

@@ -49,6 +49,8 @@ static void write_source(struct writer *w, uint32_t index)
             write_token(spell, &word);
         }
         from = scan.at;
+        bool is_instance = word.kind == SCAN_TOKEN && scan_is(&word, SOURCE_INSTANCE);
+        from += is_instance && from < scan.end && *from == '.';
     }
     text_mem(spell->out, from, (size_t)(scan.end - from));
     spell_text(spell, scan.end > text && scan.end[-1] == '\n' ? "" : "\n");
