@@ -7,7 +7,7 @@
 #ifndef MXG_CHECK_INPUTS_H
 #define MXG_CHECK_INPUTS_H
 
-#include "check/names.h"
+#include "cli/names.h"
 #include "cli/args.h"
 
 struct check_inputs {

@@ -55,6 +55,7 @@ void args_forward(const struct arg *arg, struct arg_list *out)
 
 static void add_setting(struct arg_parser *parser, const char *key, const char *value)
 {
+    args_append(&parser->given, key);
     parser->settings = grow(parser->settings, parser->num_settings, sizeof *parser->settings);
     parser->settings[parser->num_settings++] = (struct arg_setting){key, value};
 }
@@ -62,7 +63,16 @@ static void add_setting(struct arg_parser *parser, const char *key, const char *
 void args_finish(struct arg_parser *parser)
 {
     free(parser->inputs.items);
+    free(parser->given.items);
     free(parser->settings);
+}
+
+bool args_is_given(const struct arg_parser *parser, const char *name)
+{
+    for (size_t i = 0; i < parser->given.len; ++i)
+        if (strcmp(parser->given.items[i], name) == 0)
+            return true;
+    return false;
 }
 
 /* An option on the command line: "--name=value" or "-n". */
@@ -169,7 +179,7 @@ static void print_unknown(const struct arg_parser *parser, const struct written 
     free(names.items);
 }
 
-static bool store_size(const struct written *option, const char *text, size_t *out)
+static bool store_size(const struct arg *arg, const struct written *option, const char *text)
 {
     char *end;
     errno = 0;
@@ -178,17 +188,24 @@ static bool store_size(const struct written *option, const char *text, size_t *o
         fprintf(stderr, "mxgen: '%s' of option '%s' is not a count\n", text, option->text);
         return false;
     }
-    *out = (size_t)value;
+    if (arg->high && (value < arg->low || value > arg->high)) {
+        fprintf(stderr, "mxgen: '%s' of option '%s' is not from %zu to %zu\n", text, option->text,
+                arg->low, arg->high);
+        return false;
+    }
+    *(size_t *)arg->out = (size_t)value;
     return true;
 }
 
-static bool store(const struct arg *arg, const struct written *option, const char *value)
+static bool store(struct arg_parser *parser, const struct arg *arg, const struct written *option,
+                  const char *value)
 {
+    args_append(&parser->given, arg->name);
     switch (arg->kind) {
     case ARG_FLAG: break;
     case ARG_HELP:
     case ARG_TEXT: *(const char **)arg->out = value; break;
-    case ARG_SIZE: return store_size(option, value, arg->out);
+    case ARG_SIZE: return store_size(arg, option, value);
     case ARG_LIST: args_append(arg->out, value); break;
     }
     return true;
@@ -205,13 +222,12 @@ static bool parse_flag(struct arg_parser *parser, const struct arg *arg, const m
         fprintf(stderr, "mxgen: option '%s' takes no value\n", option->text);
         return false;
     }
-    if (arg)
+    if (arg) {
+        args_append(&parser->given, arg->name);
         *(bool *)arg->out = on;
-    else
-        add_setting(parser, known->key,
-                    option->value && on ? option->value
-                    : on                ? "true"
-                                        : "false");
+        return true;
+    }
+    add_setting(parser, known->key, option->value && on ? option->value : on ? "true" : "false");
     return true;
 }
 
@@ -241,7 +257,7 @@ static bool parse_option(struct arg_parser *parser, struct written option, int a
     if (arg && arg->kind == ARG_HELP && !value) {
         bool is_all = *index + 1 < argc && strcmp(argv[*index + 1], "all") == 0;
         *index += is_all;
-        return store(arg, &option, is_all ? "all" : "");
+        return store(parser, arg, &option, is_all ? "all" : "");
     }
     if (!value && *index + 1 < argc)
         value = argv[++*index];
@@ -250,7 +266,7 @@ static bool parse_option(struct arg_parser *parser, struct written option, int a
         return false;
     }
     if (arg)
-        return store(arg, &option, value);
+        return store(parser, arg, &option, value);
     add_setting(parser, known.key, value);
     return true;
 }

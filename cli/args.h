@@ -35,7 +35,8 @@ struct arg {
     const char *help;
     void *out;
     enum arg_group group;
-    bool is_own; /* not forwarded to other programs */
+    bool is_own;      /* not forwarded to other programs */
+    size_t low, high; /* ARG_SIZE: the range; high 0: no limit */
 };
 
 /* An option of generation from the command line, in order; applied when the context exists. */
@@ -48,6 +49,7 @@ struct arg_parser {
     size_t num_args;
     bool generation; /* the command accepts options of generation */
     struct arg_list inputs;
+    struct arg_list given; /* names of the options on the command line, in order */
     struct arg_setting *settings;
     size_t num_settings;
 };
@@ -55,6 +57,9 @@ struct arg_parser {
 /* Prints an error and returns false for an unknown option or a missing value. */
 bool args_parse(struct arg_parser *parser, int argc, char **argv);
 void args_finish(struct arg_parser *parser);
+
+/* True if the command line has this option, also if it repeats the default. */
+bool args_is_given(const struct arg_parser *parser, const char *name);
 
 void args_append(struct arg_list *list, const char *item);
 /* Frees the list and its items, which come from cli_format or cli_copy. */

@@ -73,6 +73,9 @@ void cli_forward(struct cli *cli, struct arg_list *args);
  */
 mxg_document *cli_load(struct cli *cli, const char *path);
 
+/* The limit of the size of an input file, in MiB. */
+size_t cli_max_file_size(const struct cli *cli);
+
 /* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
 bool cli_find_target(const char *name, size_t len, mxg_target *out);
 
@@ -99,7 +102,7 @@ uint64_t cli_hash(uint64_t hash, const char *text);
  */
 char *cli_copy(const char *text, size_t len);
 
-/* generate.c, check/check.c, inspect.c, library.c, validate.c, render.c, explain.c */
+/* generate.c, check/check.c, inspect.c, library.c, validate.c, render.c, explain.c, format.c */
 int command_generate(const struct command *command, int argc, char **argv);
 int command_check(const struct command *command, int argc, char **argv);
 int command_inspect(const struct command *command, int argc, char **argv);
@@ -107,5 +110,7 @@ int command_library(const struct command *command, int argc, char **argv);
 int command_validate(const struct command *command, int argc, char **argv);
 int command_explain(const struct command *command, int argc, char **argv);
 int command_render(const struct command *command, int argc, char **argv);
+int command_format(const struct command *command, int argc, char **argv);
+int command_upgrade(const struct command *command, int argc, char **argv);
 
 #endif

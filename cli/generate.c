@@ -1,54 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen FILE...: shaders of the renderable elements of documents, as files or on standard output.
+ * mxgen FILE|FOLDER...: shaders of the renderable elements of documents, as files or on standard
+ * output.
  */
 #include "cli/cli.h"
 #include "cli/files.h"
+#include "cli/folder.h"
+#include "cli/outputs.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 struct generate {
     struct cli cli;
-    const char *target, *folder, *depfile;
+    const char *target, *output, *depfile;
     struct arg_list elements; /* empty: every renderable */
     bool to_stdout, reflect;
-    bool several; /* several input files: each gets its own folder */
 
     mxg_target target_info;
-    struct arg_list outputs, sources; /* for the depfile; items are allocated */
-    struct arg_list folders;          /* output folders of several inputs */
+    bool is_network;                    /* --osl-network */
+    bool is_file;                       /* -o names one file: a stage of one element */
+    mxg_stage stage;                    /* this stage */
+    struct arg_list documents, folders; /* each document with its output folder; allocated */
+    struct outputs files;               /* all files that the command reads or writes */
+    struct arg_list outputs, sources;   /* for the depfile; items are allocated */
+    struct name_table known_sources;    /* the names in `sources` */
 };
 
-/* Writes one file of an element, "<folder>/<element>.<suffix>", or prints it after its name. */
+/* ---- Files ---- */
+
+static const char *network_suffixes[MXG_NUM_STAGES] = {"displacement.oslgroup", "oslgroup"};
+
+/* "<folder>/<name>.<suffix>", or the file of -o; the caller frees it. */
+static char *file_path(const struct generate *gen, const char *folder, const char *element,
+                       const char *suffix)
+{
+    if (gen->is_file)
+        return cli_format("%s", gen->output);
+    char *name = cli_file_name(element), *path = cli_format("%s/%s.%s", folder, name, suffix);
+    size_t skipped = strncmp(path, "./", 2) == 0 ? 2 : 0;
+    memmove(path, path + skipped, strlen(path + skipped) + 1);
+    free(name);
+    return path;
+}
+
+static char *owner_of(const char *element)
+{
+    return cli_format("the element '%s'", element);
+}
+
+static bool claim(struct generate *gen, const char *folder, const char *element, const char *suffix)
+{
+    char *path = file_path(gen, folder, element, suffix), *owner = owner_of(element);
+    bool good = outputs_write(&gen->files, &gen->cli.report, path, owner);
+    free(owner);
+    free(path);
+    return good;
+}
+
+/* Writes one file of an element, or prints it after its name. */
 static void write_file(struct generate *gen, const char *folder, const char *element,
                        const char *suffix, const char *text, size_t size)
 {
-    char *name = cli_file_name(element);
     if (gen->to_stdout) {
+        char *name = cli_file_name(element);
         printf("// %s.%s\n", name, suffix);
         fwrite(text, 1, size, stdout);
-    } else {
-        char *path = cli_format("%s/%s.%s", folder, name, suffix);
-        const char *tidy = strncmp(path, "./", 2) == 0 ? path + 2 : path;
-        const char *reason = files_write(tidy, text, size);
-        if (reason)
-            report_error(&gen->cli.report, "output-failed", "cannot write '%s': %s", tidy, reason);
-        args_append(&gen->outputs, cli_format("%s", tidy));
-        free(path);
+        free(name);
+        return;
     }
-    free(name);
-}
-
-static bool is_written(const struct generate *gen, const char *folder, const char *name)
-{
-    char *path = cli_format("%s/%s.osl", folder, name);
-    const char *tidy = strncmp(path, "./", 2) == 0 ? path + 2 : path;
-    bool found = false;
-    for (size_t i = 0; i < gen->outputs.len && !found; ++i)
-        found = strcmp(gen->outputs.items[i], tidy) == 0;
-    free(path);
-    return found;
+    char *path = file_path(gen, folder, element, suffix), *owner = owner_of(element);
+    const char *reason = NULL;
+    if (outputs_write(&gen->files, &gen->cli.report, path, owner))
+        reason = files_write(path, text, size);
+    if (reason)
+        report_error(&gen->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
+    args_append(&gen->outputs, path);
+    free(owner);
 }
 
 /*
@@ -57,18 +85,19 @@ static bool is_written(const struct generate *gen, const char *folder, const cha
 static void write_network(struct generate *gen, const char *folder, const char *element,
                           const mxg_result *result)
 {
-    static const char *const suffixes[MXG_NUM_STAGES] = {"displacement.oslgroup", "oslgroup"};
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         size_t size = 0;
         const char *text = mxg_result_source(result, (mxg_stage)stage, &size);
         if (text)
-            write_file(gen, folder, element, suffixes[stage], text, size);
+            write_file(gen, folder, element, network_suffixes[stage], text, size);
     }
     for (uint32_t i = 0; i < mxg_result_num_parts(result); ++i) {
         mxg_part part = {sizeof part};
         mxg_result_part(result, i, &part);
-        if (!is_written(gen, folder, part.name))
+        char *path = file_path(gen, folder, part.name, "osl");
+        if (gen->to_stdout || !outputs_has(&gen->files, path))
             write_file(gen, folder, part.name, "osl", part.source, part.source_size);
+        free(path);
     }
 }
 
@@ -79,8 +108,12 @@ static void write_stages(struct generate *gen, const char *folder, const char *e
         size_t size = 0;
         const char *text = mxg_result_source(result, (mxg_stage)stage, &size);
         const char *suffix = gen->target_info.stage_suffix[stage];
-        if (text && suffix)
+        bool is_asked = !gen->is_file || (int)gen->stage == stage;
+        if (text && suffix && is_asked)
             write_file(gen, folder, element, suffix, text, size);
+        else if (gen->is_file && is_asked)
+            report_error(&gen->cli.report, "output-failed",
+                         "cannot write '%s': '%s' has no such stage", gen->output, element);
     }
 }
 
@@ -98,15 +131,19 @@ static void write_result(struct generate *gen, const char *folder, const char *e
     }
 }
 
-static void add_source(struct generate *gen, const char *file)
+/* Notes a file that output depends on. False after an error: an output has its name. */
+static bool add_source(struct generate *gen, const char *file)
 {
-    if (strcmp(file, CLI_STDIN_NAME) == 0)
-        return;
-    for (size_t i = 0; i < gen->sources.len; ++i)
-        if (strcmp(gen->sources.items[i], file) == 0)
-            return;
+    bool is_new = false;
+    if (strcmp(file, CLI_STDIN_NAME) != 0)
+        names_add(&gen->known_sources, file, &is_new);
+    if (!is_new)
+        return true;
     args_append(&gen->sources, cli_format("%s", file));
+    return outputs_read(&gen->files, &gen->cli.report, file);
 }
+
+/* ---- Elements ---- */
 
 static void generate_element(struct generate *gen, const mxg_document *document, const char *folder,
                              const char *element)
@@ -130,74 +167,164 @@ static void generate_element(struct generate *gen, const mxg_document *document,
     mxg_result_destroy(result);
 }
 
-/* Generates the elements of the arguments; a look means its materials. */
-static void generate_asked(struct generate *gen, const mxg_document *document, const char *folder,
-                           const char *path)
+static void add_once(struct arg_list *list, struct name_table *known, const char *path)
 {
-    mxg_renderable material = {sizeof material};
-    uint32_t count = 0;
-    for (; mxg_document_look_material(document, path, count, &material) == MXG_OK; ++count)
-        generate_element(gen, document, folder, material.path);
-    if (count == 0)
-        generate_element(gen, document, folder, path);
+    bool is_new;
+    names_add(known, path, &is_new);
+    if (is_new)
+        args_append(list, cli_format("%s", path));
+}
+
+/*
+ * The paths of the elements to generate, each once: those of the arguments, where a look means its
+ * materials, or every renderable. The caller frees the list.
+ */
+static struct arg_list find_elements(const struct generate *gen, const mxg_document *document)
+{
+    struct arg_list list = {0};
+    struct name_table known = {0};
+    mxg_renderable renderable = {sizeof renderable};
+    for (size_t i = 0; i < gen->elements.len; ++i) {
+        const char *path = gen->elements.items[i];
+        uint32_t count = 0;
+        for (; mxg_document_look_material(document, path, count, &renderable) == MXG_OK; ++count)
+            add_once(&list, &known, renderable.path);
+        if (count == 0)
+            add_once(&list, &known, path);
+    }
+    for (uint32_t i = 0; !gen->elements.len && i < mxg_document_num_renderables(document); ++i) {
+        mxg_document_renderable(document, i, &renderable);
+        add_once(&list, &known, renderable.path);
+    }
+    names_finish(&known);
+    return list;
+}
+
+/* Claims every file that an element may have, so that no name clashes after the first is written.
+ */
+static bool claim_element(struct generate *gen, const char *folder, const char *element)
+{
+    const char *const *suffixes =
+        gen->is_network ? network_suffixes : gen->target_info.stage_suffix;
+    bool good = !gen->reflect || claim(gen, folder, element, "json");
+    for (int stage = 0; stage < MXG_NUM_STAGES && good; ++stage)
+        good = !suffixes[stage] || claim(gen, folder, element, suffixes[stage]);
+    return good;
+}
+
+static bool claim_files(struct generate *gen, const mxg_document *document, const char *folder,
+                        const struct arg_list *elements)
+{
+    bool good = true;
+    for (uint32_t i = 0; i < mxg_document_num_files(document); ++i)
+        good = add_source(gen, mxg_document_file(document, i)) && good;
+    if (gen->is_file && elements->len > 1) {
+        report_error(&gen->cli.report, "output-clash",
+                     "'%s' is one file, and the document has %zu elements; name one with -e, or a "
+                     "folder with -o",
+                     gen->output, elements->len);
+        return false;
+    }
+    for (size_t i = 0; i < elements->len && !gen->to_stdout; ++i)
+        good = claim_element(gen, folder, elements->items[i]) && good;
+    return good;
+}
+
+static bool make_folder(struct generate *gen, const char *folder)
+{
+    const char *reason = gen->to_stdout || gen->is_file ? NULL : files_make_folder(folder);
+    if (reason)
+        report_error(&gen->cli.report, "output-failed", "cannot make the folder '%s': %s", folder,
+                     reason);
+    return !reason;
+}
+
+/* Reports the errors that `mxgen check` finds, also in elements that give no shader. */
+static void validate(struct generate *gen, const mxg_document *document)
+{
+    mxg_result *result = NULL;
+    mxg_status status = mxg_document_validate(gen->cli.context, document, &result);
+    if (result)
+        report_errors(&gen->cli.report, mxg_result_diagnostics(result));
+    report_status(&gen->cli.report, status);
+    mxg_result_destroy(result);
 }
 
 static void generate_elements(struct generate *gen, const mxg_document *document,
-                              const char *folder)
+                              const char *folder, const struct arg_list *elements)
 {
-    for (size_t i = 0; i < gen->elements.len; ++i)
-        generate_asked(gen, document, folder, gen->elements.items[i]);
-    if (gen->elements.len)
+    if (!make_folder(gen, folder))
         return;
-    uint32_t count = mxg_document_num_renderables(document);
-    for (uint32_t i = 0; i < count; ++i) {
-        mxg_renderable renderable = {sizeof renderable};
-        mxg_document_renderable(document, i, &renderable);
-        generate_element(gen, document, folder, renderable.path);
-    }
-    if (count == 0) /* generation reports the missing material */
+    if (gen->elements.len == 0)
+        validate(gen, document);
+    for (size_t i = 0; i < elements->len; ++i)
+        generate_element(gen, document, folder, elements->items[i]);
+    if (elements->len == 0) /* generation reports the missing material */
         generate_element(gen, document, folder, NULL);
 }
 
-/* Makes the output folder of an input; the caller frees its name. NULL after an error. */
-static char *output_folder(struct generate *gen, const char *input)
-{
-    const char *base = strcmp(input, "-") == 0 ? "stdin" : files_base_name(input);
-    const char *dot = strrchr(base, '.');
-    int len = (int)(dot && dot != base ? (size_t)(dot - base) : strlen(base));
-    char *folder = gen->several ? cli_format("%s/%.*s", gen->folder, len, base)
-                                : cli_format("%s", gen->folder);
-    for (size_t i = 0; i < gen->folders.len; ++i) {
-        if (strcmp(gen->folders.items[i], folder) == 0) {
-            report_error(&gen->cli.report, "output-failed",
-                         "'%s': another input writes to '%s' already", input, folder);
-            free(folder);
-            return NULL;
-        }
-    }
-    const char *reason = gen->to_stdout ? NULL : files_make_folder(folder);
-    if (reason) {
-        report_error(&gen->cli.report, "output-failed", "cannot make the folder '%s': %s", folder,
-                     reason);
-        free(folder);
-        return NULL;
-    }
-    args_append(&gen->folders, cli_format("%s", folder));
-    return folder;
-}
-
-static void generate_file(struct generate *gen, const char *input)
+static void generate_file(struct generate *gen, const char *input, const char *folder)
 {
     mxg_document *document = cli_load(&gen->cli, input);
     if (!document)
         return;
-    for (uint32_t i = 0; i < mxg_document_num_files(document); ++i)
-        add_source(gen, mxg_document_file(document, i));
-    char *folder = output_folder(gen, input);
-    if (folder)
-        generate_elements(gen, document, folder);
-    free(folder);
+    struct arg_list elements = find_elements(gen, document);
+    if (claim_files(gen, document, folder, &elements))
+        generate_elements(gen, document, folder, &elements);
+    args_free(&elements);
     mxg_document_destroy(document);
+}
+
+/* ---- Documents and their folders ---- */
+
+/*
+ * The output folder of a document: the folder of -o, and below it, if there are several documents,
+ * the name of the document relative to the argument. The caller frees it.
+ */
+static char *output_folder(const struct generate *gen, const char *argument, const char *document)
+{
+    size_t len = strlen(argument);
+    bool is_in_folder = files_is_folder(argument);
+    const char *name = strcmp(document, "-") == 0 ? "stdin"
+                       : is_in_folder             ? document + len + (document[len] == '/')
+                                                  : files_base_name(document);
+    const char *base = files_base_name(name), *dot = strrchr(base, '.');
+    int name_len = (int)(dot && dot != base ? (size_t)(dot - name) : strlen(name));
+    return gen->cli.parser.inputs.len > 1 || is_in_folder
+               ? cli_format("%s/%.*s", gen->output, name_len, name)
+               : cli_format("%s", gen->output);
+}
+
+/* Lists the documents of the arguments with their output folders, which must differ. */
+static bool find_documents(struct generate *gen)
+{
+    struct name_table known = {0};
+    bool good = true;
+    for (size_t i = 0; i < gen->cli.parser.inputs.len; ++i) {
+        const char *argument = gen->cli.parser.inputs.items[i], *reason = NULL;
+        size_t first = gen->documents.len;
+        if (folder_documents(&(struct arg_list){&argument, 1}, &gen->documents, &reason)) {
+            report_error(&gen->cli.report, "file-unreadable", "'%s': %s", argument, reason);
+            good = false;
+        }
+        for (size_t d = first; d < gen->documents.len; ++d) {
+            bool is_new = true;
+            const char *document = gen->documents.items[d];
+            args_append(&gen->folders, output_folder(gen, argument, document));
+            if (!gen->to_stdout)
+                names_add(&known, gen->folders.items[d], &is_new);
+            if (!is_new)
+                report_error(&gen->cli.report, "output-clash",
+                             "'%s': another input writes to '%s', too", document,
+                             gen->folders.items[d]);
+            good = good && is_new;
+            good = (strcmp(document, "-") == 0
+                    || outputs_read(&gen->files, &gen->cli.report, document))
+                   && good;
+        }
+    }
+    names_finish(&known);
+    return good;
 }
 
 /* "out1 out2: in1 in2": the dependencies for make and ninja. */
@@ -224,25 +351,94 @@ static void write_depfile(struct generate *gen)
 
 static int generate_all(struct generate *gen)
 {
-    gen->several = gen->cli.parser.inputs.len > 1;
+    bool good =
+        !gen->depfile || outputs_write(&gen->files, &gen->cli.report, gen->depfile, "--depfile");
     for (uint32_t i = 0; i < mxg_library_num_files(gen->cli.library); ++i)
-        add_source(gen, mxg_library_file(gen->cli.library, i));
-    for (size_t i = 0; i < gen->cli.parser.inputs.len; ++i)
-        generate_file(gen, gen->cli.parser.inputs.items[i]);
+        good = add_source(gen, mxg_library_file(gen->cli.library, i)) && good;
+    good = find_documents(gen) && good;
+    for (size_t i = 0; i < gen->documents.len && good; ++i)
+        generate_file(gen, gen->documents.items[i], gen->folders.items[i]);
     if (gen->depfile && gen->cli.report.errors == 0)
         write_depfile(gen);
     return gen->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }
 
+/* ---- Arguments ---- */
+
+/* The stage of a target whose files have the ending of this path; MXG_NUM_STAGES: none. */
+static int find_stage(const mxg_target *target, const char *path)
+{
+    int stage = 0;
+    for (; stage < MXG_NUM_STAGES; ++stage) {
+        const char *suffix = target->stage_suffix[stage];
+        size_t len = strlen(path), end = suffix ? strlen(suffix) : len;
+        if (len > end && path[len - end - 1] == '.' && strcmp(path + len - end, suffix) == 0)
+            break;
+    }
+    return stage;
+}
+
+static bool is_network(const struct generate *gen)
+{
+    bool is_on = false;
+    for (size_t i = 0; i < gen->cli.parser.num_settings; ++i)
+        if (strcmp(gen->cli.parser.settings[i].key, "osl-network") == 0)
+            is_on = strcmp(gen->cli.parser.settings[i].value, "true") == 0;
+    return is_on;
+}
+
+/* The reason why -o cannot name a file; NULL if it can. */
+static const char *find_file_misuse(const struct generate *gen)
+{
+    const struct arg_list *inputs = &gen->cli.parser.inputs;
+    if (gen->stage == MXG_NUM_STAGES)
+        return "this ending is of another target";
+    if (gen->is_network)
+        return "an OSL network has several files";
+    if (gen->reflect)
+        return "--reflect writes another file";
+    return inputs->len > 1 || files_is_folder(inputs->items[0]) ? "there are several documents"
+                                                                : NULL;
+}
+
+/* Decides whether -o is a folder or, by its ending, a file. False after a message. */
+static bool prepare_output(struct generate *gen)
+{
+    gen->is_network = is_network(gen);
+    if (gen->to_stdout && (args_is_given(&gen->cli.parser, "output") || gen->depfile)) {
+        fprintf(stderr, "mxgen: option '--%s' does not apply: --stdout writes no file\n",
+                gen->depfile ? "depfile" : "output");
+        return false;
+    }
+    if (files_is_folder(gen->output))
+        return true;
+    for (uint32_t i = 0; i < mxg_num_targets() && !gen->is_file; ++i) {
+        mxg_target target = {sizeof target};
+        mxg_get_target(i, &target);
+        gen->is_file = find_stage(&target, gen->output) < MXG_NUM_STAGES;
+    }
+    if (!gen->is_file)
+        return true;
+    gen->stage = (mxg_stage)find_stage(&gen->target_info, gen->output);
+    const char *misuse = find_file_misuse(gen);
+    if (misuse)
+        fprintf(stderr, "mxgen: '-o %s' names a file, but %s; name a folder\n", gen->output,
+                misuse);
+    return !misuse;
+}
+
 int command_generate(const struct command *command, int argc, char **argv)
 {
-    struct generate gen = {.target = "glsl", .folder = "."};
+    struct generate gen = {.target = "glsl", .output = "."};
     const struct arg args[] = {
         {"target", 't', ARG_TEXT, "T", "target language (default: glsl)", &gen.target},
         {"element", 'e', ARG_LIST, "PATH",
          "path of an element to generate (default: all renderable elements)", &gen.elements},
-        {"output", 'o', ARG_TEXT, "DIR", "output folder (default: the current folder)",
-         &gen.folder},
+        {"output", 'o', ARG_TEXT, "DIR|FILE",
+         "output folder (default: the current folder), or one file with the ending of a stage, "
+         "such "
+         "as gold.frag",
+         &gen.output},
         {"reflect", 0, ARG_FLAG, NULL, "also writes the reflection as JSON", &gen.reflect},
         {"stdout", 0, ARG_FLAG, NULL, "prints the files instead of writing them", &gen.to_stdout},
         {"depfile", 0, ARG_TEXT, "FILE",
@@ -252,12 +448,16 @@ int command_generate(const struct command *command, int argc, char **argv)
     if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args,
                   CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
         code = cli_find_target(gen.target, strlen(gen.target), &gen.target_info)
+                       && prepare_output(&gen)
                    ? generate_all(&gen)
                    : EXIT_USAGE;
     cli_finish(&gen.cli);
     free(gen.elements.items);
+    args_free(&gen.documents);
+    args_free(&gen.folders);
     args_free(&gen.outputs);
     args_free(&gen.sources);
-    args_free(&gen.folders);
+    names_finish(&gen.known_sources);
+    outputs_finish(&gen.files);
     return code;
 }

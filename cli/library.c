@@ -5,10 +5,27 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
+#include "cli/nodes.h"
+#include "cli/outputs.h"
 #include "doc/library.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+/* False after an error: the output is an input. */
+static bool claim_output(struct cli *cli, const char *path)
+{
+    struct outputs outputs = {0};
+    bool good = true;
+    for (size_t i = 1; i < cli->parser.inputs.len; ++i)
+        good = outputs_read(&outputs, &cli->report, cli->parser.inputs.items[i]) && good;
+    for (uint32_t i = 0; i < mxg_library_num_files(cli->library); ++i)
+        good = outputs_read(&outputs, &cli->report, mxg_library_file(cli->library, i)) && good;
+    good = good && outputs_write(&outputs, &cli->report, path, "-o");
+    outputs_finish(&outputs);
+    return good;
+}
 
 static bool write_output(struct cli *cli, const char *path, const void *data, size_t size)
 {
@@ -16,6 +33,8 @@ static bool write_output(struct cli *cli, const char *path, const void *data, si
         fwrite(data, 1, size, stdout);
         return true;
     }
+    if (!claim_output(cli, path))
+        return false;
     const char *reason = files_write(path, data, size);
     if (reason)
         report_error(&cli->report, "output-failed", "cannot write '%s': %s", path, reason);
@@ -41,39 +60,46 @@ static void expand(struct cli *cli, const struct library_args *args)
         write_output(cli, args->output, text, size);
 }
 
-static void print_ports(const mxg_library *library, uint32_t nodedef, uint32_t first, uint32_t num)
+/* A word is neither a file nor the name of one. */
+static bool is_word(const char *input)
 {
-    for (uint32_t i = 0; i < num; ++i) {
-        mxg_port port = {sizeof port};
-        if (mxg_library_port(library, nodedef, first + i, &port) == MXG_OK)
-            printf("%s%s:%s", i ? ", " : "", port.name, port.type);
-    }
+    return access(input, F_OK) != 0 && !strpbrk(input, "/.");
 }
 
-/* Prints a line per definition: "ND_mix_float  mix(fg:float, bg:float, mix:float) -> out:float". */
+/* The words among the arguments of `list`; the others are libraries. The caller frees the items. */
+static struct arg_list words_of(const struct cli *cli)
+{
+    struct arg_list words = {0};
+    for (size_t i = 1; i < cli->parser.inputs.len; ++i)
+        if (is_word(cli->parser.inputs.items[i]))
+            args_append(&words, cli->parser.inputs.items[i]);
+    return words;
+}
+
 static void list(struct cli *cli, const struct library_args *args)
 {
     (void)args;
-    for (uint32_t i = 0; i < mxg_library_num_nodedefs(cli->library); ++i) {
-        mxg_nodedef nodedef = {sizeof nodedef};
-        if (mxg_library_nodedef(cli->library, i, &nodedef) != MXG_OK)
-            continue;
-        printf("%s  %s(", nodedef.name, nodedef.node);
-        print_ports(cli->library, i, 0, nodedef.num_inputs);
-        fputs(") -> ", stdout);
-        print_ports(cli->library, i, nodedef.num_inputs, nodedef.num_outputs);
-        puts(nodedef.has_implementation ? "" : "  (no implementation)");
+    struct arg_list words = words_of(cli);
+    if (!nodes_list(cli->library, words.items, words.len) && words.len) {
+        const char *near = nodes_closest(cli->library, words.items[0]);
+        report_error(&cli->report, "unknown-node",
+                     near ? "no node has '%s' in its name (did you mean '%s'?)"
+                          : "no node has '%s' in its name",
+                     words.items[0], near);
     }
+    free(words.items);
 }
 
 static const struct action {
     const char *name;
     void (*run)(struct cli *cli, const struct library_args *args);
-    bool on_builtin; /* the paths extend the built-in library */
-} actions[] = {{"pack", pack, false},
-               {"list", list, false},
-               {"expand", expand, false},
-               {"doc", library_doc, true}};
+    bool on_builtin;            /* the paths extend the built-in library */
+    bool has_output, has_pages; /* takes -o; takes --html, --markdown and --pictures */
+    bool has_words;             /* arguments that are no paths are words */
+} actions[] = {{"pack", pack, .has_output = true},
+               {"list", list, .has_words = true},
+               {"expand", expand, .has_output = true},
+               {"doc", library_doc, true, true, true}};
 #define NUM_ACTIONS (sizeof actions / sizeof *actions)
 
 static const struct action *find_action(const char *name)
@@ -86,17 +112,37 @@ static const struct action *find_action(const char *name)
     return NULL;
 }
 
+/* False after a message about an option that the action does not take. */
+static bool check_options(const struct cli *cli, const struct action *action)
+{
+    static const char *const names[] = {"output", "html", "markdown", "pictures"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        if ((i == 0 ? action->has_output : action->has_pages)
+            || !args_is_given(&cli->parser, names[i]))
+            continue;
+        fprintf(stderr, "mxgen: option '--%s' does not apply to 'library %s'\n", names[i],
+                action->name);
+        return false;
+    }
+    return true;
+}
+
 /* Loads the library from the paths; without paths the built-in one. */
 static bool load(struct cli *cli, const struct action *action)
 {
     const struct arg_list *inputs = &cli->parser.inputs;
+    struct arg_list paths = {0};
+    for (size_t i = 1; i < inputs->len; ++i)
+        if (!action->has_words || !is_word(inputs->items[i]))
+            args_append(&paths, inputs->items[i]);
     mxg_library *builtin = cli->no_builtin_library ? NULL : mxg_library_builtin(cli->context);
-    if (inputs->len == 1 && builtin) {
+    if (paths.len == 0 && builtin) {
         cli->library = builtin;
         return true;
     }
     mxg_status status = mxg_library_load(cli->context, action->on_builtin ? builtin : NULL,
-                                         inputs->items + 1, inputs->len - 1, &cli->library);
+                                         paths.items, paths.len, &cli->library);
+    free(paths.items);
     mxg_library_unref(builtin);
     if (cli->library)
         report_list(&cli->report, mxg_library_diagnostics(cli->library));
@@ -121,9 +167,10 @@ int command_library(const struct command *command, int argc, char **argv)
     if (cli_start(&cli, command, args, sizeof args / sizeof *args,
                   CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv, &code)) {
         const struct action *action = find_action(cli.parser.inputs.items[0]);
-        if (action && load(&cli, action))
+        bool is_sane = action && check_options(&cli, action);
+        if (is_sane && load(&cli, action))
             action->run(&cli, &values);
-        code = !action ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+        code = !is_sane ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;
     }
     cli_finish(&cli);
     return code;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_options.h"
 
+#include <stdint.h>
 #include <string.h>
 
 size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_ARGS])
@@ -33,26 +34,27 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
          "backdrop, environment, or none for transparency (default: backdrop)",
          &options->background},
         {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 32)",
-         &options->samples},
+         &options->samples, .low = 1, .high = 65536},
         {"set", 0, ARG_LIST, "PATH=VALUE", "sets an input to a value, or a texture to a file",
          &options->settings},
         {"missing-texture", 0, ARG_TEXT, "error|checker",
          "for a missing texture: fail, or draw a checker (default: error)",
          &options->missing_texture},
         {"frame", 0, ARG_SIZE, "N",
-         "frame, also of images with {frame} in their names (default: 33)", &options->frame},
+         "frame, also of images with {frame} in their names (default: 33)", &options->frame,
+         .high = INT32_MAX},
         {"path-trace", 0, ARG_FLAG, NULL, "renders by path tracing, as a reference",
          &options->path_trace},
         {"paths", 0, ARG_SIZE, "N", "paths for each pixel (default: 256)", &options->paths,
-         ARG_MORE},
+         ARG_MORE, .low = 1, .high = UINT32_MAX},
         {"bounces", 0, ARG_SIZE, "N", "limit of bounces of a path (default: 32)", &options->bounces,
-         ARG_MORE},
+         ARG_MORE, .low = 1, .high = 64},
         {"as-drawn", 0, ARG_FLAG, NULL,
          "path tracing with one bounce and without shadows, for comparison with the raster",
          &options->as_drawn, ARG_MORE},
         {"turntable", 0, ARG_SIZE, "N",
          "renders N pictures from around, with a number before the extension of FILE",
-         &options->frames},
+         &options->frames, .low = 1, .high = 10000},
         {"scene", 0, ARG_TEXT, "studio|sphere|plane|grid",
          "studio; sphere; plane, for patterns; or grid, which prints the values of 4x4 pixels for "
          "each element (default: studio)",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen validate: checks documents against the library, without generation. */
 #include "cli/cli.h"
+#include "cli/folder.h"
 
 static void validate(struct cli *cli, const char *path)
 {
@@ -21,8 +22,14 @@ int command_validate(const struct command *command, int argc, char **argv)
     struct cli cli;
     int code;
     if (cli_start(&cli, command, NULL, 0, CLI_NEEDS_INPUT, argc, argv, &code)) {
-        for (size_t i = 0; i < cli.parser.inputs.len; ++i)
-            validate(&cli, cli.parser.inputs.items[i]);
+        struct arg_list documents = {0};
+        const char *reason = NULL,
+                   *empty = folder_documents(&cli.parser.inputs, &documents, &reason);
+        if (empty)
+            report_error(&cli.report, "file-unreadable", "'%s': %s", empty, reason);
+        for (size_t i = 0; i < documents.len; ++i)
+            validate(&cli, documents.items[i]);
+        args_free(&documents);
         code = cli.report.errors ? EXIT_FAULT : EXIT_DONE;
     }
     cli_finish(&cli);

@@ -113,8 +113,9 @@ static unsigned char *address(struct bind *bind, const mxg_variable *variable)
     return find_block(&bind->draw, variable->set, variable->binding)->data + variable->offset;
 }
 
-/* Numbers of the document's form: separated by commas or spaces; "true" is 1. Returns how many;
- * UINT_MAX-like on junk.
+/*
+ * Finite numbers as in documents, separated by commas or spaces; "true" is 1. Returns their number;
+ * 0 for other text.
  */
 static unsigned parse_numbers(const char *text, float values[MAX_COMPONENTS])
 {
@@ -126,12 +127,25 @@ static unsigned parse_numbers(const char *text, float values[MAX_COMPONENTS])
     for (text += strspn(text, ", "); *text && count < MAX_COMPONENTS; text += strspn(text, ", ")) {
         char *end;
         values[count] = strtof(text, &end);
-        if (end == text)
+        if (end == text || !isfinite(values[count]))
             return 0;
         ++count;
         text = end;
     }
     return *text ? 0 : count;
+}
+
+/* The user's text as a value of the variable. */
+static bool parse_value(const char *text, const struct shape *shape, float values[MAX_COMPONENTS])
+{
+    const float limit = 2147483648.0f; /* of an integer */
+    unsigned count = shape->columns * shape->rows;
+    if (parse_numbers(text, values) != count)
+        return false;
+    for (unsigned i = 0; i < count && !shape->is_float; ++i)
+        if (values[i] != floorf(values[i]) || values[i] < -limit || values[i] >= limit)
+            return false;
+    return true;
 }
 
 static const char *user_value(const struct bind *bind, const mxg_variable *variable)
@@ -153,7 +167,7 @@ static bool store_public(struct bind *bind, const mxg_variable *variable)
     if (!shape)
         return fail(bind, "'%s' has a type that cannot be bound: %s", variable->name,
                     variable->type);
-    if (text && parse_numbers(text, values) != shape->columns * shape->rows)
+    if (text && !parse_value(text, shape, values))
         return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", text,
                        variable->path, variable->type);
     store(address(bind, variable), variable, values);
@@ -207,7 +221,7 @@ static bool store_lights(struct bind *bind, const mxg_variable *variable)
         if (!scene_light(i, variable->name, values) && variable->num_values)
             memcpy(values, variable->values, sizeof values);
         const struct bind_value *said = light_value(bind, i, variable->name);
-        if (said && (!shape || parse_numbers(said->text, values) != shape->columns * shape->rows))
+        if (said && (!shape || !parse_value(said->text, shape, values)))
             return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s",
                            said->text, said->path, variable->type);
         store(address(bind, variable) + i * stride, variable, values);
@@ -425,9 +439,7 @@ static bool check_values(struct bind *bind)
         uint32_t index;
         if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index)
             && !is_light_value(bind, bind->values[i].path))
-            return fail_as(bind, "no-uniform",
-                           "the shader has no uniform for '%s'; the input is unused or compiled "
-                           "in, or the path is misspelled",
+            return fail_as(bind, "no-uniform", "the shader has no uniform for '%s'",
                            bind->values[i].path);
     }
     return true;

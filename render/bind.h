@@ -6,6 +6,7 @@
 #ifndef MXG_RENDER_BIND_H
 #define MXG_RENDER_BIND_H
 
+#include "cli/outputs.h"
 #include "render/draw.h"
 #include "render/scene.h"
 
@@ -21,7 +22,8 @@ struct bind_value {
 struct bind {
     const mxg_result *result;
     const struct scene *scene;
-    const char *document; /* texture files are relative to it */
+    const char *document;        /* texture files are relative to it */
+    const struct outputs *files; /* none of them may be a texture */
     const struct bind_value *values;
     size_t num_values;
     bool is_opaque; /* replaces the background, also for transparent materials */

@@ -27,8 +27,10 @@ static bool make_linear(struct image *image)
 static void make_sane(struct image *image)
 {
     float *value = image->pixels;
-    for (size_t i = 0; i < (size_t)image->width * image->height * 4; ++i)
+    for (size_t i = 0; i < (size_t)image->width * image->height * 4; ++i) {
+        image->num_bad += value[i] >= 1e9f;
         value[i] = value[i] > 0 && value[i] < 1e9f ? value[i] : 0;
+    }
 }
 
 bool environment_read(const char *path, struct image *out, char *reason, size_t capacity)

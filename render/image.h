@@ -27,10 +27,16 @@ struct image {
      * not an array; 0: one
      */
     uint32_t levels;
+    /*
+     * number of texels with components that were NaN or infinite, for an environment also 1e9 or
+     * more; the reader replaced these components by 0
+     */
+    uint64_t num_bad;
 };
 
 /*
- * Reads an image file. On failure returns false and the reason. Does not convert colour spaces.
+ * Reads an image file of at most 65,536 pixels on a side and 268,435,456 in total. On failure
+ * returns false and the reason. Does not convert colour spaces.
  * `layer` names a part of a file, or the channels with this prefix ("diffuse.R"); "" is the first
  * part.
  */

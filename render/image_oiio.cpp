@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image.h"
 
+#include "cli/temporary.h"
+
 #include <OpenImageIO/imageio.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <string>
 #include <strings.h>
 #include <sys/stat.h>
@@ -21,6 +25,67 @@ bool fail(char *reason, size_t capacity, const std::string &text)
     std::snprintf(reason, capacity, "%s",
                   text.empty() ? "unknown error" : text.substr(0, text.find('\n')).c_str());
     return false;
+}
+
+/*
+ * Calls `work`. OpenImageIO and its format libraries throw for damaged files and for lack of
+ * memory; no exception may reach the C code of the callers.
+ */
+template <typename Work> bool guard(char *reason, size_t capacity, Work work)
+{
+    try {
+        return work();
+    } catch (const std::bad_alloc &) {
+        return fail(reason, capacity, "out of memory");
+    } catch (const std::exception &fault) {
+        return fail(reason, capacity, fault.what());
+    } catch (...) {
+        return fail(reason, capacity, "unknown error");
+    }
+}
+
+/* A device or a pipe may never end. */
+bool check_file(const char *path, char *reason, size_t capacity)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return fail(reason, capacity, std::strerror(errno));
+    return S_ISREG(info.st_mode) || fail(reason, capacity, "it is not a regular file");
+}
+
+/* The header of a small file can promise any size, so these limits come before allocation. */
+constexpr int max_side = 1 << 16;
+constexpr size_t max_texels = size_t{1} << 28;
+
+bool check_size(const OIIO::ImageSpec &spec, char *reason, size_t capacity)
+{
+    if (spec.width <= 0 || spec.height <= 0)
+        return fail(reason, capacity, "the picture is empty");
+    if (spec.width <= max_side && spec.height <= max_side
+        && static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) <= max_texels)
+        return true;
+    return fail(reason, capacity,
+                "its header says " + std::to_string(spec.width) + " x "
+                    + std::to_string(spec.height) + " pixels; the limit is "
+                    + std::to_string(max_side) + " for a side and " + std::to_string(max_texels)
+                    + " in total");
+}
+
+/* Replaces components that are NaN or infinite by 0; returns the number of their texels. */
+size_t repair(float *texels, size_t count)
+{
+    size_t bad = 0;
+    for (size_t i = 0; i < count; ++i, texels += 4) {
+        bool is_finite = true;
+        for (size_t c = 0; c < 4; ++c) {
+            if (std::isfinite(texels[c]))
+                continue;
+            texels[c] = 0.0f;
+            is_finite = false;
+        }
+        bad += !is_finite;
+    }
+    return bad;
 }
 
 /* Expands a pixel to four channels: grey, grey and alpha, colour, colour and alpha. */
@@ -66,7 +131,7 @@ bool find_layer(OIIO::ImageInput &input, const std::string &layer, Part &out)
     return false;
 }
 
-bool read_level(OIIO::ImageInput &input, int level, const Part &part, const struct image &image,
+bool read_level(OIIO::ImageInput &input, int level, const Part &part, struct image &image,
                 size_t first_texel)
 {
     size_t count = size_t{image_level_size(image.width, static_cast<uint32_t>(level))}
@@ -77,10 +142,12 @@ bool read_level(OIIO::ImageInput &input, int level, const Part &part, const stru
     int channels = part.end - part.begin;
     if (!input.read_image(part.subimage, level, part.begin, part.end, type, pixels))
         return false;
-    if (image.is_float)
-        spread(reinterpret_cast<float *>(pixels), count, channels, 1.0f);
-    else
+    if (!image.is_float) {
         spread(reinterpret_cast<uint8_t *>(pixels), count, channels, uint8_t{255});
+        return true;
+    }
+    spread(reinterpret_cast<float *>(pixels), count, channels, 1.0f);
+    image.num_bad += repair(reinterpret_cast<float *>(pixels), count);
     return true;
 }
 
@@ -95,10 +162,20 @@ uint32_t count_levels(OIIO::ImageInput &input, uint32_t width, uint32_t height)
     return levels;
 }
 
+/* The sum of the texels of the first `levels` levels. */
+size_t count_texels(const struct image &image, uint32_t levels)
+{
+    size_t texels = 0;
+    for (uint32_t i = 0; i < levels; ++i)
+        texels += size_t{image_level_size(image.width, i)} * image_level_size(image.height, i);
+    return texels;
+}
+
 bool read_levels(const char *path, const char *layer, bool all, struct image *out, char *reason,
                  size_t capacity)
 {
-    *out = {};
+    if (!check_file(path, reason, capacity))
+        return false;
     auto input = OIIO::ImageInput::open(path);
     if (!input)
         return fail(reason, capacity, OIIO::geterror());
@@ -107,29 +184,33 @@ bool read_levels(const char *path, const char *layer, bool all, struct image *ou
         return fail(reason, capacity, std::string("it has no layer '") + layer + "'");
     const OIIO::ImageSpec spec = input->spec(part.subimage);
     part.end = part.end - part.begin < 4 ? part.end : part.begin + 4;
-    if (spec.width <= 0 || spec.height <= 0 || part.end <= part.begin)
+    if (!check_size(spec, reason, capacity))
+        return false;
+    if (part.end <= part.begin)
         return fail(reason, capacity, "the picture is empty");
     out->is_float = spec.format != OIIO::TypeDesc::UINT8;
     out->width = static_cast<uint32_t>(spec.width);
     out->height = static_cast<uint32_t>(spec.height);
     uint32_t levels = all ? count_levels(*input, out->width, out->height) : 1;
-    size_t texels = 0;
-    for (uint32_t i = 0; i < levels; ++i)
-        texels += size_t{image_level_size(out->width, i)} * image_level_size(out->height, i);
-    out->pixels = std::malloc(texels * 4 * (out->is_float ? sizeof(float) : 1));
+    out->pixels = std::malloc(count_texels(*out, levels) * 4 * (out->is_float ? sizeof(float) : 1));
     if (!out->pixels)
         return fail(reason, capacity, "out of memory");
     out->levels = levels > 1 ? levels : 0;
-    size_t first = 0;
-    for (uint32_t i = 0; i < levels; ++i) {
-        if (!read_level(*input, static_cast<int>(i), part, *out, first)) {
-            fail(reason, capacity, input->geterror());
-            image_finish(out);
-            return false;
-        }
-        first += size_t{image_level_size(out->width, i)} * image_level_size(out->height, i);
-    }
+    for (uint32_t i = 0; i < levels; ++i)
+        if (!read_level(*input, static_cast<int>(i), part, *out, count_texels(*out, i)))
+            return fail(reason, capacity, input->geterror());
     return true;
+}
+
+bool read_guarded(const char *path, const char *layer, bool all, struct image *out, char *reason,
+                  size_t capacity)
+{
+    *out = {};
+    bool good = guard(reason, capacity,
+                      [&] { return read_levels(path, layer, all, out, reason, capacity); });
+    if (!good)
+        image_finish(out);
+    return good;
 }
 
 } // namespace
@@ -137,12 +218,12 @@ bool read_levels(const char *path, const char *layer, bool all, struct image *ou
 bool image_read(const char *path, const char *layer, struct image *out, char *reason,
                 size_t capacity)
 {
-    return read_levels(path, layer, false, out, reason, capacity);
+    return read_guarded(path, layer, false, out, reason, capacity);
 }
 
 bool image_read_levels(const char *path, struct image *out, char *reason, size_t capacity)
 {
-    return read_levels(path, "", true, out, reason, capacity);
+    return read_guarded(path, "", true, out, reason, capacity);
 }
 
 bool image_is_linear(const char *path)
@@ -192,37 +273,50 @@ bool write_pixels(OIIO::ImageOutput &output, const std::string &path, const stru
     return output.close() && good;
 }
 
-} // namespace
-
-bool image_can_write(const char *path, char *reason, size_t capacity)
+bool can_write(const std::string &name, char *reason, size_t capacity)
 {
-    std::string name(path), folder = name.substr(0, name.rfind('/') + 1);
+    std::string folder = name.substr(0, name.rfind('/') + 1);
     struct stat info;
     if (!OIIO::ImageOutput::create(name)) {
         OIIO::geterror();
         return fail(reason, capacity, "unknown image format; use .png, .jpg, .exr or .hdr");
     }
-    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+    if (stat(name.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
         return fail(reason, capacity, std::strerror(EISDIR));
     return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0
            || fail(reason, capacity, std::strerror(errno));
 }
 
-bool image_write(const char *path, const struct image *image, char *reason, size_t capacity)
+bool write_file(const std::string &path, const struct image &image, char *reason, size_t capacity)
 {
-    /* The ending selects the format, so the temporary name keeps it. */
-    std::string name(path);
-    size_t base = name.rfind('/') + 1;
-    std::string temporary = name.substr(0, base) + ".tmp-" + name.substr(base);
-    auto output = OIIO::ImageOutput::create(temporary);
+    auto output = OIIO::ImageOutput::create(path);
     if (!output)
         return fail(reason, capacity, OIIO::geterror());
-    bool good = write_pixels(*output, temporary, *image);
-    if (!good)
-        fail(reason, capacity, output->geterror());
-    if (good && std::rename(temporary.c_str(), path) != 0)
-        good = fail(reason, capacity, std::strerror(errno));
-    if (!good)
-        std::remove(temporary.c_str());
-    return good;
+    return write_pixels(*output, path, image) || fail(reason, capacity, output->geterror());
+}
+
+} // namespace
+
+bool image_can_write(const char *path, char *reason, size_t capacity)
+{
+    return guard(reason, capacity, [&] { return can_write(path, reason, capacity); });
+}
+
+bool image_write(const char *path, const struct image *image, char *reason, size_t capacity)
+{
+    return guard(reason, capacity, [&] {
+        /* The ending selects the format, so the temporary name keeps it. */
+        std::string name(path);
+        size_t base = name.rfind('/') + 1;
+        std::string temporary = name.substr(0, base) + ".tmp-" + name.substr(base);
+        temporary_note(temporary.c_str());
+        bool good = guard(reason, capacity,
+                          [&] { return write_file(temporary, *image, reason, capacity); });
+        if (good && std::rename(temporary.c_str(), path) != 0)
+            good = fail(reason, capacity, std::strerror(errno));
+        if (!good)
+            std::remove(temporary.c_str());
+        temporary_forget(temporary.c_str());
+        return good;
+    });
 }

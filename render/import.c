@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
 #include "render/mesh.h"
+
+#include "cli/files.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <errno.h>
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
+#define TEXT_OF_VALUE(value) #value
+#define TEXT_OF(macro) TEXT_OF_VALUE(macro)
 #define CREASE_DEGREES 60.0f /* sharper edges stay edges where normals are made */
 #define MAX_TRIANGLES (1u << 26)
+#define MAX_CORNERS 4096 /* of a face: the time of triangulation grows with the square */
 
 static bool fail(struct mesh_fault *fault, const char *id, const char *text)
 {
@@ -18,17 +28,57 @@ static bool fail(struct mesh_fault *fault, const char *id, const char *text)
     return false;
 }
 
-/* One list of triangles in the space of the scene. Lines and points are dropped. */
-static const struct aiScene *read_scene(const char *path)
+static bool has_large_face(const struct aiScene *scene)
 {
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+        for (unsigned f = 0; f < scene->mMeshes[i]->mNumFaces; ++f)
+            if (scene->mMeshes[i]->mFaces[f].mNumIndices > MAX_CORNERS)
+                return true;
+    return false;
+}
+
+static bool is_finite(const struct aiScene *scene)
+{
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+        for (unsigned v = 0; v < scene->mMeshes[i]->mNumVertices; ++v) {
+            const struct aiVector3D *at = &scene->mMeshes[i]->mVertices[v];
+            if (!isfinite(at->x) || !isfinite(at->y) || !isfinite(at->z))
+                return false;
+        }
+    return true;
+}
+
+/*
+ * One list of triangles in the space of the scene. Lines and points are dropped. NULL after a
+ * fault.
+ */
+static const struct aiScene *read_scene(const char *path, struct mesh_fault *fault)
+{
+    if (!files_is_regular(path)) { /* a device or a pipe may never end */
+        fail(fault, "bad-mesh", access(path, F_OK) == 0 ? "it is not a file" : strerror(errno));
+        return NULL;
+    }
     struct aiPropertyStore *properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, CREASE_DEGREES);
-    const struct aiScene *scene = aiImportFileExWithProperties(
-        path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices, NULL,
-        properties);
+    const struct aiScene *scene = aiImportFileExWithProperties(path, 0, NULL, properties);
     aiReleasePropertyStore(properties);
+    const char *reason = NULL;
+    if (scene && has_large_face(scene))
+        reason = "it has a face of more than " TEXT_OF(MAX_CORNERS) " corners";
+    else if (scene && !is_finite(scene))
+        reason = "it has corners whose coordinates are NaN or infinite";
+    if (reason) {
+        aiReleaseImport(scene);
+        fail(fault, "bad-mesh", reason);
+        return NULL;
+    }
+    if (scene) /* this releases the scene if it fails */
+        scene = aiApplyPostProcessing(scene, aiProcess_Triangulate | aiProcess_SortByPType
+                                                 | aiProcess_PreTransformVertices);
+    if (!scene)
+        fail(fault, "bad-mesh", aiGetErrorString());
     return scene;
 }
 
@@ -112,8 +162,10 @@ static bool convert(const struct aiScene *scene, unsigned made, struct mesh *out
 bool mesh_import(const char *path, struct mesh *out, unsigned *out_made, struct mesh_fault *fault)
 {
     *out = (struct mesh){0};
-    const struct aiScene *scene = read_scene(path);
-    *out_made = scene ? missing_parts(scene) : 0;
+    const struct aiScene *scene = read_scene(path, fault);
+    if (!scene)
+        return false;
+    *out_made = missing_parts(scene);
     if (*out_made & MESH_NORMALS)
         scene = aiApplyPostProcessing(scene,
                                       aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices);

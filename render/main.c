@@ -4,7 +4,10 @@
 #include "cli/cli.h"
 #include "cli/files.h"
 #include "cli/folder.h"
+#include "cli/outputs.h"
+#include "cli/parent.h"
 #include "cli/render_options.h"
+#include "render/applies.h"
 #include "render/bake.h"
 #include "render/picture.h"
 #include "render/sheet.h"
@@ -14,8 +17,6 @@
 #include <unistd.h>
 
 #define OVERSAMPLING 2 /* samples per pixel and axis */
-#define MAX_FRAMES 10000
-#define MAX_BOUNCES 64
 
 /* The studio takes any mesh. The other scenes are fixed, for tests and patterns. */
 enum scene_kind { SCENE_STUDIO, SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
@@ -38,6 +39,7 @@ struct job {
     enum scene_kind scene_kind;
     struct bind_value *values;
     struct arg_list found; /* documents, including those in folders; allocated */
+    struct outputs files;  /* files that the command reads or writes */
 };
 
 /* ---- Arguments ---- */
@@ -84,15 +86,6 @@ static void free_values(struct bind_value *values, size_t count)
     free(values);
 }
 
-static bool is_set(const struct cli *cli, const char *key)
-{
-    for (size_t i = 0; i < cli->parser.num_settings; ++i) {
-        if (strcmp(cli->parser.settings[i].key, key) == 0)
-            return true;
-    }
-    return false;
-}
-
 /* The index of a word in a list; after reporting an unknown word, the length of the list. */
 static size_t find_word(const char *option, const char *word, const char *const *words)
 {
@@ -125,7 +118,7 @@ static void apply_environments(struct job *job)
 /* Reduces the interface for a smaller shader: only the inputs that the user sets stay uniforms. */
 static bool apply_interface(struct job *job)
 {
-    if (job->options.settings.len || is_set(&job->cli, "interface"))
+    if (job->options.settings.len || args_is_given(&job->cli.parser, "interface"))
         return true;
     return report_status(&job->cli.report,
                          mxg_options_set(job->cli.options, "interface", "reduced"));
@@ -158,23 +151,11 @@ static bool parse(struct job *job)
                 job->options.camera);
         return false;
     }
-    if (job->options.frames > MAX_FRAMES) {
-        fprintf(stderr, "mxgen: a turntable has at most %d pictures\n", MAX_FRAMES);
-        return false;
-    }
     /* the device's samplers have neither arbitrary border colours nor cubic filters */
-    if (!is_set(&job->cli, "texture-modes"))
+    if (!args_is_given(&job->cli.parser, "texture-modes"))
         mxg_options_set(job->cli.options, "texture-modes", "shared");
-    if (!is_set(&job->cli, "sample-filter")) /* no picture of MaterialX to match */
+    if (!args_is_given(&job->cli.parser, "sample-filter")) /* no picture of MaterialX to match */
         mxg_options_set(job->cli.options, "sample-filter", "narrow");
-    bool is_sane = job->options.paths && job->options.paths <= UINT32_MAX && job->options.bounces
-                   && job->options.bounces <= MAX_BOUNCES;
-    if (job->options.path_trace && (!job->painter.is_studio || job->options.frames || !is_sane)) {
-        fputs("mxgen: paths are traced in the studio, at least one through each pixel, with 1 to "
-              "64 bounces, and for no turntable\n",
-              stderr);
-        return false;
-    }
     if (job->options.path_trace) {
         mxg_options_set(job->cli.options, "integrator", "scatter");
         job->painter.trace.paths = (uint32_t)job->options.paths;
@@ -190,7 +171,7 @@ static bool parse(struct job *job)
 
 /* ---- Scene ---- */
 
-static bool tell_parts(struct job *job, unsigned made)
+static bool note_parts(struct job *job, unsigned made)
 {
     static const struct {
         enum mesh_part part;
@@ -206,6 +187,15 @@ static bool tell_parts(struct job *job, unsigned made)
     return true;
 }
 
+static void tell_bad_environment(struct job *job, const char *name, const struct image *map)
+{
+    if (map->num_bad)
+        report_warning(&job->cli.report, "bad-pixels",
+                       "the environment '%s' has pixels that are NaN, infinite or larger than 1e9 "
+                       "(%llu); they are 0 here",
+                       name, (unsigned long long)map->num_bad);
+}
+
 static bool make_scene(struct job *job)
 {
     struct painter *painter = &job->painter;
@@ -213,8 +203,10 @@ static bool make_scene(struct job *job)
     if (job->scene_kind == SCENE_STUDIO) {
         unsigned made = 0;
         struct studio_fault fault;
-        if (studio_open(&painter->studio, aspect, &painter->scene, &made, &fault))
-            return tell_parts(job, made);
+        if (studio_open(&painter->studio, aspect, &painter->scene, &made, &fault)) {
+            tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
+            return note_parts(job, made);
+        }
         report_error(&job->cli.report, fault.id, "%s", fault.text);
         return false;
     }
@@ -253,7 +245,7 @@ static bool prepare(struct job *job)
 /* ---- Work ---- */
 
 /* Prints "[3/40] Gold" on a terminal, over the previous line; prints nothing to a pipe. */
-static void tell_progress(const struct job *job, size_t done, size_t count, const char *name)
+static void report_progress(const struct job *job, size_t done, size_t count, const char *name)
 {
     if (job->cli.quiet || count < 2 || !isatty(STDERR_FILENO))
         return;
@@ -291,7 +283,7 @@ static void draw_turntable(struct job *job, const struct subject *subject)
     for (size_t i = 0; good && i < job->options.frames; ++i) {
         struct image picture;
         char *name = frame_name(job->options.output, i);
-        tell_progress(job, i, job->options.frames, name);
+        report_progress(job, i, job->options.frames, name);
         studio_aim(&painter->studio, (double)painter->width / painter->height,
                    360.0 * (double)i / (double)job->options.frames, &painter->scene);
         painting_aim(&painting);
@@ -299,7 +291,7 @@ static void draw_turntable(struct job *job, const struct subject *subject)
         image_finish(&picture);
         free(name);
     }
-    tell_progress(job, job->options.frames, job->options.frames, "");
+    report_progress(job, job->options.frames, job->options.frames, "");
     painting_close(&painting);
 }
 
@@ -350,11 +342,25 @@ static void add_elements(struct job *job, struct items *list, const mxg_document
         add_item(list, document, path, job->options.element);
 }
 
+/* Loads a document and notes its files. */
+static mxg_document *load(struct job *job, const char *path)
+{
+    mxg_document *document = cli_load(&job->cli, path);
+    bool good = true;
+    for (uint32_t i = 0; i < mxg_document_num_files(document); ++i)
+        good = outputs_read(&job->files, &job->cli.report, mxg_document_file(document, i)) && good;
+    if (good)
+        return document;
+    job->painter.has_clash = true;
+    mxg_document_destroy(document);
+    return NULL;
+}
+
 static void load_items(struct job *job, struct items *list)
 {
     list->documents = calloc(job->found.len + 1, sizeof *list->documents);
     for (size_t i = 0; list->documents && i < job->found.len; ++i) {
-        mxg_document *document = cli_load(&job->cli, job->found.items[i]);
+        mxg_document *document = load(job, job->found.items[i]);
         if (!document)
             continue;
         list->documents[list->num_documents++] = document;
@@ -391,11 +397,12 @@ static void draw_sheet(struct job *job, const struct items *list)
         return;
     }
     for (size_t i = 0; i < list->len; ++i) {
-        tell_progress(job, i, list->len, list->items[i].name);
+        report_progress(job, i, list->len, list->items[i].name);
         place(job, &sheet, i, &list->items[i]);
     }
-    tell_progress(job, list->len, list->len, "");
-    if (!image_write(job->options.output, &sheet.image, reason, sizeof reason))
+    report_progress(job, list->len, list->len, "");
+    if (!job->painter.has_clash
+        && !image_write(job->options.output, &sheet.image, reason, sizeof reason))
         report_error(&job->cli.report, "output-failed", "cannot write '%s': %s",
                      job->options.output, reason);
     sheet_finish(&sheet);
@@ -442,12 +449,27 @@ static void draw_grid(struct job *job, const mxg_document *document, const char 
 
 /* ---- Commands ---- */
 
+/* A picture shows one element; with several, the user learns which one. */
+static void tell_choice(const struct job *job, const mxg_document *document)
+{
+    mxg_renderable first = {sizeof first};
+    uint32_t count = mxg_document_num_renderables(document);
+    if (job->options.element || job->cli.quiet || job->scene_kind == SCENE_GRID || count < 2
+        || mxg_document_renderable(document, 0, &first) != MXG_OK)
+        return;
+    fprintf(stderr,
+            "note: '%s' is rendered, the first of %u elements; -e PATH selects another, and a "
+            "folder gives a sheet of all\n",
+            first.path, count);
+}
+
 /* Renders one picture of the first element, or of the requested one. */
 static void render_file(struct job *job, const char *path)
 {
-    mxg_document *document = cli_load(&job->cli, path);
+    mxg_document *document = load(job, path);
     struct subject subject = {document, path, job->options.element};
     if (document && prepare(job)) {
+        tell_choice(job, document);
         if (job->scene_kind == SCENE_GRID)
             draw_grid(job, document, path);
         else if (job->options.frames)
@@ -462,7 +484,7 @@ static void render_all(struct job *job)
 {
     struct items list = {0};
     load_items(job, &list);
-    if (list.len && prepare(job)) {
+    if (list.len && !job->painter.has_clash && prepare(job)) {
         if (list.len == 1)
             draw_one(job, &list.items[0].subject);
         else
@@ -474,21 +496,11 @@ static void render_all(struct job *job)
 /* Collects the documents, including those in folders. */
 static bool find_documents(struct job *job)
 {
-    const struct arg_list *inputs = &job->cli.parser.inputs;
-    for (size_t i = 0; i < inputs->len; ++i) {
-        if (!files_is_folder(inputs->items[i])) {
-            args_append(&job->found, cli_format("%s", inputs->items[i]));
-            continue;
-        }
-        size_t before = job->found.len;
-        const char *reason = folder_find(inputs->items[i], ".mtlx", &job->found);
-        if (reason || job->found.len == before) {
-            report_error(&job->cli.report, "nothing-to-render", "'%s': %s", inputs->items[i],
-                         reason ? reason : "the folder has no document (.mtlx)");
-            return false;
-        }
-    }
-    return true;
+    const char *reason = NULL,
+               *path = folder_documents(&job->cli.parser.inputs, &job->found, &reason);
+    if (path)
+        report_error(&job->cli.report, "nothing-to-render", "'%s': %s", path, reason);
+    return !path;
 }
 
 /* mxgen render --bake-environment FILE -o FOLDER */
@@ -513,9 +525,43 @@ static int bake(struct job *job)
              || !baked_write(&baked, job->options.output, reason, sizeof reason))
         report_error(&job->cli.report, "output-failed", "cannot write to '%s': %s",
                      job->options.output, why ? why : reason);
+    tell_bad_environment(job, job->options.baked, &map);
     baked_finish(&baked);
     image_finish(&map);
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+}
+
+/* Notes the files that every picture needs. */
+static bool claim_inputs(struct job *job)
+{
+    struct report *report = &job->cli.report;
+    bool good = true;
+    for (size_t i = 0; i < job->found.len; ++i)
+        good = outputs_read(&job->files, report, job->found.items[i]) && good;
+    for (uint32_t i = 0; i < mxg_library_num_files(job->cli.library); ++i)
+        good = outputs_read(&job->files, report, mxg_library_file(job->cli.library, i)) && good;
+    if (job->painter.studio.environment)
+        good = outputs_read(&job->files, report, job->painter.studio.environment) && good;
+    if (files_is_regular(job->painter.studio.mesh))
+        good = outputs_read(&job->files, report, job->painter.studio.mesh) && good;
+    return good;
+}
+
+/* Notes the pictures; false after an error: one of them is an input, or two are one file. */
+static bool claim_outputs(struct job *job)
+{
+    struct report *report = &job->cli.report;
+    bool good = true;
+    for (size_t i = 0; i < job->options.frames; ++i) {
+        char *name = frame_name(job->options.output, i);
+        good = good && outputs_write(&job->files, report, name, "the turntable");
+        free(name);
+    }
+    if (job->options.output && !job->options.frames)
+        good = outputs_write(&job->files, report, job->options.output, "-o") && good;
+    if (job->options.copy)
+        good = outputs_write(&job->files, report, job->options.copy, "--copy") && good;
+    return claim_inputs(job) && good;
 }
 
 /* Checked before rendering, which may take long. */
@@ -528,29 +574,58 @@ static bool can_write(struct job *job, const char *path)
     return false;
 }
 
+static unsigned fact(bool is_true, enum render_fact fact)
+{
+    return is_true ? (unsigned)fact : 0u;
+}
+
+/* True if the shaders sample the environment. */
+static bool is_sampled(const struct job *job)
+{
+    for (size_t i = 0; i < job->options.environments.len; ++i)
+        if (strcmp(job->options.environments.items[i], "none") == 0
+            || strcmp(job->options.environments.items[i], "prefiltered") == 0)
+            return false;
+    return !job->options.path_trace;
+}
+
+static unsigned find_facts(const struct job *job, bool is_grid, bool is_one)
+{
+    const struct render_options *options = &job->options;
+    bool is_display = !options->output || !image_is_linear(options->output)
+                      || (options->copy && !image_is_linear(options->copy));
+    return fact(job->painter.is_studio, FACT_STUDIO)
+           | fact(!job->painter.studio.environment, FACT_NO_MAP) | fact(!is_grid, FACT_PICTURE)
+           | fact(is_display || !is_one, FACT_DISPLAY) | fact(is_one, FACT_ONE_FILE)
+           | fact(is_one && !options->frames, FACT_ONE_PICTURE) | fact(!options->frames, FACT_STILL)
+           | fact(options->path_trace, FACT_TRACED) | fact(!options->path_trace, FACT_RASTER)
+           | fact(is_sampled(job), FACT_SAMPLED) | fact(!options->look, FACT_NO_LOOK);
+}
+
 static int run(struct job *job)
 {
-    if (job->options.baked)
-        return bake(job);
-    if (job->cli.parser.inputs.len == 0) {
-        fputs("usage: mxgen render FILE|FOLDER... -o PICTURE.png\n", stderr);
+    const struct arg_list *inputs = &job->cli.parser.inputs;
+    if (job->options.baked && inputs->len == 0)
+        return applies_to_bake(&job->cli.parser) ? bake(job) : EXIT_USAGE;
+    if (job->options.baked || inputs->len == 0) {
+        fputs(job->options.baked ? "usage: mxgen render --bake-environment FILE -o FOLDER\n"
+                                 : "usage: mxgen render FILE|FOLDER... -o PICTURE.png\n",
+              stderr);
         return EXIT_USAGE;
     }
-    const struct arg_list *inputs = &job->cli.parser.inputs;
     bool is_grid = !strcmp(job->options.scene, "grid"),
          is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->options.look;
-    if ((!job->options.output && !is_grid) || ((is_grid || job->options.frames) && !is_one)) {
-        fputs(job->options.output ? "mxgen: a turntable and a grid are of one document\n"
-                                  : "mxgen: where to? say -o PICTURE.png\n",
-              stderr);
+    if (!job->options.output && !is_grid) {
+        fputs("mxgen: where to? say -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
     }
     if (!job->options.size)
         job->options.size = is_grid ? "4" : is_one ? "512" : "160";
-    if (!parse_size(job) || !parse(job))
+    if (!parse_size(job) || !parse(job)
+        || !applies_all(&job->cli.parser, find_facts(job, is_grid, is_one)))
         return EXIT_USAGE;
     if (can_write(job, job->options.output) && can_write(job, job->options.copy)
-        && find_documents(job)) {
+        && find_documents(job) && claim_outputs(job)) {
         compile_begin();
         if (is_one)
             render_file(job, job->found.items[0]);
@@ -573,8 +648,10 @@ int main(int argc, char **argv)
     struct arg args[MAX_RENDER_ARGS];
     size_t num_args = render_args(&job.options, args);
     int code;
+    parent_follow();
     if (cli_start(&job.cli, &command, args, num_args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
+        job.painter.files = &job.files;
         job.painter.studio.mesh = job.options.mesh;
         /*
          * llvmpipe's optimiser takes minutes for large shaders. Without it the pictures are the
@@ -586,6 +663,7 @@ int main(int argc, char **argv)
     }
     cli_finish(&job.cli);
     args_free(&job.found);
+    outputs_finish(&job.files);
     free_values(job.values, job.options.settings.len);
     free(job.options.settings.items);
     free(job.options.environments.items);

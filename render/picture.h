@@ -7,6 +7,7 @@
 #define MXG_RENDER_PICTURE_H
 
 #include "cli/cli.h"
+#include "cli/outputs.h"
 #include "render/render.h"
 #include "render/studio.h"
 #include "render/trace.h"
@@ -19,11 +20,14 @@ struct painter {
     struct gpu gpu;
     struct studio studio;
     struct scene scene;
-    bool is_studio;   /* the scene is the studio */
-    struct mesh fine; /* for displaced materials; made on first use */
+    bool is_studio;        /* the scene is the studio */
+    struct mesh fine;      /* for displaced materials; made on first use */
+    struct outputs *files; /* files that the command reads or writes */
+    bool has_clash;        /* a texture is one of the latter: no picture may be written */
     const struct bind_value *values;
     size_t num_values;
-    bool checker; /* replaces missing textures by a checker */
+    bool checker;                      /* replaces missing textures by a checker */
+    const mxg_document *told_textures; /* the last document whose missing textures were printed */
     enum background background;
     double exposure;
     uint32_t width, height;

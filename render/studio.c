@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include "cli/files.h"
 
 #define DEGREE (3.14159265358979323846 / 180.0)
 #define FINE_DETAIL 4             /* multiplies the cells of a shape in each direction */
@@ -80,20 +80,15 @@ bool studio_read_map(const struct studio *studio, struct image *out, struct stud
     return good || fail(fault, "render-failed", "cannot make the", "sky", "out of memory");
 }
 
-static bool is_folder(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-}
-
 /* Provides the maps for the shader: baked before, baked now, or with box-averaged mip levels. */
 static bool open_environment(const struct studio *studio, struct scene *scene,
                              struct studio_fault *fault)
 {
     char reason[256] = "out of memory";
     struct baked baked = {0};
-    bool is_baked = studio->environment && is_folder(studio->environment);
+    bool is_baked = studio->environment && files_is_folder(studio->environment);
     bool good = is_baked || studio_read_map(studio, &scene->radiance, fault);
+    uint64_t num_bad = scene->radiance.num_bad;
     if (good && is_baked)
         good = baked_read(studio->environment, &baked, reason, sizeof reason);
     else if (good && studio->prefiltered)
@@ -110,6 +105,7 @@ static bool open_environment(const struct studio *studio, struct scene *scene,
     }
     image_finish(&scene->radiance);
     scene->radiance = baked.radiance;
+    scene->radiance.num_bad += num_bad;
     scene->irradiance = baked.irradiance;
     scene->albedo = baked.albedo;
     if (!studio->prefiltered)

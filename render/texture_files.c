@@ -42,6 +42,15 @@ static bool fail(struct bind *bind, const char *path, const char *why)
     return false;
 }
 
+/* The texture is usable; the caller prints the reason as a warning. */
+static void warn_bad_pixels(struct bind *bind, const char *path, const struct image *image)
+{
+    bind->id = "bad-pixels";
+    snprintf(bind->reason, sizeof bind->reason,
+             "the texture '%.250s' has pixels that are NaN or infinite (%llu); they are 0 here",
+             path, (unsigned long long)image->num_bad);
+}
+
 /* Files are relative to the document. */
 static bool read_file(struct bind *bind, const char *file, const char *layer, struct image *out,
                       bool *out_checker)
@@ -50,8 +59,17 @@ static bool read_file(struct bind *bind, const char *file, const char *layer, st
     int folder = slash && file[0] != '/' ? (int)(slash - bind->document) + 1 : 0;
     char path[4096], reason[256];
     snprintf(path, sizeof path, "%.*s%s", folder, bind->document, file);
-    if (image_read(path, layer, out, reason, sizeof reason))
+    if (bind->files && outputs_has(bind->files, path)) {
+        bind->id = "output-clash";
+        snprintf(bind->reason, sizeof bind->reason,
+                 "the picture would overwrite the texture '%.250s'; choose another name", path);
+        return false;
+    }
+    if (image_read(path, layer, out, reason, sizeof reason)) {
+        if (out->num_bad)
+            warn_bad_pixels(bind, path, out);
         return true;
+    }
     fail(bind, path, reason);
     *out_checker = bind->checker && make_checker(out);
     return *out_checker;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* How HLSL writes what depends on types, and the functions that it lacks (helpers). */
+/* The forms of HLSL that depend on types, and the functions that it lacks (helpers). */
 #include "generators/hlsl/hlsl.h"
-
-#include <math.h>
 
 static const char parts[] = "xyzw";
 
@@ -48,7 +46,7 @@ static const struct lang_pieces *call_of(struct spell *spell, const char *text)
     return form_of(spell, text, LANG_PREC_POSTFIX);
 }
 
-/* Structs of a tree are of the unit's types, those of the graph of its own. */
+/* The struct of a type: a tree has types of the unit, the graph has types of its own. */
 static void put_type(struct spell *spell, const struct lang_use *use, ir_type_id type,
                      struct text *out)
 {
@@ -87,7 +85,7 @@ static void add_helper(struct spell *spell, const struct lang_use *use, unsigned
 
 /* ---- Operators ---- */
 
-/* Matrices are transposes: hlsl.h. */
+/* Matrices are transposed: hlsl.h. */
 static const struct lang_pieces *product(struct spell *spell, const struct lang_use *use)
 {
     ir_type_id a = use->operands[0], b = use->operands[1];
@@ -148,7 +146,9 @@ static const struct lang_pieces *from_scalar(struct spell *spell, ir_type_id typ
                            : form_of(spell, by_rows[rows_of(type)], LANG_PREC_PRODUCT);
 }
 
-/* The last operand may have more components than are left: HLSL wants these cut off. */
+/*
+ * The last operand may have more components than the vector needs. HLSL requires an explicit cut.
+ */
 static const struct lang_pieces *construct(struct spell *spell, const struct lang_use *use)
 {
     unsigned left = components(use->type), last = use->num_operands - 1;
@@ -198,7 +198,7 @@ static form_writer *const writers[IR_NUM_OPS] = {
     [IR_TEX_SIZE] = texture_size, [IR_CONSTRUCT] = construct,
 };
 
-/* Built-in functions that are helpers for all types. */
+/* The built-in functions that are helpers for all types. */
 static const struct {
     uint8_t helper; /* enum helper */
     const char *call;
@@ -228,17 +228,13 @@ const char *hlsl_maker(void *user_data, const char *type)
     return maker->name;
 }
 
-/* Every component is written; no literal is infinite or no number. */
+/* Writes every component. */
 bool hlsl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
                       struct text *out)
 {
     const struct ir_type_info *info = ir_type_info(type);
-    if (info->components == 1) {
-        bool is_written = type == IR_TYPE_FLOAT && !isfinite(words->f);
-        if (is_written)
-            text_fmt(out, "asfloat(0x%08xu)", (unsigned)words->u);
-        return is_written;
-    }
+    if (info->components == 1)
+        return false;
     text_put(out, style->types[type]);
     for (unsigned i = 0; i < info->components; i++) {
         text_str(out, i ? ", " : "(");

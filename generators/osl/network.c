@@ -11,11 +11,23 @@
 #include "generators/osl/osl.h"
 #include "generators/osl/tree.h"
 
+#include <math.h>
+
 static const char parts[] = "xyzw";
 
 static const char *text_of(const struct network *network, str_id id)
 {
     return str_text(network->strings, id);
+}
+
+static void write_float(float f, struct text *out)
+{
+    if (isinf(f) && signbit(f))
+        text_char(out, '-');
+    if (isfinite(f))
+        text_float(out, f);
+    else
+        text_str(out, isnan(f) ? OSL_NAN : OSL_INFINITY);
 }
 
 static void write_numbers(const struct ir_value *value, unsigned count, struct text *out)
@@ -24,7 +36,7 @@ static void write_numbers(const struct ir_value *value, unsigned count, struct t
     for (unsigned i = 0; i < count; i++) {
         text_char(out, ' ');
         if (is_float)
-            text_float(out, value->w[i].f);
+            write_float(value->w[i].f, out);
         else
             text_i32(out, value->w[i].i);
     }
@@ -36,7 +48,7 @@ static void write_matrix33(const struct ir_value *value, struct text *out)
     for (unsigned i = 0; i < 16; i++) {
         text_char(out, ' ');
         bool is_inside = i / 4 < 3 && i % 4 < 3;
-        text_float(out, is_inside ? value->w[i / 4 * 3 + i % 4].f : i == 15 ? 1.0f : 0.0f);
+        write_float(is_inside ? value->w[i / 4 * 3 + i % 4].f : i == 15 ? 1.0f : 0.0f, out);
     }
 }
 
@@ -46,7 +58,7 @@ static void write_value(const struct network_input *input, const char *name, str
     unsigned count = ir_type_info(value->type)->components;
     for (unsigned i = 0; osl_is_struct(value->type) && i < count; i++) {
         text_fmt(out, "param float %s.%c ", name, parts[i]);
-        text_float(out, value->w[i].f);
+        write_float(value->w[i].f, out);
         text_str(out, " ;\n");
     }
     if (osl_is_struct(value->type))

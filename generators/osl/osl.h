@@ -37,6 +37,12 @@ enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT };
 
 /* syntax.c: tables, and marks of use */
 extern const struct lang_syntax osl_syntax;
+/*
+ * OSL has no literals for these. Its functions return such values instead: log(0) is the lowest
+ * float, and 0 / 0 is 0.
+ */
+#define OSL_INFINITY "3.4028235e+38"
+#define OSL_NAN "0.0"
 char osl_type_letter(ir_type_id type);                  /* the letter in helpers.def */
 void osl_note_type(void *user_data, ir_type_id type);   /* lang_names.type */
 const char *osl_type(struct osl *osl, ir_type_id type); /* its name; marks it as used */

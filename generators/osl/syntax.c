@@ -67,6 +67,8 @@ const struct lang_syntax osl_syntax = {
     .plain_scalars = true,
     .defines_constants = true,
     .array_braces = true,
+    .infinity = OSL_INFINITY,
+    .nan = OSL_NAN,
     .write_value = write_value,
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen compiles MaterialX documents to shaders. This header is the whole public interface.
+ * mxgen compiles MaterialX documents to shaders. This header and document.h,
+ * which it includes, are the whole public interface.
  *
  *     mxg_context *ctx;
  *     mxg_context_create(NULL, &ctx);
@@ -214,7 +215,8 @@ typedef struct mxg_diagnostic {
     const char *message;           /* one line, without the location */
     const char *file;              /* NULL: no file */
     uint32_t line, column, length; /* from 1, columns in code points; 0 = unknown */
-    uint32_t parent; /* for a note: index of its error or warning; otherwise its own index */
+    uint32_t parent;  /* for a note: index of its error or warning; otherwise its own index */
+    const char *path; /* of an element that an edit added and that has no line; otherwise "" */
 } mxg_diagnostic;
 
 /*
@@ -368,6 +370,9 @@ MXG_API mxg_status mxg_document_look_material(const mxg_document *document, cons
  */
 MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document,
                                          mxg_result **out_result);
+
+/* The elements of documents, edits, and documents as text. */
+#include <mxgen/document.h>
 
 /* ---- Targets and options ---- */
 

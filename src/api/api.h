@@ -4,8 +4,7 @@
  *
  * Every object owns its memory, because any thread may drop the last reference. Work on an object
  * runs inside object_run, which catches a lack of memory (base/mem.h). Afterwards the object is
- * immutable, except for texts that their first use writes, and for a document's cache of node
- * matches.
+ * immutable, except for texts that their first use writes.
  */
 #ifndef MXG_API_API_H
 #define MXG_API_API_H
@@ -176,6 +175,11 @@ bool file_source_read(struct file_source *source, const char *path, const char *
  * stdio_no_memory.
  */
 mxg_resolver stdio_resolver(struct mxg_context *context);
+/*
+ * build_options.texture_fault: with the default resolver a sandbox refuses textures outside,
+ * whether they exist or not. `context` is a struct mxg_context.
+ */
+const char *stdio_texture_fault(void *context, const char *from, const char *file);
 extern const char stdio_no_memory[];
 
 /*
@@ -186,11 +190,12 @@ bool sandbox_admit_file(struct mxg_context *context, const char *file);
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
 /* The reason why a document may not read a file; NULL if it may. */
 const char *sandbox_fault(const struct mxg_context *context, const char *path);
+/* The same for a file that a host reads later, so it may be missing, or a pattern of names. */
+const char *sandbox_texture_fault(const struct mxg_context *context, const char *path);
 void sandbox_finish(struct mxg_context *context);
 
 /*
- * folder.c: true if the path is a folder. The functions after this one list the files in a folder
- * whose name ends with `suffix`, sorted.
+ * folder.c: true if the path is a folder.
  */
 bool folder_exists(const char *path);
 /*
@@ -202,7 +207,10 @@ struct path_list {
     const char **items;
     uint32_t len, cap;
 };
-/* NULL, or the reason why the folder is unreadable. */
+/*
+ * Appends the regular files below a folder whose names end with `suffix`, sorted. Follows links to
+ * folders, and lists each folder once. Returns NULL, or the reason why a folder is unreadable.
+ */
 const char *folder_list(struct arena *arena, const char *path, const char *suffix,
                         struct path_list *out);
 
@@ -226,6 +234,21 @@ struct option_value {
 const struct option_value *options_default(struct arena *arena);
 const char *option_key(enum option_id option); /* "interface" */
 const struct option_value *options_values(const mxg_options *options);
+
+/* ---- Definitions: library.c ---- */
+
+/* mxg_library_nodedef and mxg_library_port, for the layer of a library or of a document. */
+mxg_status definition_info(const struct library *lib, uint32_t index, mxg_nodedef *out);
+mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t index,
+                           mxg_port *out);
+
+/* ---- Documents: document.c ---- */
+
+/*
+ * Indexes a document whose tree is complete, and finds its renderables. The document takes the
+ * names of `files`.
+ */
+void document_finish(struct mxg_document *document, struct file_source *files);
 
 /* ---- Elements: renderable.c, element.c ---- */
 

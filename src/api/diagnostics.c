@@ -35,6 +35,7 @@ mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_
         .id = diag_id_text(diag->id),
         .message = diag->message,
         .file = diag->place.file,
+        .path = diag->place.path ? diag->place.path : "",
         .line = diag->place.line,
         .column = diag->place.column,
         .length = diag->place.length,
@@ -84,6 +85,8 @@ static void run_job(void *arg)
 static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_job *job,
                      char *buffer, size_t capacity)
 {
+    if (!buffer)
+        capacity = 0;
     if (capacity)
         *buffer = '\0';
     if (index >= mxg_diagnostics_count(list))

@@ -12,6 +12,16 @@ struct load {
     struct file_source files;
 };
 
+void document_finish(struct mxg_document *document, struct file_source *files)
+{
+    struct library *layer = &document->layer;
+    struct lang_reader reader = file_source_for_lang(files);
+    library_index(layer, &reader, &document->object.diagnostics.list);
+    document_find_renderables(document, &files->scratch);
+    document->files.items = files->names.items;
+    document->files.len = files->names.len;
+}
+
 static void read_layer(void *arg)
 {
     struct load *load = arg;
@@ -20,12 +30,12 @@ static void read_layer(void *arg)
     struct diag_list *diags = &document->object.diagnostics.list;
     const struct xml_limits *limits = &document->object.context->xml_limits;
     struct xml_files files = file_source_for_xml(&load->files);
-    struct lang_reader reader = file_source_for_lang(&load->files);
     /* only its reference count changes */
     library_init(layer, &document->object.arena, (struct library *)(uintptr_t)&load->base->layer);
     for (uint32_t i = 0; i < load->base->folders.len; i++)
         vec_push(&document->object.arena, &load->files.folders, load->base->folders.items[i]);
     layer->trust = document->object.context->trust;
+    layer->doc.keeps_comments = true;
     if (load->data) {
         vec_push(&document->object.arena, &load->files.names,
                  arena_strndup(&document->object.arena, load->name, strlen(load->name)));
@@ -33,12 +43,7 @@ static void read_layer(void *arg)
     } else {
         xml_read_file(&layer->doc, &files, limits, load->name, diags);
     }
-    layer->knows_target = target_exists;
-    library_index(layer, &reader, diags);
-    library_keep_matches(layer, &document->object.arena);
-    document_find_renderables(document, &load->files.scratch);
-    document->files.items = load->files.names.items;
-    document->files.len = load->files.names.len;
+    document_finish(document, &load->files);
 }
 
 static mxg_status load_document(mxg_context *context, mxg_library *library, struct load *load,

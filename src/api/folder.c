@@ -3,6 +3,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "api/api.h"
 
+#include "base/hash.h"
+#include "base/table.h"
+
 #include <assert.h>
 #include <dirent.h>
 #include <errno.h>
@@ -72,24 +75,62 @@ static const char *list_one(struct arena *arena, const char *folder, struct path
     return NULL;
 }
 
+/* ---- A folder and the folders in it ---- */
+
+/* Links give a folder several paths; its identity is its device and number. */
+struct folder {
+    const char *path;
+    dev_t device;
+    ino_t inode;
+};
+
+struct folders {
+    VEC(struct folder) items;
+    struct table by_identity; /* indices from 1 */
+};
+
+enum entry_kind { ENTRY_OTHER, ENTRY_FILE, ENTRY_FOLDER };
+
+/*
+ * Follows links, and adds a folder once: links can form a cycle. Devices, pipes and sockets are
+ * OTHER, because reading them may never end.
+ */
+static enum entry_kind add_entry(struct arena *arena, struct folders *folders, const char *path)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return ENTRY_OTHER;
+    if (!S_ISDIR(info.st_mode))
+        return S_ISREG(info.st_mode) ? ENTRY_FILE : ENTRY_OTHER;
+    uint32_t hash = hash_pair((uint32_t)info.st_dev, (uint32_t)info.st_ino);
+    for (uint32_t at = hash, i; (i = table_next(&folders->by_identity, hash, &at));)
+        if (folders->items.items[i - 1].inode == info.st_ino
+            && folders->items.items[i - 1].device == info.st_dev)
+            return ENTRY_FOLDER;
+    vec_push(arena, &folders->items, (struct folder){path, info.st_dev, info.st_ino});
+    table_add(&folders->by_identity, arena, hash, folders->items.len);
+    return ENTRY_FOLDER;
+}
+
 const char *folder_list(struct arena *arena, const char *path, const char *suffix,
                         struct path_list *out)
 {
-    VEC(const char *) folders = {0};
-    vec_push(arena, &folders, path);
+    struct folders folders = {0};
+    add_entry(arena, &folders, path);
     uint32_t first = out->len;
-    assert(folders.len == 1);
-    for (uint32_t i = 0; i < folders.len; i++) {
+    assert(folders.items.len <= 1);
+    for (uint32_t i = 0; i < folders.items.len; i++) {
         struct path_list found = {0};
-        const char *reason = list_one(arena, folders.items[i], &found);
+        const char *reason = list_one(arena, folders.items.items[i].path, &found);
         if (reason)
             return reason;
-        for (uint32_t j = 0; j < found.len; j++) {
-            if (folder_exists(found.items[j]))
-                vec_push(arena, &folders, found.items[j]);
-            else if (ends_with(found.items[j], suffix))
+        /* in order: the first path of a folder is the one that counts */
+        if (found.len)
+            qsort(found.items, found.len, sizeof *found.items, compare);
+        for (uint32_t j = 0; j < found.len; j++)
+            if (add_entry(arena, &folders, found.items[j]) == ENTRY_FILE
+                && ends_with(found.items[j], suffix))
                 vec_push(arena, out, found.items[j]);
-        }
     }
     if (out->len > first)
         qsort(out->items + first, out->len - first, sizeof *out->items, compare);

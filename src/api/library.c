@@ -98,7 +98,7 @@ static void read_path(struct load *load, const char *path)
  * Loading a library reports every fault at once. In a document, an implementation reports its
  * faults when a node needs it.
  */
-static void tell_deferred(mxg_library *library)
+static void report_deferred(mxg_library *library)
 {
     const struct diag_list *deferred = library->layer.deferred;
     for (uint32_t i = 0; i < deferred->items.len; i++)
@@ -124,7 +124,7 @@ static void read_paths(void *arg)
     library->layer.knows_target = target_exists;
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     library->layer.digest = load->files.digest;
-    tell_deferred(library);
+    report_deferred(library);
     library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
     lang_make_canonical(&library->layer.unit);
 }
@@ -315,11 +315,10 @@ bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const ch
            && has_implementation(&library->layer, nodedef, found);
 }
 
-mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
+mxg_status definition_info(const struct library *lib, uint32_t index, mxg_nodedef *out)
 {
-    if (index >= mxg_library_num_nodedefs(library))
+    if (index >= library_num_nodedefs(lib))
         return MXG_ERROR_ARGUMENT;
-    const struct library *lib = &library->layer;
     const struct nodedef *def = library_nodedef(lib, index);
     const char *file = doc_place(&lib->doc, def->element).file;
     mxg_nodedef full = {
@@ -337,12 +336,16 @@ mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_n
     return struct_write(out, &full, sizeof full);
 }
 
-mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
-                            mxg_port *out)
+mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
 {
-    if (nodedef >= mxg_library_num_nodedefs(library))
+    return library ? definition_info(&library->layer, index, out) : MXG_ERROR_ARGUMENT;
+}
+
+mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t index,
+                           mxg_port *out)
+{
+    if (nodedef >= library_num_nodedefs(lib))
         return MXG_ERROR_ARGUMENT;
-    const struct library *lib = &library->layer;
     const struct nodedef *def = library_nodedef(lib, nodedef);
     if (index >= (uint32_t)def->num_inputs + def->num_outputs)
         return MXG_ERROR_ARGUMENT;
@@ -368,4 +371,10 @@ mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32
         .uistep = attr_text(lib, port->element, STR_uistep),
     };
     return struct_write(out, &full, sizeof full);
+}
+
+mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
+                            mxg_port *out)
+{
+    return library ? definition_port(&library->layer, nodedef, index, out) : MXG_ERROR_ARGUMENT;
 }

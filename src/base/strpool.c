@@ -56,6 +56,24 @@ str_id str_intern_z(struct strpool *pool, const char *text)
     return str_intern(pool, text, strlen(text));
 }
 
+void strpool_copy(struct strpool *pool, const struct strpool *from)
+{
+    assert(pool->base == from->base && pool->first == from->first && pool->num == 0);
+    assert(!from->offsets && from->num == from->entries.len);
+    size_t size = 0;
+    for (uint32_t i = 0; i < from->num; i++)
+        size += (size_t)from->entries.items[i].len + 1;
+    char *text = arena_alloc(pool->arena, size);
+    struct str_entry *entries = vec_extend(pool->arena, &pool->entries, from->num);
+    for (uint32_t i = 0; i < from->num; i++) {
+        entries[i] = (struct str_entry){text, from->entries.items[i].len};
+        memcpy(text, from->entries.items[i].text, (size_t)entries[i].len + 1);
+        text += (size_t)entries[i].len + 1;
+    }
+    pool->num = from->num;
+    table_copy(&pool->table, pool->arena, &from->table);
+}
+
 void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base)
 {
     *pool = (struct strpool){.base = base, .arena = arena};

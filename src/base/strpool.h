@@ -49,6 +49,12 @@ struct strpool {
 void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base);
 
 /*
+ * Fills an empty growing pool with the texts of another one, under the same ids. Both have the same
+ * base.
+ */
+void strpool_copy(struct strpool *pool, const struct strpool *from);
+
+/*
  * The id of a text; adds the text if no pool of the stack has it. Copies the bytes, which must not
  * contain NUL.
  */

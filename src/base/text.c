@@ -92,6 +92,19 @@ static size_t utf8_length(const unsigned char *p, size_t len)
     return code < least[n] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : n;
 }
 
+bool text_is_utf8(const char *bytes, size_t len)
+{
+    const unsigned char *p = (const unsigned char *)bytes;
+    while (len) {
+        size_t n = utf8_length(p, len);
+        if (!n)
+            return false;
+        p += n;
+        len -= n;
+    }
+    return true;
+}
+
 void text_json_string(struct text *text, const char *bytes, size_t len)
 {
     const unsigned char *p = (const unsigned char *)bytes, *end = p + len;

@@ -67,6 +67,9 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void text_fmt(struct text *text, const char *format, ...);
 
+/* True if all bytes are valid UTF-8 (RFC 3629). */
+bool text_is_utf8(const char *bytes, size_t len);
+
 /* A JSON string literal with its quotes; invalid UTF-8 becomes U+FFFD. */
 void text_json_string(struct text *text, const char *bytes, size_t len);
 

@@ -26,6 +26,14 @@ static ir_ref build_op(const struct call *c, enum ir_op op, const ir_ref *args, 
     return ir_build(c->b->graph, op, c->type, 0, args, n);
 }
 
+static ir_ref misfit(const struct call *c, const char *fault)
+{
+    diag_add(c->b->diags, DIAG_ID_function_signature,
+             doc_place(&c->b->lib->doc, c->frame->impl->element), build_text(c->b, c->def->node),
+             build_text(c->b, c->def->name), fault);
+    return ir_poison(c->b->graph, c->type);
+}
+
 /* ---- streams ---- */
 
 static ir_ref not_constant(const struct call *c, str_id input)
@@ -151,7 +159,7 @@ static ir_ref build_bitangent(const struct call *c)
 }
 
 /* Records the value that hosts bind if the geometry lacks the property. */
-static void tell_default(const struct call *c, uint32_t index)
+static void record_default(const struct call *c, uint32_t index)
 {
     assert(index < c->b->shader->variables.len);
     struct shader_variable *variable = &c->b->shader->variables.items[index];
@@ -171,7 +179,7 @@ static ir_ref geomprop_uniform(const struct call *c, str_id name)
     str_id id = str_intern(c->b->shader->strings, full.data, full.len);
     uint32_t variable = shader_private_uniform(c->b->shader, id, c->type, 0);
     if (c->type == IR_TYPE_BOOL)
-        tell_default(c, variable);
+        record_default(c, variable);
     return ir_build(c->b->graph, c->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, c->type,
                     variable, NULL, 0);
 }
@@ -194,9 +202,9 @@ static ir_ref build_geompropvalue(const struct call *c)
     ir_ref stream = named_stream(c, "geomprop_", name.w[0].u, 0, c->type);
     uint32_t attribute;
     if (ir_get(c->b->graph, stream)->op == IR_STREAM) {
-        tell_default(c, ir_get(c->b->graph, stream)->attr);
+        record_default(c, ir_get(c->b->graph, stream)->attr);
         if (shader_attribute(c->b->shader, ir_get(c->b->graph, stream)->attr, &attribute))
-            tell_default(c, attribute);
+            record_default(c, attribute);
     }
     return stream;
 }
@@ -305,43 +313,142 @@ static ir_ref build_volumematerial(const struct call *c)
 static ir_ref build_chosen_input(const struct call *c)
 {
     struct ir_value number = {.type = IR_TYPE_VOID};
-    if (c->def->num_inputs == 0)
-        return 0;
+    if (c->def->num_inputs < 2)
+        return misfit(c, "the built-in code needs a number and inputs to choose from");
     if (!build_initial(c->b, c->frame->args[0], &number) || number.type != IR_TYPE_INT)
         return not_constant(c, c->ports[0].name);
-    uint32_t input = number.w[0].u + 1;
-    ir_ref chosen = number.w[0].u < c->def->num_inputs - 1u ? c->frame->args[input] : 0;
-    bool fits =
-        !chosen || c->type == IR_TYPE_MATERIAL || ir_type_of(c->b->graph, chosen) == c->type;
-    assert(!chosen || input < c->def->num_inputs);
-    return fits ? chosen : ir_poison(c->b->graph, c->type);
+    if (number.w[0].u >= c->def->num_inputs - 1u)
+        return misfit(c, "it has no input with this number");
+    ir_ref chosen = c->frame->args[number.w[0].u + 1];
+    bool is_any = c->type == IR_TYPE_MATERIAL,
+         may_be_absent = is_any || ir_type_is_closure(c->type) || ir_type_is_shader(c->type);
+    bool fits = chosen ? is_any || ir_type_of(c->b->graph, chosen) == c->type : may_be_absent;
+    return fits ? chosen : misfit(c, "the chosen input has another type than the output");
 }
 
-static const struct {
+/* ---- what the code needs of a definition, which may be one of the document ---- */
+
+#define OF(type) ((uint32_t)1 << IR_TYPE_##type)
+#define COLORS (OF(FLOAT) | OF(VEC3) | OF(VEC4))
+#define VECTORS (OF(FLOAT) | OF(VEC2) | OF(VEC3) | OF(VEC4))
+#define CLOSURES (OF(BSDF) | OF(EDF) | OF(VDF))
+#define SHADERS (OF(SURFACE) | OF(VOLUME) | OF(DISPLACEMENT))
+#define SAME 0u /* as the output */
+static_assert(IR_NUM_TYPES <= 32, "a set of types has 32 bits");
+
+enum { MAX_NEEDED = 5 };
+
+static const struct dynamic_node {
     str_id node;
     ir_ref (*build)(const struct call *call);
+    uint32_t output; /* sets of types */
+    struct {
+        str_id name;
+        uint32_t types;
+    } inputs[MAX_NEEDED];
 } dynamic_nodes[] = {
-    {STR_texcoord, build_texcoord},
-    {STR_geomcolor, build_geomcolor},
-    {STR_tangent, build_tangent},
-    {STR_bitangent, build_bitangent},
-    {STR_geompropvalue, build_geompropvalue},
-    {STR_geompropvalueuniform, build_geompropvalue},
-    {STR_blur, blur},
-    {STR_layer, build_layer},
-    {STR_mix, build_mix},
-    {STR_add, build_add},
-    {STR_multiply, build_multiply},
-    {STR_measured_edf, measured_edf},
-    {STR_surface, build_surface},
-    {STR_surface_unlit, build_surface_unlit},
-    {STR_volume, build_volume},
-    {STR_light, build_light},
-    {STR_displacement, build_displacement},
-    {STR_surfacematerial, build_surfacematerial},
-    {STR_volumematerial, build_volumematerial},
-    {STR_chosen_input, build_chosen_input},
+    {STR_texcoord, build_texcoord, VECTORS, {{STR_index, OF(INT)}}},
+    {STR_geomcolor, build_geomcolor, VECTORS, {{STR_index, OF(INT)}}},
+    {STR_tangent, build_tangent, OF(VEC3), {{STR_space, OF(STRING)}, {STR_index, OF(INT)}}},
+    {STR_bitangent, build_bitangent, OF(VEC3), {{STR_space, OF(STRING)}, {STR_index, OF(INT)}}},
+    {STR_geompropvalue,
+     build_geompropvalue,
+     VECTORS | OF(BOOL) | OF(INT),
+     {{STR_geomprop, OF(STRING)}, {STR_default, SAME}}},
+    {STR_geompropvalueuniform,
+     build_geompropvalue,
+     OF(STRING) | OF(SAMPLER),
+     {{STR_geomprop, OF(STRING)}, {STR_default, SAME}}},
+    {STR_blur,
+     blur,
+     VECTORS,
+     {{STR_in, SAME}, {STR_size, OF(FLOAT)}, {STR_filtertype, OF(STRING)}}},
+    {STR_layer, build_layer, OF(BSDF), {{STR_top, SAME}, {STR_base, OF(BSDF) | OF(VDF)}}},
+    {STR_mix,
+     build_mix,
+     CLOSURES | SHADERS,
+     {{STR_bg, SAME}, {STR_fg, SAME}, {STR_mix, OF(FLOAT)}}},
+    {STR_add, build_add, CLOSURES, {{STR_in1, SAME}, {STR_in2, SAME}}},
+    {STR_multiply, build_multiply, CLOSURES, {{STR_in1, SAME}, {STR_in2, OF(FLOAT) | OF(VEC3)}}},
+    {STR_measured_edf,
+     measured_edf,
+     OF(EDF),
+     {{STR_color, OF(VEC3)}, {STR_normal, OF(VEC3)}, {STR_file, OF(SAMPLER)}}},
+    {STR_surface,
+     build_surface,
+     OF(SURFACE),
+     {{STR_bsdf, OF(BSDF)},
+      {STR_edf, OF(EDF)},
+      {STR_opacity, OF(FLOAT)},
+      {STR_thin_walled, OF(BOOL)}}},
+    {STR_surface_unlit,
+     build_surface_unlit,
+     OF(SURFACE),
+     {{STR_emission, OF(FLOAT)},
+      {STR_emission_color, OF(VEC3)},
+      {STR_transmission, OF(FLOAT)},
+      {STR_transmission_color, OF(VEC3)},
+      {STR_opacity, OF(FLOAT)}}},
+    {STR_volume, build_volume, OF(VOLUME), {{STR_vdf, OF(VDF)}, {STR_edf, OF(EDF)}}},
+    {STR_light,
+     build_light,
+     OF(LIGHT),
+     {{STR_edf, OF(EDF)}, {STR_intensity, OF(FLOAT)}, {STR_exposure, OF(FLOAT)}}},
+    {STR_displacement,
+     build_displacement,
+     OF(DISPLACEMENT),
+     {{STR_displacement, OF(FLOAT) | OF(VEC3)}, {STR_scale, OF(FLOAT)}}},
+    {STR_surfacematerial,
+     build_surfacematerial,
+     OF(MATERIAL),
+     {{STR_surfaceshader, OF(SURFACE)},
+      {STR_backsurfaceshader, OF(SURFACE)},
+      {STR_displacementshader, OF(DISPLACEMENT)}}},
+    {STR_volumematerial, build_volumematerial, OF(MATERIAL), {{STR_volumeshader, OF(VOLUME)}}},
+    {STR_chosen_input, build_chosen_input, ~0u, {{0}}},
 };
+
+static bool is_in(ir_type_id type, uint32_t set)
+{
+    return type < IR_NUM_TYPES && set >> type & 1;
+}
+
+/* Closures and shaders may be absent; other inputs may not. */
+static bool has_input(const struct call *c, str_id name, uint32_t types)
+{
+    for (unsigned i = 0; i < c->def->num_inputs; i++)
+        if (c->ports[i].name == name) {
+            ir_type_id type = library_type_ir(c->b->lib, c->ports[i].type);
+            return types == SAME ? type == c->type : is_in(type, types);
+        }
+    return (types & ~(CLOSURES | SHADERS)) == 0 && types != SAME;
+}
+
+static const struct dynamic_node *find_code(str_id name)
+{
+    for (size_t i = 0; i < sizeof dynamic_nodes / sizeof *dynamic_nodes; i++)
+        if (dynamic_nodes[i].node == name)
+            return &dynamic_nodes[i];
+    return NULL;
+}
+
+/* The first difference between the definition and the needs of the code; NULL: none. */
+static const char *find_misfit(const struct call *c, const struct dynamic_node *code)
+{
+    if (c->def->num_outputs != 1 || !is_in(c->type, code->output))
+        return "the built-in code computes one output of another type";
+    for (unsigned i = 0; i < MAX_NEEDED && code->inputs[i].name; i++)
+        if (!has_input(c, code->inputs[i].name, code->inputs[i].types)) {
+            struct text fault;
+            text_init(&fault, c->b->arena);
+            text_fmt(&fault, "the built-in code needs the input '%s' with the type %s",
+                     build_text(c->b, code->inputs[i].name),
+                     code->inputs[i].types == SAME ? "of the output"
+                                                   : "of the built-in definition");
+            return text_cstr(&fault);
+        }
+    return NULL;
+}
 
 bool build_is_combined(const struct builder *b, const struct frame *frame)
 {
@@ -356,7 +463,8 @@ bool build_is_combined(const struct builder *b, const struct frame *frame)
         is_operand |= is_opaque && i < def->num_inputs;
     }
     /* closures of a target combine without the structs that hardware targets have for shaders */
-    return is_result && (is_operand || (b->options->closures && !ir_type_is_closure(type)));
+    return find_code(def->node) && is_result
+           && (is_operand || (b->options->closures && !ir_type_is_closure(type)));
 }
 
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)
@@ -366,11 +474,14 @@ bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results
                         library_ports(b->lib, frame->node.nodedef, NULL), IR_TYPE_VOID};
     call.type = library_type_ir(b->lib, call.ports[call.def->num_inputs].type);
     bool is_chosen = frame->impl->kind == IMPL_DYNAMIC && frame->impl->ref == STR_chosen_input;
-    str_id name = is_chosen ? STR_chosen_input : call.def->node;
-    for (size_t i = 0; i < sizeof dynamic_nodes / sizeof *dynamic_nodes; i++)
-        if (dynamic_nodes[i].node == name) {
-            results[0] = dynamic_nodes[i].build(&call);
-            return true;
-        }
-    return false;
+    const struct dynamic_node *code = find_code(is_chosen ? STR_chosen_input : call.def->node);
+    if (!code)
+        diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, frame->impl->element),
+                 build_text(b, frame->impl->name), build_text(b, call.def->node));
+    const char *fault = code ? find_misfit(&call, code) : NULL;
+    if (code && !fault)
+        results[0] = code->build(&call);
+    else if (fault)
+        misfit(&call, fault);
+    return code && !fault;
 }

@@ -214,7 +214,7 @@ static bool number_of(struct builder *b, const char *item, int64_t next, int32_t
     return !expected;
 }
 
-void build_lights(struct builder *b, const char *const *items, uint32_t num_items, bool is_said)
+void build_lights(struct builder *b, const char *const *items, uint32_t num_items, bool is_explicit)
 {
     for (uint32_t i = 0; i < num_items; i++) {
         const char *name = arena_strndup(b->arena, items[i], strcspn(items[i], "="));
@@ -224,7 +224,7 @@ void build_lights(struct builder *b, const char *const *items, uint32_t num_item
         uint32_t nodedef = find_light(b, name, strlen(name)), before = b->diags->num_errors;
         bool is_bound = nodedef != LIBRARY_NONE ? add_defined_light(b, nodedef, type)
                                                 : add_light_element(b, name, type);
-        if (!is_bound && is_said && b->diags->num_errors == before)
+        if (!is_bound && is_explicit && b->diags->num_errors == before)
             diag_add(b->diags, DIAG_ID_unknown_light, nowhere, name,
                      light_hint(b, name, strlen(name)));
     }

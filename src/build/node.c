@@ -33,7 +33,8 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     assert(family->nodedef == impl->nodedef);
     const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
-    ir_ref operands[256], base = 0;
+    ir_ref base = 0;
+    ir_ref *operands = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs + 2u);
     unsigned n = 1;
     operands[0] = ir_const_float(b->graph, 1.0f);
     for (unsigned i = 0; i < def->num_inputs; i++) {
@@ -87,6 +88,26 @@ static ir_ref dark_light(struct builder *b)
     return ir_build(b->graph, IR_LIGHT_SHADER, IR_TYPE_LIGHT, 0, args, 3);
 }
 
+void build_report_large(void *user_data)
+{
+    struct builder *b = user_data;
+    diag_add(b->diags, DIAG_ID_lang_limit,
+             doc_place(build_doc(b), b->called ? b->called : build_doc(b)->root),
+             "the arguments and results of the function have more than 128 numbers and vectors");
+}
+
+void build_report_index(void *user_data, int32_t index, uint32_t length)
+{
+    struct builder *b = user_data;
+    const struct document *doc = build_doc(b);
+    elem_id input = b->called ? doc_child_of_kind(doc, b->called, KIND_INPUT, STR_index) : 0;
+    if (b->called) /* else the function is one of a closure or of the interface */
+        diag_add(b->diags, DIAG_ID_index_out_of_range,
+                 input ? doc_attr_place(doc, input, STR_value) : doc_place(doc, b->called), index,
+                 length, length - 1);
+}
+
+/* False after a report. */
 static void call(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct implementation *impl = frame->impl;
@@ -99,6 +120,7 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
         return;
     }
     uint32_t first_node = b->graph->nodes.len;
+    b->called = frame->node.element;
     bool has_tiles = build_note_textures(b, frame);
     assert(frame->node.nodedef == impl->nodedef);
     if (impl->kind == IMPL_EXPRESSION)
@@ -109,6 +131,7 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
         build_verbatim(b, frame, results);
     if (has_tiles)
         build_check_tiles(b, frame, first_node);
+    b->called = 0;
 }
 
 static void build_by_implementation(struct builder *b, const struct frame *frame, ir_ref *results)
@@ -118,8 +141,11 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     switch ((enum impl_kind)impl->kind) {
     case IMPL_VERBATIM:
-        if (build_is_combined(b, frame) && build_dynamic(b, frame, results))
-            return;
+        if (build_is_combined(b, frame)) {
+            if (build_dynamic(b, frame, results))
+                return;
+            break;
+        }
         call(b, frame, results);
         return;
     case IMPL_EXPRESSION:
@@ -128,8 +154,6 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     case IMPL_DYNAMIC:
         if (build_dynamic(b, frame, results))
             return;
-        diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, impl->element),
-                 build_text(b, impl->name), build_text(b, def->node));
         break;
     case IMPL_GRAPH:
     case IMPL_FOREIGN:

@@ -13,8 +13,23 @@
 
 #include <stddef.h>
 
+/* Reports a texture of the document that a sandbox does not allow. */
+static void check_file(struct builder *b, str_id file, elem_id element)
+{
+    const struct document *doc = build_doc(b);
+    if (!b->options->texture_fault || !file || element < doc->first_element)
+        return;
+    const char *from = doc_place(doc, element).file,
+               *fault = b->options->texture_fault(b->options->texture_user_data, from ? from : "",
+                                                  build_text(b, file));
+    if (fault)
+        diag_add(b->diags, DIAG_ID_texture_refused, doc_attr_place(doc, element, STR_value),
+                 build_text(b, file), fault);
+}
+
 ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id element)
 {
+    check_file(b, variable.file, element);
     variable.block = BLOCK_TEXTURES;
     variable.update = UPDATE_UNIFORM;
     if (build_find_tiles(b, element, &variable))
@@ -140,8 +155,9 @@ static void note_reader(struct builder *b, const struct nodedef *def, const stru
 static ir_ref as_texel(struct builder *b, ir_ref value)
 {
     ir_ref parts[4] = {value};
-    unsigned have = value ? ir_type_info(ir_type_of(b->graph, value))->components : 0,
-             n = have ? 1 : 0;
+    ir_type_id type = value ? ir_type_of(b->graph, value) : IR_TYPE_VOID;
+    bool is_color = ir_type_is_float(type) && !ir_type_is_matrix(type);
+    unsigned have = is_color ? ir_type_info(type)->components : 0, n = have ? 1 : 0;
     if (have == 4)
         return value;
     for (unsigned i = have; i < 4; i++)

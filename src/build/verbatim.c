@@ -4,6 +4,8 @@
 
 #include "build/build_priv.h"
 
+#include <ctype.h>
+
 struct source_call {
     struct builder *b;
     const struct frame *frame;
@@ -214,25 +216,42 @@ static unsigned put_arguments(const struct source_call *c, ir_ref *out)
 
 /* ---- Expressions ---- */
 
-/* "{{in1}}" becomes "{{0}}": verbatim expressions of the shader refer to operands by number. */
+/* The length of the word between "{{" and "}}" at p; 0: none is there. */
+static size_t placeholder_length(const char *p)
+{
+    size_t len = 0;
+    if (p[0] == '{' && p[1] == '{')
+        while (isalnum((unsigned char)p[2 + len]) || p[2 + len] == '_' || p[2 + len] == ':')
+            len++;
+    return len && p[2 + len] == '}' && p[3 + len] == '}' ? len : 0;
+}
+
+/*
+ * "{{in1}}" becomes "{{0}}": verbatim expressions of the shader refer to operands by number. 0
+ * after a report: the definition has no such input.
+ */
 static str_id number_inputs(const struct source_call *c, str_id source)
 {
+    struct builder *b = c->b;
     struct text out;
-    text_init(&out, c->b->arena);
-    for (const char *p = build_text(c->b, source); *p;) {
-        const char *end = p[0] == '{' && p[1] == '{' ? strstr(p, "}}") : NULL;
-        str_id name = end ? str_find(c->b->shader->strings, p + 2, (size_t)(end - p - 2)) : 0;
-        int index = -1;
-        for (int i = 0; name && i < c->def->num_inputs; i++)
-            index = c->ports[i].name == name ? i : index;
-        if (index < 0) {
+    text_init(&out, b->arena);
+    for (const char *p = build_text(b, source); *p;) {
+        size_t len = placeholder_length(p);
+        if (!len) {
             text_char(&out, *p++);
             continue;
         }
+        str_id name = str_intern(b->shader->strings, p + 2, len);
+        int index = library_find_input(b->lib, c->impl->nodedef, name);
+        if (index < 0) {
+            diag_add(b->diags, DIAG_ID_lang_unknown, doc_place(&b->lib->doc, c->impl->element),
+                     "input", build_text(b, name), "");
+            return 0;
+        }
         text_fmt(&out, "{{%d}}", index);
-        p = end + 2;
+        p += len + 4;
     }
-    return str_intern(c->b->shader->strings, out.data, out.len);
+    return str_intern(b->shader->strings, out.data, out.len);
 }
 
 static void call_expressions(const struct source_call *c, const struct shader_verbatim *v,
@@ -241,6 +260,10 @@ static void call_expressions(const struct source_call *c, const struct shader_ve
     for (uint32_t i = 0; i < c->def->num_outputs; i++) {
         struct shader_verbatim one = *v;
         one.expression = number_inputs(c, c->layer->refs.items[c->verbatim->first_expression + i]);
+        if (!one.expression) {
+            fail(c, results);
+            return;
+        }
         uint32_t callee = callee_of(c, add_verbatim(c, &one));
         results[i] = ir_build(c->b->graph, IR_VERBATIM, type_of(c, c->def->num_inputs + i), callee,
                               args, num_args);

@@ -33,7 +33,8 @@ static ir_ref position(struct shader *shader)
     return stream(shader, STR_positionWorld);
 }
 
-static ir_ref known(struct shader *shader, ir_ref *place, str_id name, ir_ref make(struct shader *))
+static ir_ref made_once(struct shader *shader, ir_ref *place, str_id name,
+                        ir_ref make(struct shader *))
 {
     if (!*place) {
         ir_push_name(shader->graph, name);
@@ -47,10 +48,10 @@ static ir_ref context_value(struct shader *shader, struct closure_point *point, 
                             const ir_ref *light)
 {
     switch (name) {
-    case STR_V: return known(shader, &point->view, name, view);
-    case STR_N: return known(shader, &point->normal, name, normal);
+    case STR_V: return made_once(shader, &point->view, name, view);
+    case STR_N: return made_once(shader, &point->normal, name, normal);
     case STR_xi: return shader_stream(shader, STR_random, IR_TYPE_VEC3);
-    case STR_P: return known(shader, &point->position, name, position);
+    case STR_P: return made_once(shader, &point->position, name, position);
     case STR_sample_index: return ir_build(shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
     default: return name == STR_L && light ? *light : ir_poison(shader->graph, IR_TYPE_VEC3);
     }
@@ -124,6 +125,23 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
         return closure_call_source(shader, host, leaf, which, light);
     ir_ref result[1];
     return closure_call_all(shader, host, leaf, which, light, result) ? result[0] : 0;
+}
+
+ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf)
+{
+    struct ir_graph *g = shader->graph;
+    assert(ir_get(g, leaf)->op == IR_LEAF);
+    if (ir_type_of(g, leaf) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
+        return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    ir_ref through = closure_call(shader, host, leaf, LEAF_THROUGHPUT, NULL);
+    ir_ref weight = ir_arg(g, leaf, 0);
+    if (!through) /* opaque */
+        return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
+    if (ir_const_is(g, weight, 1.0f))
+        return through;
+    /* 1 - w (1 - T) */
+    ir_ref stopped = ir_op2(g, IR_MUL, closure_one_minus(g, through), weight);
+    return closure_one_minus(g, stopped);
 }
 
 void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const char *role)

@@ -8,6 +8,10 @@
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 
+/* describe.c: writes the weight of a leaf as an expression, with the names of inputs and nodes. */
+void closure_describe_weight(const struct shader *shader, const struct closure_leaf *leaf,
+                             struct text *out);
+
 /* Its unit normal. */
 ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 
@@ -35,9 +39,9 @@ struct closure_value closure_call_with(struct shader *shader, const struct closu
                                        ir_ref leaf, enum source_context context,
                                        const ir_ref *light, const struct closure_value *operands);
 
-/* flatten.c: the throughput of a leaf with its weight. */
+/* call.c: the throughput of a leaf with its weight. */
 ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf);
-/* The throughput of an operator whose operands let these fractions pass. */
+/* value.c: the throughput of an operator whose operands let these fractions pass. */
 ir_ref closure_operator_throughput(struct ir_graph *graph, ir_ref operator_, ir_ref a, ir_ref b);
 
 /* scatter.c: writes the function for path tracers. Emission and alpha may be 0: black and 1. */
@@ -102,9 +106,9 @@ ir_ref closure_differentials(struct shader *shader, ir_ref root);
 /* alpha.c: the possible values of an alpha that is not constant 1. */
 enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 
-/* a · b; 0 stands for 1. */
+/* product.c: a · b; 0 stands for 1. */
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
-/* product.c: closure_mul with the loop-invariant factors first. */
+/* closure_mul with the loop-invariant factors first. */
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 /* guard.c: finds the parts that need a branch. in_loop: considers only code inside the loop. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);

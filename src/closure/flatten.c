@@ -37,19 +37,6 @@ static bool is_operator(const struct ir_node *node)
            || node->op == IR_CLOSURE_SCALE;
 }
 
-ir_ref closure_mul(struct ir_graph *g, ir_ref a, ir_ref b)
-{
-    if (!a || !b)
-        return a ? a : b;
-    return ir_op2(g, IR_MUL, a, b);
-}
-
-ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
-{
-    ir_ref one = ir_const_splat(g, ir_type_of(g, a), 1.0f);
-    return ir_op2(g, IR_SUB, one, a);
-}
-
 ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 {
     assert(!bg || !fg || ir_type_of(g, bg) == ir_type_of(g, fg));
@@ -68,42 +55,10 @@ static ir_ref modified_base(const struct flattener *f, ir_ref ref)
 
 /* ---- throughput, upwards ---- */
 
-ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf)
-{
-    struct ir_graph *g = shader->graph;
-    assert(ir_get(g, leaf)->op == IR_LEAF);
-    if (ir_type_of(g, leaf) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
-        return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
-    ir_ref through = closure_call(shader, host, leaf, LEAF_THROUGHPUT, NULL);
-    ir_ref weight = ir_arg(g, leaf, 0);
-    if (!through) /* opaque */
-        return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
-    if (ir_const_is(g, weight, 1.0f))
-        return through;
-    /* 1 - w (1 - T) */
-    ir_ref stopped = ir_op2(g, IR_MUL, closure_one_minus(g, through), weight);
-    return closure_one_minus(g, stopped);
-}
-
 static ir_ref through_of(const struct flattener *f, ir_ref ref)
 {
     return ref && f->throughputs[ref] ? f->throughputs[ref]
                                       : ir_const_splat(f->graph, IR_TYPE_VEC3, 1.0f);
-}
-
-ir_ref closure_operator_throughput(struct ir_graph *g, ir_ref ref, ir_ref a, ir_ref b)
-{
-    switch (ir_get(g, ref)->op) {
-    case IR_LAYER: return ir_op2(g, IR_MUL, a, b);
-    case IR_CLOSURE_MIX: return ir_op3(g, IR_MIX, a, b, ir_arg(g, ref, 2));
-    case IR_CLOSURE_ADD: {
-        /* 1 - ((1 - Ta) + (1 - Tb)), which must not become negative */
-        ir_ref sum = ir_op2(g, IR_ADD, a, b);
-        ir_ref rest = ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f));
-        return ir_op2(g, IR_MAX, rest, ir_const_float(g, 0.0f));
-    }
-    default: /* scaling a closure does not change its throughput */ return a;
-    }
 }
 
 static ir_ref operator_throughput(struct flattener *f, ir_ref ref)

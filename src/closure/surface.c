@@ -562,18 +562,6 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
 
 /* ---- looking inside ---- */
 
-static void describe_weight(struct shader *shader, const struct closure_leaf *leaf,
-                            struct text *out)
-{
-    struct ir_value value;
-    if (ir_get_const(shader->graph, leaf->scalar, &value))
-        text_float(out, value.w[0].f);
-    else
-        text_fmt(out, "%%%u", leaf->scalar);
-    if (leaf->color)
-        text_fmt(out, " * %%%u", leaf->color);
-}
-
 static void describe_list(struct shader *shader, const struct closure_host *host, ir_ref root,
                           struct text *out)
 {
@@ -584,7 +572,7 @@ static void describe_list(struct shader *shader, const struct closure_host *host
         const struct ir_origin *origin = &shader->graph->origins.items[node->origin];
         text_fmt(out, "  %-24s %-32s weight ", str_text(shader->strings, origin->name),
                  str_text(shader->strings, shader->graph->callees.items[node->attr].name));
-        describe_weight(shader, &list.leaves.items[i], out);
+        closure_describe_weight(shader, &list.leaves.items[i], out);
         text_char(out, '\n');
     }
 }

@@ -65,6 +65,21 @@ static struct closure_value leaf_value(struct evaluation *e, ir_ref leaf)
                                   closure_leaf_throughput(e->shader, e->host, leaf)};
 }
 
+ir_ref closure_operator_throughput(struct ir_graph *g, ir_ref ref, ir_ref a, ir_ref b)
+{
+    switch (ir_get(g, ref)->op) {
+    case IR_LAYER: return ir_op2(g, IR_MUL, a, b);
+    case IR_CLOSURE_MIX: return ir_op3(g, IR_MIX, a, b, ir_arg(g, ref, 2));
+    case IR_CLOSURE_ADD: {
+        /* 1 - ((1 - Ta) + (1 - Tb)), which must not become negative */
+        ir_ref sum = ir_op2(g, IR_ADD, a, b);
+        ir_ref rest = ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f));
+        return ir_op2(g, IR_MAX, rest, ir_const_float(g, 0.0f));
+    }
+    default: /* scaling a closure does not change its throughput */ return a;
+    }
+}
+
 static struct closure_value operator_value(struct evaluation *e, ir_ref ref)
 {
     struct ir_graph *g = e->graph;

@@ -134,6 +134,8 @@ static void render_place(const struct diag_place *place, struct text *out)
     text_char(out, ':');
     if (place->line)
         text_fmt(out, "%u:", (unsigned)place->line);
+    else if (place->path && *place->path)
+        text_fmt(out, " %s:", place->path);
     if (place->line && place->column)
         text_fmt(out, "%u:", (unsigned)place->column);
     text_char(out, ' ');

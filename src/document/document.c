@@ -131,9 +131,7 @@ void doc_set_attr(struct document *doc, elem_id element, str_id name, str_id val
     if (attr)
         doc->attrs.items[attr - doc->attrs.items].value = value;
     else
-        doc_add_attr(
-            doc, element,
-            (struct attribute){.name = name, .value = value, .column = own(doc, element)->column});
+        doc_add_attr(doc, element, (struct attribute){.name = name, .value = value});
 }
 
 void doc_remove_attr(struct document *doc, elem_id element, str_id name)
@@ -162,6 +160,13 @@ void doc_set_name(struct document *doc, elem_id element, str_id name)
     own(doc, element)->name = name;
 }
 
+void doc_set_name_place(struct document *doc, elem_id element, uint32_t line, uint32_t column)
+{
+    struct doc_link *link = link_of(doc, element);
+    link->name_line = (uint16_t)(line < UINT16_MAX ? line : UINT16_MAX);
+    link->name_column = (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX);
+}
+
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
                    uint16_t column)
 {
@@ -171,7 +176,7 @@ void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_
     e->column = column;
 }
 
-void doc_remove_element(struct document *doc, elem_id element)
+static void unlink_element(struct document *doc, elem_id element)
 {
     struct element *e = own(doc, element);
     if (!e->parent)
@@ -192,15 +197,26 @@ void doc_remove_element(struct document *doc, elem_id element)
     link_of(doc, element)->previous = 0;
 }
 
+void doc_remove_element(struct document *doc, elem_id element)
+{
+    const struct element *e = own(doc, element);
+    if (!e->parent)
+        return;
+    if (link_of(doc, element)->comments)
+        doc_move_comments(doc, element, e->next ? e->next : e->parent,
+                          e->next ? COMMENT_BEFORE : COMMENT_LAST);
+    unlink_element(doc, element);
+}
+
 void doc_move_element(struct document *doc, elem_id element, elem_id new_parent)
 {
-    doc_remove_element(doc, element);
+    unlink_element(doc, element);
     link_last(doc, new_parent, element);
 }
 
 void doc_move_before(struct document *doc, elem_id element, elem_id sibling)
 {
-    doc_remove_element(doc, element);
+    unlink_element(doc, element);
     struct element *e = own(doc, element);
     elem_id previous = link_of(doc, sibling)->previous;
     assert(!previous || own(doc, previous)->next == sibling);
@@ -229,8 +245,8 @@ uint16_t doc_add_file(struct document *doc, str_id name)
 
 struct doc_mark doc_mark(const struct document *doc, elem_id root)
 {
-    return (struct doc_mark){doc->elements.len, doc->attrs.len, *doc_element(doc, root),
-                             doc->has_templates};
+    return (struct doc_mark){doc->elements.len,      doc->attrs.len,          doc->comments.len,
+                             doc->comment_lists.len, *doc_element(doc, root), doc->has_templates};
 }
 
 void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mark)
@@ -239,8 +255,10 @@ void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mar
     assert(mark->num_elements <= doc->elements.len && mark->num_attrs <= doc->attrs.len);
     doc->elements.len = doc->links.len = mark->num_elements;
     doc->attrs.len = mark->num_attrs;
+    doc->comments.len = mark->num_comments;
+    doc->comment_lists.len = mark->num_comment_lists;
     *own(doc, root) = mark->root;
-    link_of(doc, root)->last_child = 0;
+    *link_of(doc, root) = (struct doc_link){0};
     doc->has_templates = mark->has_templates;
 }
 
@@ -307,21 +325,75 @@ const char *doc_file_name(const struct document *doc, uint16_t file)
     return str_text(doc->strings, doc->files.items[file - doc->first_file]);
 }
 
+/* Code points of a text. */
+static uint32_t width_of(const struct document *doc, str_id text)
+{
+    uint32_t width = 0;
+    for (const char *c = str_text(doc->strings, text); *c; c++)
+        width += (*c & 0xc0) != 0x80;
+    return width;
+}
+
+/* NULL: the element has a line. */
+static const char *kept_path(const struct document *doc, elem_id element)
+{
+    doc = doc_layer(doc, element);
+    uint32_t first = 0, num = doc->paths.len;
+    while (num) {
+        uint32_t half = num / 2;
+        elem_id at = doc->paths.items[first + half].element;
+        if (at == element)
+            return doc->paths.items[first + half].path;
+        first = at < element ? first + half + 1 : first;
+        num = at < element ? num - half - 1 : half;
+    }
+    return NULL;
+}
+
 struct diag_place doc_place(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);
-    return (struct diag_place){
-        .file = doc_file_name(doc, e->file), .line = e->line, .column = e->column};
+    return (struct diag_place){.file = doc_file_name(doc, e->file),
+                               .path = kept_path(doc, element),
+                               .line = e->line,
+                               .column = e->column,
+                               .length = 1 + width_of(doc, e->category)};
+}
+
+struct diag_place doc_name_place(const struct document *doc, elem_id element)
+{
+    struct diag_place place = doc_place(doc, element);
+    const struct document *layer = doc_layer(doc, element);
+    uint32_t own = element - layer->first_element;
+    if (own >= layer->links.len || !layer->links.items[own].name_column)
+        return place;
+    place.line += layer->links.items[own].name_line;
+    place.column = layer->links.items[own].name_column;
+    place.length = width_of(doc, doc_element(doc, element)->name);
+    return place;
 }
 
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr)
 {
     struct diag_place place = doc_place(doc, element);
     const struct attribute *found = doc_attr(doc, element, attr);
-    if (found && found->column) {
+    if (found && found->column && place.line) {
         place.line += found->line_delta;
         place.column = found->column;
+        place.length = width_of(doc, found->value);
     }
+    return place;
+}
+
+struct diag_place doc_attr_name_place(const struct document *doc, elem_id element, str_id attr)
+{
+    struct diag_place place = doc_attr_place(doc, element, attr);
+    const struct attribute *found = doc_attr(doc, element, attr);
+    uint32_t width = width_of(doc, attr), before = width + 2; /* name=" */
+    if (!found || found->column <= before || doc_layer(doc, element)->has_loose_attrs)
+        return place;
+    place.column -= before;
+    place.length = width;
     return place;
 }
 
@@ -376,10 +448,24 @@ static void report_duplicate(struct document *doc, elem_id first, elem_id second
 {
     bool equal = are_equal(doc, first, second);
     diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name,
-             doc_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
-    diag_add(diags, DIAG_ID_previous_definition, doc_place(doc, first));
-    if (equal)
-        doc_remove_element(doc, second);
+             doc_name_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
+    diag_add(diags, DIAG_ID_previous_definition, doc_name_place(doc, first));
+    doc_remove_element(doc, second);
+    if (equal || doc_second_of_name(doc, first))
+        return;
+    vec_push(doc->arena, &doc->doubles, (struct doc_double){first, second});
+    table_add(&doc->double_table, doc->arena, hash_pair(first, 0), doc->doubles.len);
+}
+
+elem_id doc_second_of_name(const struct document *doc, elem_id element)
+{
+    doc = doc_layer(doc, element);
+    uint32_t at = hash_pair(element, 0);
+    for (uint32_t found;
+         doc->doubles.len && (found = table_next(&doc->double_table, hash_pair(element, 0), &at));)
+        if (doc->doubles.items[found - 1].first == element)
+            return doc->doubles.items[found - 1].second;
+    return 0;
 }
 
 void doc_index_names(struct document *doc, struct diag_list *diags)

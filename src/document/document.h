@@ -50,6 +50,11 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
  * (strings, filenames, shaders).
  */
 bool doc_value_is_valid(doc_type type, const char *text, size_t len);
+/*
+ * How many numbers the text has, if they are more than the type has; otherwise 0. `out`, which may
+ * be NULL, gets the first ones.
+ */
+unsigned doc_excess_numbers(doc_type type, const char *text, size_t len, struct ir_value *out);
 /* The reason why a value is invalid, as a suffix for a message. */
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
 
@@ -82,9 +87,45 @@ struct attribute {
     uint16_t column;     /* of the value's first character */
 };
 
-/* Links for constant-time insertion and removal while the tree grows. */
+/* The path of an element without a line. */
+struct doc_place_path {
+    elem_id element;
+    const char *path;
+};
+
+/*
+ * What only a tree in memory needs: links for constant-time insertion and removal while it grows,
+ * and the place of an element's name, for messages.
+ */
 struct doc_link {
     elem_id last_child, previous;
+    uint32_t comments;    /* index in `comment_lists`, plus 1; 0 = none */
+    uint16_t name_line;   /* from the element's line; saturates */
+    uint16_t name_column; /* of the name's first character; 0: unknown */
+};
+
+/* Two elements of one scope and name. The second is no longer in the tree. */
+struct doc_double {
+    elem_id first, second;
+};
+
+/* The place of a comment relative to its element. */
+enum comment_place {
+    COMMENT_BEFORE, /* on the lines before the element */
+    COMMENT_LAST,   /* inside the element, after its last child */
+    COMMENT_BEHIND, /* on the line on which the element ends */
+    NUM_COMMENT_PLACES
+};
+
+/* A comment of the file, or a blank line. Only doc_write reads comments. */
+struct doc_comment {
+    str_id text;   /* between "<!--" and "-->"; 0: a blank line */
+    uint32_t next; /* in the same place: index plus 1; 0 = none */
+};
+
+/* The comments of an element by place: indices plus 1; 0 = none. */
+struct comment_lists {
+    uint32_t first[NUM_COMMENT_PLACES], last[NUM_COMMENT_PLACES];
 };
 
 struct document {
@@ -95,14 +136,23 @@ struct document {
     elem_id root;
     /* limit of this layer for steps that multiply elements (doc_is_full); 0 = unlimited */
     uint32_t max_elements;
-    bool has_templates;           /* a <template> was added after the last expansion */
-    bool has_attributedefs;       /* an <attributedef> was added somewhere */
-    bool is_global;               /* no element has a namespace (set by doc_qualify_names) */
+    bool has_templates;     /* a <template> was added after the last expansion */
+    bool has_attributedefs; /* an <attributedef> was added somewhere */
+    bool is_global;         /* no element has a namespace (set by doc_qualify_names) */
+    bool keeps_comments;    /* the reader adds the comments of files */
+    /* blanks surround some '=', so no place of an attribute's name is known */
+    bool has_loose_attrs;
     VEC(struct element) elements; /* elements of this layer */
     VEC(struct attribute) attrs;
     VEC(str_id) files;          /* names from the user or from includes */
     VEC(struct doc_link) links; /* parallel to `elements`; empty in an image layer */
-    struct table names;         /* (parent, name) → element: doc_index_names */
+    VEC(struct doc_comment) comments;
+    VEC(struct comment_lists) comment_lists;
+    VEC(struct doc_place_path) paths; /* ascending by element: doc_keep_paths */
+    struct table names;               /* (parent, name) → element: doc_index_names */
+    /* names that differing elements share, and a table by the first element */
+    VEC(struct doc_double) doubles;
+    struct table double_table;
 };
 
 /* Makes an empty document with a root element <materialx>. */
@@ -129,13 +179,29 @@ void doc_remove_attr(struct document *doc, elem_id element, str_id name);
 /* also updates the kind */
 void doc_set_category(struct document *doc, elem_id element, str_id category);
 void doc_set_name(struct document *doc, elem_id element, str_id name);
+/* The place of the name, in lines from the element's. */
+void doc_set_name_place(struct document *doc, elem_id element, uint32_t line, uint32_t column);
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
                    uint16_t column);
-/* Unlinks the element from its parent. Its parent becomes 0. */
+/*
+ * Unlinks the element from its parent. Its parent becomes 0. Its comments go to the next sibling,
+ * or to the end of the parent.
+ */
 void doc_remove_element(struct document *doc, elem_id element);
 /* Appends the element to the children of another parent. */
 void doc_move_element(struct document *doc, elem_id element, elem_id new_parent);
 void doc_move_before(struct document *doc, elem_id element, elem_id sibling);
+/* comment.c */
+
+/* Appends a comment, or a blank line (text 0), to the element's comments in a place. */
+void doc_add_comment(struct document *doc, elem_id element, enum comment_place place, str_id text);
+/* Moves the comments of an element before another one, or to the end of the other's children. */
+void doc_move_comments(struct document *doc, elem_id from, elem_id to, enum comment_place place);
+/* The first comment of an element in a place: an index plus 1; 0 = none. */
+uint32_t doc_first_comment(const struct document *doc, elem_id element, enum comment_place place);
+
+/* document.c */
+
 static inline bool doc_is_full(const struct document *doc)
 {
     return doc->max_elements && doc->elements.len >= doc->max_elements;
@@ -148,7 +214,7 @@ uint16_t doc_add_file(struct document *doc, str_id name);
  * must have no children at the mark.
  */
 struct doc_mark {
-    uint32_t num_elements, num_attrs;
+    uint32_t num_elements, num_attrs, num_comments, num_comment_lists;
     struct element root;
     bool has_templates;
 };
@@ -163,9 +229,11 @@ elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id eleme
 
 /*
  * Builds the index for doc_child and doc_find. Call it after the tree is complete, and again after
- * additions. With `diags` it reports duplicate names and removes elements that repeat an equal one.
+ * additions. With `diags` it reports duplicate names and removes the second element.
  */
 void doc_index_names(struct document *doc, struct diag_list *diags);
+/* The second element of this one's scope and name, which the index left out; 0: none. */
+elem_id doc_second_of_name(const struct document *doc, elem_id element);
 /* The same for one element that was added, renamed or moved since. */
 void doc_index_element(struct document *doc, elem_id element);
 
@@ -209,9 +277,14 @@ void doc_path(const struct document *doc, elem_id element, char separator, struc
 enum element_kind doc_kind_of(str_id category);
 
 const char *doc_file_name(const struct document *doc, uint16_t file); /* NULL for 0 */
+/* The place of the beginning of the start tag, with the category. */
 struct diag_place doc_place(const struct document *doc, elem_id element);
+/* The place of the element's name, or of the element if the text has no name for it. */
+struct diag_place doc_name_place(const struct document *doc, elem_id element);
 /* The place of an attribute's value, or of the element if the attribute is absent. */
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr);
+/* The place of an attribute's name. */
+struct diag_place doc_attr_name_place(const struct document *doc, elem_id element, str_id attr);
 
 /* template.c: expands the <template> elements of this layer in place (docs/library.md). */
 void doc_expand_templates(struct document *doc, struct diag_list *diags);
@@ -231,9 +304,57 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
 void doc_qualify_names(struct document *doc);
 
 /*
- * write.c: writes the tree as MaterialX XML with two spaces per level, for `mxgen library expand`.
+ * paths.c: replaces the backslashes of file names by '/', with a warning for each name: the names
+ * are those of this layer.
+ */
+void doc_fix_paths(struct document *doc, struct diag_list *diags);
+/* The same for one name; `where` is its place. */
+str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place where,
+                    struct diag_list *diags);
+
+/*
+ * edit.c: edits of a complete document. The numbers of elements stay.
+ */
+
+/*
+ * Fills a document of doc_init with the tree of another one, above the same base. Its strings must
+ * be a copy of the other's (strpool_copy).
+ */
+void doc_copy(struct document *doc, const struct document *from);
+/*
+ * Appends a copy of an element of any document, with all below it and their comments; `name` 0
+ * keeps the name. The copies have no line. 0: the document is full (doc_is_full).
+ */
+elem_id doc_copy_element(struct document *doc, elem_id parent, const struct document *from,
+                         elem_id element, str_id name);
+/* True for the root and for elements of this layer that are below it. */
+bool doc_has_element(const struct document *doc, elem_id element);
+/* True if an element can have this name ("MaterialX Names": letters, digits, '_', namespaces). */
+bool doc_is_name(const char *text);
+/*
+ * Renames an element, indexes it, and changes the references to it. Time: linear in the elements of
+ * the layer.
+ */
+void doc_rename(struct document *doc, elem_id element, str_id name);
+/* Keeps the paths of elements without a line, for doc_place. Call it when the tree is complete. */
+void doc_keep_paths(struct document *doc);
+
+/*
+ * write.c: writes the tree as MaterialX XML: an element per line, two spaces per level, the name
+ * first, then the attributes in their order, with the comments and single blank lines of the file.
+ * Reading the text gives an equal tree.
  */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
+
+/*
+ * cycle.c: reports a cycle; may change `links`. Each node reads the next one through `port`, the
+ * last one the first.
+ */
+struct doc_cycle_link {
+    elem_id node, port; /* the port has the connection; it may belong to a nodegraph between them */
+};
+void doc_report_cycle(const struct document *doc, struct doc_cycle_link *links, uint32_t n,
+                      struct diag_list *diags);
 
 /* validate.c: checks that need no library: names, attributes, value syntax, structure. */
 void doc_validate(const struct document *doc, struct diag_list *diags);
@@ -243,6 +364,9 @@ void doc_validate(const struct document *doc, struct diag_list *diags);
  */
 void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags);
 
+/* value.c: reports excess numbers in a value; `suggestion` is the end of the message. */
+void doc_report_excess(const struct document *doc, elem_id element, doc_type type,
+                       const char *suggestion, struct diag_list *diags);
 /* Reports the type of an element if it is unknown or missing. */
 void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags);
 

@@ -186,10 +186,12 @@ static str_id guess_type(const struct upgrade *u, str_id channels, str_id to)
     return to == STR_color3 ? STR_color4 : STR_color3;
 }
 
+/* An input has a node around it. One at the top, which validation reports, has not. */
 static bool is_port(const struct upgrade *u, elem_id element)
 {
     const struct element *e = doc_element(u->doc, element);
-    return e->parent && (e->kind == KIND_INPUT || e->kind == KIND_OUTPUT);
+    bool is_input = e->kind == KIND_INPUT && e->parent && doc_element(u->doc, e->parent)->parent;
+    return is_input || (e->kind == KIND_OUTPUT && e->parent);
 }
 
 static void upgrade_port_channels(struct upgrade *u, elem_id port, str_id channels)

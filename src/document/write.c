@@ -32,9 +32,59 @@ static void indent(struct text *out, uint32_t depth)
         text_str(out, "  ");
 }
 
-static void write_start_tag(const struct document *doc, elem_id element, struct text *out)
+static void write_comment(const struct document *doc, str_id text, struct text *out)
+{
+    text_str(out, "<!--");
+    text_str(out, str_text(doc->strings, text));
+    text_str(out, "-->");
+}
+
+/* Comments and blank lines on lines of their own. */
+static void write_comments(const struct document *doc, elem_id element, enum comment_place place,
+                           uint32_t depth, struct text *out)
+{
+    for (uint32_t i = doc_first_comment(doc, element, place); i;
+         i = doc->comments.items[i - 1].next) {
+        str_id text = doc->comments.items[i - 1].text;
+        if (text) {
+            indent(out, depth);
+            write_comment(doc, text, out);
+        }
+        text_char(out, '\n');
+    }
+}
+
+static void end_line(const struct document *doc, elem_id element, struct text *out)
+{
+    for (uint32_t i = doc_first_comment(doc, element, COMMENT_BEHIND); i;
+         i = doc->comments.items[i - 1].next) {
+        text_char(out, doc_element(doc, element)->parent ? ' ' : '\n');
+        write_comment(doc, doc->comments.items[i - 1].text, out);
+    }
+    text_char(out, '\n');
+}
+
+/* True if an element below the root has the prefix "xi", which the reader gives to XInclude. */
+static bool has_includes(const struct document *doc, elem_id root)
+{
+    str_id include = str_find(doc->strings, "xi:include", 10);
+    elem_id at = root;
+    while (at && include && doc_element(doc, at)->category != include)
+        at = doc_next_in_tree(doc, root, at);
+    return at && include;
+}
+
+static bool has_content(const struct document *doc, elem_id element)
+{
+    return doc_element(doc, element)->first_child || doc_first_comment(doc, element, COMMENT_LAST);
+}
+
+static void write_start_tag(const struct document *doc, elem_id element, uint32_t depth,
+                            struct text *out)
 {
     const struct element *e = doc_element(doc, element);
+    write_comments(doc, element, COMMENT_BEFORE, depth, out);
+    indent(out, depth);
     text_char(out, '<');
     text_str(out, str_text(doc->strings, e->category));
     if (e->name)
@@ -42,7 +92,23 @@ static void write_start_tag(const struct document *doc, elem_id element, struct 
     const struct attribute *attrs = doc_attrs(doc, element);
     for (uint32_t i = 0; i < e->num_attrs; i++)
         write_attr(doc, attrs[i].name, attrs[i].value, out);
-    text_str(out, e->first_child ? ">\n" : "/>\n");
+    if (!e->parent && has_includes(doc, element))
+        text_str(out, " xmlns:xi=\"http://www.w3.org/2001/XInclude\"");
+    if (has_content(doc, element)) {
+        text_str(out, ">\n");
+    } else {
+        text_str(out, "/>");
+        end_line(doc, element, out);
+    }
+}
+
+static void write_end_tag(const struct document *doc, elem_id element, uint32_t depth,
+                          struct text *out)
+{
+    write_comments(doc, element, COMMENT_LAST, depth + 1, out);
+    indent(out, depth);
+    text_fmt(out, "</%s>", str_text(doc->strings, doc_element(doc, element)->category));
+    end_line(doc, element, out);
 }
 
 void doc_write(const struct document *doc, elem_id root, struct text *out)
@@ -51,18 +117,18 @@ void doc_write(const struct document *doc, elem_id root, struct text *out)
     if (!doc_element(doc, root)->parent)
         text_str(out, "<?xml version=\"1.0\"?>\n");
     for (elem_id element = root, next; element; element = next) {
-        indent(out, depth);
-        write_start_tag(doc, element, out);
+        write_start_tag(doc, element, depth, out);
         next = doc_element(doc, element)->first_child;
         if (next) {
             depth++;
             continue;
         }
+        if (has_content(doc, element))
+            write_end_tag(doc, element, depth, out);
         while (element != root && !(next = doc_element(doc, element)->next)) {
             element = doc_element(doc, element)->parent;
             assert(depth > 0);
-            indent(out, --depth);
-            text_fmt(out, "</%s>\n", str_text(doc->strings, doc_element(doc, element)->category));
+            write_end_tag(doc, element, --depth, out);
         }
     }
 }

@@ -439,12 +439,9 @@ static bool is_value_type(ir_type_id type)
     return type < IR_NUM_TYPES && ir_type_info(type)->components > 0;
 }
 
-bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_value *args,
-                unsigned num_args, struct ir_value *out)
+static bool eval_op(enum ir_op op, uint32_t attr, const struct ir_value *args, unsigned num_args,
+                    struct ir_value *out)
 {
-    if (!(ir_op_info(op)->flags & OP_PURE) || num_args == 0 || !is_value_type(type))
-        return false;
-    out->type = type;
     switch (op) {
     case IR_CONSTRUCT: return eval_construct(args, num_args, out);
     case IR_CONVERT: return eval_convert(&args[0], out);
@@ -459,4 +456,25 @@ bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_v
             return wholes[op](args, out);
     }
     return eval_components(op, args, num_args, out);
+}
+
+/* Machines differ in the sign and payload of the NaN that they compute. */
+static void unify_nans(struct ir_value *value)
+{
+    for (unsigned i = 0; i < components_of(value); i++)
+        if (isnan(value->w[i].f))
+            value->w[i].u = IR_NAN;
+}
+
+bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_value *args,
+                unsigned num_args, struct ir_value *out)
+{
+    if (!(ir_op_info(op)->flags & OP_PURE) || num_args == 0 || !is_value_type(type))
+        return false;
+    out->type = type;
+    if (!eval_op(op, attr, args, num_args, out))
+        return false;
+    if (scalar_of(out) == IR_TYPE_FLOAT)
+        unify_nans(out);
+    return true;
 }

@@ -64,6 +64,7 @@ ir_type_id ir_type_vector(ir_type_id scalar, unsigned components); /* VOID if th
 struct ir_member {
     str_id name;
     ir_type_id type;
+    uint16_t reserved; /* 0: no record of a library image has padding */
 };
 
 /* A struct (array_length 0) or an array of one type. */
@@ -73,6 +74,8 @@ struct ir_user_type {
     ir_type_id element; /* for arrays */
     uint16_t num_members;
     uint32_t first_member; /* in the members of the table */
+    /* of a value, all levels together: scalars, and vectors and scalars; not set in a graph */
+    uint32_t num_words, num_leaves;
 };
 
 /*
@@ -150,9 +153,10 @@ ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args
 /*
  * Evaluates a pure op over constants in float32, with the semantics of GLSL 4.50. false if the
  * result is undefined (integer division by zero, a shift out of range, the logarithm of 0) or the
- * op cannot be evaluated. `attr` as in ir_node; `type` is the result type. `out` must not be one of
- * `args`.
+ * op cannot be evaluated. Infinities and NaN are values like others; a NaN in the result has the
+ * bits IR_NAN. `attr` as in ir_node; `type` is the result type. `out` must not be one of `args`.
  */
+#define IR_NAN 0x7fc00000u
 bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_value *args,
                 unsigned num_args, struct ir_value *out);
 

@@ -217,16 +217,26 @@ static ir_ref part_of(const struct ir_graph *graph, ir_ref a, uint32_t index)
     return ir_arg(graph, a, index);
 }
 
-static ir_ref simplify_index(struct ir_graph *graph, ir_ref a, ir_ref index)
+static uint32_t num_parts(const struct ir_graph *graph, ir_type_id type)
+{
+    if (type >= IR_NUM_TYPES)
+        return graph->user_types.items[type - IR_TYPE_FIRST_USER].array_length;
+    const struct ir_type_info *info = ir_type_info(type);
+    return info->columns > 1 ? info->columns : info->components;
+}
+
+/* No target takes a constant index that is out of range: the last part stands for those beyond. */
+static ir_ref simplify_index(struct ir_graph *graph, ir_type_id type, ir_ref a, ir_ref index)
 {
     const struct ir_node *node = ir_get(graph, index);
     if (node->op != IR_CONST)
         return 0;
-    uint32_t i = graph->words.items[node->attr].u;
-    ir_type_id type = ir_type_of(graph, a);
-    if (!is_vector(type))
-        return part_of(graph, a, i);
-    return i < ir_type_info(type)->components ? ir_component(graph, a, i) : 0;
+    uint32_t i = graph->words.items[node->attr].u, length = num_parts(graph, ir_type_of(graph, a));
+    if (i >= length) {
+        ir_ref last = ir_const_int(graph, (int32_t)length - 1);
+        return ir_build(graph, IR_INDEX, type, 0, (ir_ref[]){a, last}, 2);
+    }
+    return is_vector(ir_type_of(graph, a)) ? ir_component(graph, a, i) : part_of(graph, a, i);
 }
 
 /* ---- Arithmetic of vectors and scalars ---- */
@@ -437,7 +447,7 @@ ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
     case IR_CONSTRUCT: return simplify_construct(graph, type, args, num_args);
     case IR_CONVERT: return simplify_convert(graph, type, args[0]);
     case IR_MEMBER: return part_of(graph, args[0], attr);
-    case IR_INDEX: return simplify_index(graph, args[0], args[1]);
+    case IR_INDEX: return simplify_index(graph, type, args[0], args[1]);
     default:
         return op >= IR_RADIANS && op <= IR_SMOOTHSTEP
                    ? simplify_componentwise(graph, op, type, args, num_args)

@@ -287,6 +287,9 @@ void index_implementation(struct indexer *ix, elem_id element)
                  str_text(&lib->strings, nodedef));
         return;
     }
+    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
+                           ix->diags))
+        return;
     if (!library_nodedef(lib, impl.nodedef)->num_outputs)
         return; /* reported as no-output or unknown-type */
     str_id graph = index_attr(ix, element, STR_nodegraph);
@@ -328,10 +331,11 @@ void index_functional_graph(struct indexer *ix, elem_id element)
                                   .ref = element};
     impl.nodedef = library_nodedef_by_name(lib, name);
     if (impl.nodedef == LIBRARY_NONE) {
-        diag_add(ix->diags, DIAG_ID_unknown_nodedef,
-                 doc_attr_place(&lib->doc, element, STR_nodedef), str_text(&lib->strings, name),
-                 library_suggest_nodedef(lib, name, ix->diags));
+        library_report_nodedef(lib, element, name, ix->diags);
         return;
     }
+    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
+                           ix->diags))
+        return;
     add_impl(ix, impl);
 }

@@ -41,16 +41,18 @@ static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
         if (doc_element(&lib->doc, e)->kind != KIND_MEMBER || !has_type(ix, e, &type))
             continue;
         vec_push(ix->arena, &lib->unit.members,
-                 (struct ir_member){doc_element(&lib->doc, e)->name, library_type_ir(lib, type)});
+                 (struct ir_member){.name = doc_element(&lib->doc, e)->name,
+                                    .type = library_type_ir(lib, type)});
     }
-    if (lib->unit.members.len == first)
-        return IR_TYPE_VOID;
-    vec_push(ix->arena, &lib->unit.user_types,
-             (struct ir_user_type){.name = name,
-                                   .num_members = (uint16_t)(lib->unit.members.len - first),
-                                   .first_member = first});
-    return (ir_type_id)(IR_TYPE_FIRST_USER + lib->unit.base_user_types + lib->unit.user_types.len
-                        - 1);
+    uint32_t num_members = lib->unit.members.len - first;
+    ir_type_id type = IR_TYPE_VOID;
+    if (num_members && num_members <= UINT16_MAX)
+        type = lang_add_type(&lib->unit, (struct ir_user_type){.name = name,
+                                                               .num_members = (uint16_t)num_members,
+                                                               .first_member = first});
+    if (num_members && !type)
+        diag_add(ix->diags, DIAG_ID_lang_limit, doc_place(&lib->doc, element), "it is too large");
+    return type;
 }
 
 static void add_typedef(struct indexer *ix, elem_id element)
@@ -112,6 +114,8 @@ static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind 
     }
 }
 
+enum { MAX_INHERIT = 256 };
+
 /*
  * Adds own ports first, then inherited ports without a redeclaration (specification, "NodeDef
  * Inheritance").
@@ -120,8 +124,8 @@ static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind
 {
     struct library *lib = ix->lib;
     uint32_t first = lib->ports.len;
-    elem_id at = nodedef;
-    for (unsigned depth = 0; at; depth++) {
+    elem_id at = nodedef, mark = nodedef; /* Brent: a cycle comes back to one of the marks */
+    for (unsigned depth = 1; at; depth++) {
         add_ports_of(ix, at, kind, first);
         str_id inherit = index_attr(ix, at, STR_inherit);
         if (!inherit)
@@ -129,13 +133,18 @@ static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind
         elem_id parent = 0;
         for (const struct library *layer = lib; !parent && layer; layer = layer->base)
             parent = doc_child_of_kind(&layer->doc, layer->doc.root, KIND_NODEDEF, inherit);
-        if (!parent || depth > 100) {
-            diag_add(ix->diags, parent ? DIAG_ID_inherit_cycle : DIAG_ID_inherit_missing,
+        if (parent == mark || depth == MAX_INHERIT || !parent) {
+            diag_add(ix->diags,
+                     !parent          ? DIAG_ID_inherit_missing
+                     : parent == mark ? DIAG_ID_inherit_cycle
+                                      : DIAG_ID_inherit_depth,
                      doc_attr_place(&lib->doc, at, STR_inherit),
                      text_of(lib, doc_element(&lib->doc, at)->name), text_of(lib, inherit));
             break;
         }
         at = parent;
+        if ((depth & (depth - 1)) == 0)
+            mark = at;
     }
     return (uint16_t)(lib->ports.len - first);
 }

@@ -17,7 +17,8 @@ static inline void copy_leaves(const ir_ref *from, uint32_t count, ir_ref *out)
 /* True if one more tree node may run. */
 static inline bool may_go_on(struct lower *lo)
 {
-    if (lo->frame->budget-- == 0 || lo->graph->nodes.len > lo->max_graph_nodes)
+    if (lo->frame->budget-- == 0 || lo->graph->nodes.len > lo->max_graph_nodes
+        || (lo->depth > 0 && ++lo->num_steps > LOWER_MAX_STEPS))
         lo->failed = true;
     return !lo->failed;
 }
@@ -70,6 +71,14 @@ static void lower_global(struct lower *lo, const struct lang_node *node, ir_ref 
 
 /* Operators */
 
+/* Tells the host of a constant index that is out of range. */
+static void check_index(const struct lower *lo, uint32_t length, ir_ref index)
+{
+    const union ir_word *words = ir_constant_words(lo->graph, index);
+    if (words && words->u >= length && lo->host->bad_index)
+        lo->host->bad_index(lo->host->user_data, words->i, length);
+}
+
 static void lower_operands(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
     ir_ref args[AST_MAX_OPERANDS];
@@ -84,6 +93,8 @@ static void lower_operands(struct lower *lo, const struct lang_node *node, ir_re
     }
     if (lo->failed)
         return;
+    if (node->op == IR_INDEX)
+        check_index(lo, ast_num_parts(lo->unit, lower_node(lo, node->a)->type), args[1]);
     bool is_special = node->op >= IR_TEX && node->op <= IR_TEX_FETCH
                       && ir_type_of(lo->graph, args[0]) != IR_TYPE_SAMPLER;
     *out = is_special && lo->host->texture ? lo->host->texture(lo->host->user_data, node->op, args)
@@ -165,7 +176,7 @@ static uint32_t part_offset(struct lower *lo, const struct lang_node *node)
     ir_type_id type;
     if (node->op == IR_MEMBER)
         return ast_member_offset(lo->unit, whole->type, node->b, ast_type_leaves, &type);
-    uint32_t length = lang_user_type(lo->unit, whole->type, NULL)->array_length;
+    uint32_t length = ast_num_parts(lo->unit, whole->type);
     return known_index(lo, whole->next, length) * lower_leaves(lo, node->type);
 }
 
@@ -258,8 +269,7 @@ static void assign_element(struct lower *lo, const struct lang_node *node, ir_re
     if (node->op == IR_SWIZZLE) {
         whole = with_components(lo, whole, type, node->b, value, node->type);
     } else {
-        const struct ir_type_info *info = ir_type_info(type);
-        uint32_t length = info->columns > 1 ? info->columns : info->components;
+        uint32_t length = ast_num_parts(lo->unit, type);
         uint32_t index = known_index(lo, lower_node(lo, node->a)->next, length);
         if (lo->failed)
             return;

@@ -21,7 +21,8 @@ enum {
     LOWER_OUTER_DEPTH = 2, /* depth of the called function and its direct callees */
     /* larger functions may shrink with constant arguments; the limit of tree nodes for a trial */
     LOWER_MAX_TRIED = 200,
-    LOWER_TRIED_NODES = 10, /* a trial fails if it adds more nodes than this to the graph */
+    LOWER_MAX_STEPS = 10000, /* tree nodes that may run in the callees of a call, all together */
+    LOWER_TRIED_NODES = 10,  /* a trial fails if it adds more nodes than this to the graph */
 };
 
 struct lower_frame { /* the function being lowered */
@@ -42,6 +43,7 @@ struct lower {
     struct lower_frame *frame;
     unsigned depth;
     uint32_t max_graph_nodes; /* lowering fails if the graph grows beyond this */
+    uint32_t num_steps;       /* tree nodes that ran in callees */
     uint32_t num_calls;       /* CALL nodes that were built, or found in the graph */
     bool failed;              /* the function cannot become nodes; its result has no meaning */
 };

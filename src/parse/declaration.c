@@ -42,7 +42,7 @@ static bool parse_member(struct parser *p, uint32_t first)
         for (uint32_t i = first; i < p->unit->members.len; i++)
             if (p->unit->members.items[i].name == name)
                 PARSE_ERROR(p, parse_where_token(p, &at), duplicate_name, parse_text(p, name));
-        vec_push(p->unit->arena, &p->unit->members, (struct ir_member){name, type});
+        vec_push(p->unit->arena, &p->unit->members, (struct ir_member){.name = name, .type = type});
     } while (parse_accept(p, TOKEN_COMMA));
     return parse_expect(p, TOKEN_SEMICOLON);
 }
@@ -70,19 +70,23 @@ static void declare_struct(struct parser *p, const struct token *at, str_id name
 {
     assert(first <= p->unit->members.len);
     uint32_t num_members = p->unit->members.len - first;
-    uint32_t id = IR_TYPE_FIRST_USER + p->unit->base_user_types + p->unit->user_types.len;
     ir_type_id known = lookup_type(p->unit, at->text, at->len);
     if (known >= IR_TYPE_FIRST_USER && known < p->first_user_type && same_members(p, known, first))
         p->unit->members.len = first;
     else if (known != IR_TYPE_VOID && (known < IR_TYPE_FIRST_USER || known >= p->first_user_type))
         PARSE_ERROR(p, parse_where_token(p, at), duplicate_name, parse_text(p, name));
-    else if (num_members == 0 || num_members > MAX_MEMBERS || id > UINT16_MAX)
+    else if (num_members == 0 || num_members > MAX_MEMBERS)
         PARSE_ERROR(p, parse_where_token(p, at), lang_limit,
                     parse_say(p, "a struct has 1 to %d members", MAX_MEMBERS));
-    else
-        vec_push(p->unit->arena, &p->unit->user_types,
-                 (struct ir_user_type){
-                     .name = name, .num_members = (uint16_t)num_members, .first_member = first});
+    else if (lang_add_type(p->unit, (struct ir_user_type){.name = name,
+                                                          .num_members = (uint16_t)num_members,
+                                                          .first_member = first})
+             == IR_TYPE_VOID)
+        PARSE_ERROR(p, parse_where_token(p, at), lang_limit,
+                    parse_say(p,
+                              "there are too many structs and arrays, or this one has more "
+                              "than %d numbers",
+                              LANG_MAX_WORDS));
 }
 
 static void parse_struct(struct parser *p)

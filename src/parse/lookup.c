@@ -33,12 +33,7 @@ ir_type_id lookup_array(struct lang_unit *unit, ir_type_id element, uint32_t len
             if (user->array_length == length && user->element == element)
                 return (ir_type_id)(IR_TYPE_FIRST_USER + layer->base_user_types + i);
         }
-    uint32_t id = IR_TYPE_FIRST_USER + unit->base_user_types + unit->user_types.len;
-    if (id > UINT16_MAX)
-        return IR_TYPE_VOID;
-    vec_push(unit->arena, &unit->user_types,
-             (struct ir_user_type){.array_length = length, .element = element});
-    return (ir_type_id)id;
+    return lang_add_type(unit, (struct ir_user_type){.array_length = length, .element = element});
 }
 
 /* Globals and functions */

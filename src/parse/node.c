@@ -66,16 +66,6 @@ static bool all_literals(struct parser *p, const lang_ref *args, unsigned num_ar
     return true;
 }
 
-static bool is_finite(const struct ir_value *value)
-{
-    for (unsigned i = 0;
-         i < ir_type_info(value->type)->components && check_scalar(value->type) == IR_TYPE_FLOAT;
-         i++)
-        if (value->w[i].f - value->w[i].f != 0.0f)
-            return false;
-    return true;
-}
-
 lang_ref tree_op(struct parser *p, enum ir_op op, ir_type_id type, uint32_t attr,
                  const lang_ref *args, unsigned num_args, uint32_t place)
 {
@@ -89,7 +79,7 @@ lang_ref tree_op(struct parser *p, enum ir_op op, ir_type_id type, uint32_t attr
                  .kind = LANG_OP, .op = (uint8_t)op, .type = type, .a = args[0], .b = attr},
              height, place);
     struct ir_value value;
-    if (!all_literals(p, args, num_args) || !check_value(p, ref, &value) || !is_finite(&value))
+    if (!all_literals(p, args, num_args) || !check_value(p, ref, &value))
         return ref;
     p->unit->nodes.len--;
     p->origins.len--;

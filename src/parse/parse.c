@@ -23,7 +23,7 @@ struct diag_place parse_where(const struct parser *p, uint32_t place, uint32_t l
 
 struct diag_place parse_where_token(const struct parser *p, const struct token *token)
 {
-    return (struct diag_place){p->file_name, token->line, token->column, token->columns};
+    return (struct diag_place){p->file_name, token->line, token->column, token->columns, NULL};
 }
 
 struct diag_place parse_where_function(const struct parser *p, const struct lang_function *function)

@@ -56,7 +56,10 @@ static ir_type_id sized_array(struct parser *p, ir_type_id element, uint32_t pla
     ir_type_id type = lookup_array(p->unit, element, length.w[0].u);
     if (type == IR_TYPE_VOID)
         PARSE_ERROR(p, parse_where(p, place, 0), lang_limit,
-                    "there are too many structs and arrays");
+                    parse_say(p,
+                              "there are too many structs and arrays, or this one has more "
+                              "than %d numbers",
+                              LANG_MAX_WORDS));
     return type;
 }
 

@@ -139,6 +139,20 @@ static lang_ref fold_part(struct spec *s, const struct lang_node *node, const la
     return whole.kind == LANG_GLOBAL ? element_of_global(s, node, whole.a, index.w[0].u) : 0;
 }
 
+/*
+ * GLSL refuses a constant index that is out of range, even in code that never runs: the last part
+ * stands for those beyond it.
+ */
+static void clamp_index(struct spec *s, lang_ref whole, lang_ref index)
+{
+    struct ir_value value;
+    uint32_t length = ast_num_parts(s->unit, spec_node(s, whole)->type);
+    if (!spec_get(s, index, &value) || value.w[0].u < length)
+        return;
+    spec_node(s, index)->a = s->unit->words.len;
+    vec_push(s->unit->arena, &s->unit->words, (union ir_word){.u = length - 1});
+}
+
 static lang_ref spec_op(struct spec *s, struct lang_node node)
 {
     if (node.op == IR_SELECT)
@@ -149,6 +163,8 @@ static lang_ref spec_op(struct spec *s, struct lang_node node)
     lang_ref args[AST_MAX_OPERANDS];
     unsigned count = spec_operands(s, node.a, &chain, args, AST_MAX_OPERANDS);
     node.a = chain.first;
+    if (node.op == IR_INDEX)
+        clamp_index(s, args[0], args[1]);
     bool is_part = node.op == IR_MEMBER || node.op == IR_INDEX;
     lang_ref folded = is_part ? fold_part(s, &node, args) : 0;
     if (!folded)
@@ -164,8 +180,10 @@ lang_ref spec_target(struct spec *s, lang_ref ref)
         lang_ref source_index = node.op == IR_INDEX ? ast_node(s->layer, node.a)->next : 0;
         struct chain chain = {0};
         spec_append(s, &chain, spec_target(s, node.a));
-        if (source_index)
+        if (source_index) {
             spec_append(s, &chain, spec_expression(s, source_index));
+            clamp_index(s, chain.first, chain.last);
+        }
         node.a = chain.first;
     }
     return spec_add(s, node);

@@ -3,44 +3,6 @@
 
 #include <assert.h>
 
-const uint8_t lang_child_fields[LANG_NUM_KINDS] = {
-    [LANG_OP] = LANG_CHILD_A,
-    [LANG_CALL] = LANG_CHILD_B,
-    [LANG_DECLARE] = LANG_CHILD_B,
-    [LANG_ASSIGN] = LANG_CHILD_A | LANG_CHILD_B,
-    [LANG_EXPR] = LANG_CHILD_A,
-    [LANG_IF] = LANG_CHILD_A | LANG_CHILD_B | LANG_CHILD_C,
-    [LANG_FOR] = LANG_CHILD_A | LANG_CHILD_B | LANG_CHILD_C,
-    [LANG_WHILE] = LANG_CHILD_B | LANG_CHILD_C,
-    [LANG_DO] = LANG_CHILD_B | LANG_CHILD_C,
-    [LANG_BLOCK] = LANG_CHILD_A | LANG_CHILD_B,
-    [LANG_RETURN] = LANG_CHILD_A,
-};
-
-static uint32_t type_size(const struct lang_unit *unit, ir_type_id type,
-                          uint32_t (*size_of)(const struct lang_unit *, ir_type_id))
-{
-    const struct lang_unit *layer;
-    const struct ir_user_type *user = lang_user_type(unit, type, &layer);
-    if (user->array_length)
-        return user->array_length * size_of(unit, user->element);
-    assert(user->first_member + user->num_members <= layer->members.len);
-    uint32_t size = 0;
-    for (uint32_t i = 0; i < user->num_members; i++)
-        size += size_of(unit, layer->members.items[user->first_member + i].type);
-    return size;
-}
-
-uint32_t ast_user_type_words(const struct lang_unit *unit, ir_type_id type)
-{
-    return type_size(unit, type, ast_type_words);
-}
-
-uint32_t ast_user_type_leaves(const struct lang_unit *unit, ir_type_id type)
-{
-    return type_size(unit, type, ast_type_leaves);
-}
-
 uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32_t index,
                            uint32_t (*size_of)(const struct lang_unit *, ir_type_id),
                            ir_type_id *out_type)
@@ -63,6 +25,14 @@ uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target)
         node = ast_node(layer, node->a);
     assert(node->kind == LANG_VAR);
     return node->a;
+}
+
+uint32_t ast_num_parts(const struct lang_unit *unit, ir_type_id type)
+{
+    if (ast_is_user_type(type))
+        return lang_user_type(unit, type, NULL)->array_length;
+    const struct ir_type_info *info = ir_type_info(type);
+    return info->columns > 1 ? info->columns : info->components;
 }
 
 uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t param)

@@ -67,20 +67,19 @@ static inline struct ir_value ast_value(ir_type_id type, const union ir_word *wo
 /*
  * The number of scalars in a value of a type, including members and elements; 0 for opaque types.
  */
-uint32_t ast_user_type_words(const struct lang_unit *unit, ir_type_id type);
 static inline uint32_t ast_type_words(const struct lang_unit *unit, ir_type_id type)
 {
-    return ast_is_user_type(type) ? ast_user_type_words(unit, type)
+    return ast_is_user_type(type) ? lang_user_type(unit, type, NULL)->num_words
                                   : ir_type_info(type)->components;
 }
 
 /*
  * The number of leaves in a value of a type: 1 for a vector, the sum over the members for a struct.
  */
-uint32_t ast_user_type_leaves(const struct lang_unit *unit, ir_type_id type);
 static inline uint32_t ast_type_leaves(const struct lang_unit *unit, ir_type_id type)
 {
-    return ast_is_user_type(type) ? ast_user_type_leaves(unit, type) : type != IR_TYPE_VOID;
+    return ast_is_user_type(type) ? lang_user_type(unit, type, NULL)->num_leaves
+                                  : type != IR_TYPE_VOID;
 }
 
 /*
@@ -93,6 +92,9 @@ uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32
 
 /* The slot of a target expression: a VAR, or a SWIZZLE, INDEX or MEMBER of one. */
 uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target);
+
+/* The number of elements, columns or components that an index selects from. */
+uint32_t ast_num_parts(const struct lang_unit *unit, ir_type_id type);
 
 /* enum lang_param_mode of a function's parameter. */
 uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t param);

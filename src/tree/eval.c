@@ -12,7 +12,13 @@
 
 #include <assert.h>
 
-enum { MAX_CALL_DEPTH = 64, MAX_EXPRESSION_DEPTH = 400, MAX_WORDS = 1 << 16 };
+enum {
+    MAX_CALL_DEPTH = 64,
+    MAX_EXPRESSION_DEPTH = 400,
+    MAX_WORDS = 1 << 16,
+    MAX_CALL_STEPS = 20000, /* of one constant */
+    MAX_STEPS = 4000000,    /* of all constants of a generation: half a second */
+};
 
 struct frame { /* an active call */
     const struct lang_unit *layer;
@@ -26,7 +32,7 @@ struct frame { /* an active call */
 struct eval {
     const struct lang_unit *unit;
     struct arena *scratch;
-    uint32_t steps_left;
+    uint32_t *steps_left;
     unsigned call_depth, expression_depth;
     struct frame frame;
 };
@@ -41,6 +47,17 @@ struct place {
 
 static bool eval_expression(struct eval *ev, lang_ref ref, union ir_word *out);
 static bool eval_function(struct eval *ev, const struct frame *frame);
+
+/* Copying words takes time, too: a step is a node, or this many words. */
+enum { WORDS_PER_STEP = 16 };
+
+/* False if the steps do not suffice. */
+static bool spend(struct eval *ev, uint32_t steps)
+{
+    bool suffices = *ev->steps_left >= steps;
+    *ev->steps_left = suffices ? *ev->steps_left - steps : 0;
+    return suffices;
+}
 
 /* Places */
 
@@ -262,12 +279,12 @@ static bool open_frame(struct eval *ev, uint32_t id, struct frame *frame)
     frame->offsets = arena_alloc(ev->scratch, frame->fn->num_slots * sizeof *frame->offsets);
     frame->defined = arena_zalloc(ev->scratch, frame->fn->num_slots);
     uint32_t size = 0;
-    for (uint32_t i = 0; i < frame->fn->num_slots; i++) {
+    for (uint32_t i = 0; i < frame->fn->num_slots && size <= MAX_WORDS; i++) {
         frame->offsets[i] = size;
         size += ast_type_words(ev->unit, ast_slot(frame->layer, frame->fn, i)->type);
     }
     uint32_t result = ast_type_words(ev->unit, frame->fn->return_type);
-    if (size > MAX_WORDS || result > MAX_WORDS)
+    if (size > MAX_WORDS || result > MAX_WORDS || !spend(ev, (size + result) / WORDS_PER_STEP))
         return false;
     frame->words = arena_zalloc(ev->scratch, (size + result) * sizeof *frame->words);
     frame->result = frame->words + size;
@@ -343,9 +360,9 @@ static bool eval_any(struct eval *ev, lang_ref ref, union ir_word *out)
 
 static bool eval_expression(struct eval *ev, lang_ref ref, union ir_word *out)
 {
-    if (ev->steps_left == 0 || ev->expression_depth == MAX_EXPRESSION_DEPTH)
+    uint32_t num_words = ast_type_words(ev->unit, ast_node(ev->frame.layer, ref)->type);
+    if (ev->expression_depth == MAX_EXPRESSION_DEPTH || !spend(ev, 1 + num_words / WORDS_PER_STEP))
         return false;
-    ev->steps_left--;
     ev->expression_depth++;
     bool ok = eval_any(ev, ref, out);
     ev->expression_depth--;
@@ -433,9 +450,8 @@ static enum flow run_loop(struct eval *ev, const struct lang_node *node)
         union ir_word condition = {.u = 1};
         if (test_first && node->b && !eval_expression(ev, node->b, &condition))
             return FLOW_FAIL;
-        if (!condition.u || ev->steps_left == 0)
+        if (!condition.u || !spend(ev, 1))
             return condition.u ? FLOW_FAIL : FLOW_NEXT;
-        ev->steps_left--;
         enum flow flow = node->c ? run_one(ev, node->c) : FLOW_NEXT;
         if (flow == FLOW_FAIL || flow == FLOW_RETURN)
             return flow;
@@ -506,9 +522,9 @@ static bool is_plain(ir_type_id type)
 }
 
 bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_value *args,
-                    struct ir_value *results, uint32_t max_steps, struct arena *scratch)
+                    struct ir_value *results, uint32_t *steps_left, struct arena *scratch)
 {
-    struct eval ev = {.unit = unit, .scratch = scratch, .steps_left = max_steps};
+    struct eval ev = {.unit = unit, .scratch = scratch, .steps_left = steps_left};
     struct frame frame;
     if (!open_frame(&ev, id, &frame))
         return false;
@@ -537,4 +553,14 @@ bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_v
         *results++ = ast_value(param->type, frame.words + frame.offsets[i]);
     }
     return true;
+}
+
+bool lang_eval_constant(struct lang_unit *generated, uint32_t id, const struct ir_value *args,
+                        struct ir_value *results, struct arena *scratch)
+{
+    uint32_t left = MAX_STEPS - generated->eval_steps,
+             allowed = left < MAX_CALL_STEPS ? left : MAX_CALL_STEPS, unused = allowed;
+    bool ok = lang_eval_call(generated, id, args, results, &unused, scratch);
+    generated->eval_steps += allowed - unused;
+    return ok;
 }

@@ -54,12 +54,6 @@ enum lang_kind {
     LANG_NUM_KINDS
 };
 
-/*
- * The child fields of a node, by kind; a nonzero `next` is a sibling. ast.c
- */
-enum lang_child_field { LANG_CHILD_A = 1, LANG_CHILD_B = 2, LANG_CHILD_C = 4 };
-extern const uint8_t lang_child_fields[LANG_NUM_KINDS];
-
 struct lang_node {
     uint8_t kind;
     uint8_t op;
@@ -86,7 +80,11 @@ enum lang_function_flags {
     LANG_FN_STRINGS = 8,
     /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
     LANG_FN_EXPRESSION = 16,
-    LANG_FN_FINAL = 32, /* nothing to specialise, except for arguments and callees: canonical.c */
+    /*
+     * nothing to specialise, except for arguments and callees (canonical.c): saves a tenth of a
+     * process (docs/benchmarks.md)
+     */
+    LANG_FN_FINAL = 32,
 };
 
 struct lang_function {
@@ -122,6 +120,7 @@ enum lang_global_kind {
 struct lang_global {
     str_id name;
     uint8_t kind; /* enum lang_global_kind */
+    uint8_t reserved;
     ir_type_id type;
     /*
      * value of a CONST or OPTION of built-in or array type, in unit->words (arrays: elements in
@@ -156,6 +155,10 @@ struct lang_host { /* how globals become IR nodes */
      * lowered regardless of their size. May be NULL.
      */
     ir_ref (*texture)(void *user_data, enum ir_op op, const ir_ref *args);
+    /* A constant index is out of range; the last part is read. May be NULL. */
+    void (*bad_index)(void *user_data, int32_t index, uint32_t length);
+    /* A call has more numbers and vectors than it may have; its results are poison. May be NULL. */
+    void (*too_large)(void *user_data);
     /*
      * max_inline_nodes for the called function itself and its direct callees; 0: max_inline_nodes
      */
@@ -194,6 +197,7 @@ struct lang_unit {
     /* resolves options, and holds the graph of their values; from lang_lower_call */
     struct lang_host host;
     struct ir_graph *graph;
+    uint32_t eval_steps;               /* that lang_eval_constant has spent */
     VEC(struct lang_version) versions; /* by function */
     /* plan.c: the constants that functions assume; NULL until the shader is complete */
     struct lang_plan *plan;
@@ -251,6 +255,14 @@ static inline const struct ir_user_type *lang_user_type(const struct lang_unit *
     assert(id - unit->base_user_types < unit->user_types.len);
     return &unit->user_types.items[id - unit->base_user_types];
 }
+
+enum { LANG_MAX_WORDS = 1 << 16 }; /* scalars of a struct or array */
+
+/*
+ * Adds a struct, whose members are the last of the unit, or an array. VOID: a value is larger than
+ * LANG_MAX_WORDS, or the unit has too many types.
+ */
+ir_type_id lang_add_type(struct lang_unit *unit, struct ir_user_type type);
 
 #define LANG_NONE UINT32_MAX /* no function, file… */
 

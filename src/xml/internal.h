@@ -27,6 +27,10 @@ struct xml_source {
     struct xml_position position; /* the last tag or value */
     elem_id current;              /* the innermost open element */
     uint32_t depth;               /* open elements */
+    VEC(str_id) comments;         /* read, but not yet given to an element; 0: a blank line */
+    elem_id ended;                /* the element that ended last on the current line; 0 = none */
+    uint32_t num_line_ends;       /* after the last tag or comment */
+    bool is_first;                /* nothing stands between the last start tag and here */
     bool warned_prefix, warned_text;
 };
 
@@ -78,6 +82,15 @@ bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size);
  * this is impossible.
  */
 bool xml_repair_text(struct xml_reader *reader);
+
+/*
+ * comment.c: gives the comments of a file to elements. Each function is called for one part of the
+ * text, in the order of the text; none does anything if the document keeps no comments.
+ */
+void xml_see_comment(struct xml_reader *reader, str_id text);
+void xml_see_start(struct xml_reader *reader, elem_id element);
+void xml_see_end(struct xml_reader *reader, elem_id element);
+void xml_see_file_end(struct xml_reader *reader, elem_id root);
 
 /* parse.c: parses the source into elements below source->root. false after a reported error. */
 bool xml_parse_source(struct xml_reader *reader);

@@ -115,6 +115,8 @@ static void add_attr(struct xml_reader *reader, elem_id element, str_id name, st
                      struct diag_place element_place, size_t offset)
 {
     assert(element_place.line <= reader->source->position.line);
+    const char *value_text = reader->source->text + offset;
+    reader->doc->has_loose_attrs |= value_text[-2] != '=' || is_blank(value_text[-3]);
     uint32_t column = xml_column(reader->source, offset),
              lines = reader->source->position.line - element_place.line;
     doc_add_attr(
@@ -143,9 +145,12 @@ static void add_plain_attr(const struct start_tag *tag, int index, elem_id eleme
     struct xml_reader *reader = tag->reader;
     const xmlChar **a = tag->attrs + (size_t)index * 5;
     str_id name = qualified_name(reader, (const char *)a[1], (const char *)a[0]);
-    if (name == STR_name)
+    if (name == STR_name) {
         doc_set_name(reader->doc, element, attr_value(reader, a[3], a[4]));
-    else
+        uint32_t column = xml_column(reader->source, offset);
+        doc_set_name_place(reader->doc, element, reader->source->position.line - place.line,
+                           column);
+    } else
         add_attr(reader, element, name, attr_value(reader, a[3], a[4]), place, offset);
 }
 
@@ -249,6 +254,7 @@ static void start_element(void *arg)
         add_attrs(tag, element, place, skip_while(source, at, is_in_name));
     for (int i = 0; i < tag->num_attrs && values != SIZE_MAX; i++)
         add_plain_attr(tag, i, element, place, value_offset(reader, tag->attrs[(size_t)i * 5 + 3]));
+    xml_see_start(reader, element);
     source->current = element;
     source->depth++;
     if (!is_xinclude(tag))
@@ -280,16 +286,39 @@ static void on_start_element(void *user, const xmlChar *name, const xmlChar *pre
     guarded(user, start_element, &tag);
 }
 
+static void end_element(void *arg)
+{
+    struct xml_reader *reader = arg;
+    struct xml_source *source = reader->source;
+    assert(source->depth > 0);
+    xml_see_end(reader, source->current);
+    source->depth--;
+    source->current = doc_element(reader->doc, source->current)->parent;
+}
+
 static void on_end_element(void *user, const xmlChar *name, const xmlChar *prefix,
                            const xmlChar *uri)
 {
     (void)name, (void)prefix, (void)uri;
+    guarded(user, end_element, user);
+}
+
+struct comment {
+    struct xml_reader *reader;
+    const char *text;
+};
+
+static void add_comment(void *arg)
+{
+    const struct comment *comment = arg;
+    xml_see_comment(comment->reader, str_intern_z(comment->reader->doc->strings, comment->text));
+}
+
+static void on_comment(void *user, const xmlChar *text)
+{
     struct xml_reader *reader = user;
-    if (reader->stopped)
-        return;
-    assert(reader->source->depth > 0);
-    reader->source->depth--;
-    reader->source->current = doc_element(reader->doc, reader->source->current)->parent;
+    if (reader->doc->keeps_comments)
+        guarded(reader, add_comment, &(struct comment){reader, (const char *)text});
 }
 
 static void stray_text(void *arg)
@@ -303,10 +332,11 @@ static void stray_text(void *arg)
 static void on_text(void *user, const xmlChar *text, int len)
 {
     struct xml_reader *reader = user;
-    if (reader->stopped || reader->source->warned_text)
+    if (reader->stopped)
         return;
     for (int i = 0; i < len; i++) {
-        if (text[i] > ' ') {
+        reader->source->num_line_ends += text[i] == '\n';
+        if (text[i] > ' ' && !reader->source->warned_text) {
             guarded(reader, stray_text, reader);
             return;
         }
@@ -414,6 +444,7 @@ static bool prepare_parser(struct xml_reader *reader)
         .characters = on_text,
         .ignorableWhitespace = on_text,
         .cdataBlock = on_text,
+        .comment = on_comment,
         .internalSubset = on_doctype,
         .serror = on_structured_error,
     };
@@ -439,8 +470,9 @@ static void parse_once(struct xml_reader *reader)
     source->is_ascii = is_ascii(source->text, source->size);
     reader->stopped = reader->raw_less = false;
     source->position = (struct xml_position){.line = 1};
-    source->current = 0;
-    source->depth = 0;
+    source->current = source->ended = 0;
+    source->depth = source->num_line_ends = source->comments.len = 0;
+    source->is_first = true;
     /*
      * NOENT gives the text of character references; no entity can exist, because DOCTYPE is
      * refused. IGNORE_ENC, because the text is UTF-8 in spite of its declaration.
@@ -500,6 +532,8 @@ bool xml_parse_source(struct xml_reader *reader)
     bool parsed = !reader->stopped && !reader->repair_failed;
     assert(reader->includes.len >= num_includes);
     assert(!parsed || source->depth == 0);
+    if (parsed)
+        xml_see_file_end(reader, source->root);
     if (!parsed) /* a partial document does not count */
         doc_rollback(reader->doc, source->root, &mark);
     return parsed;

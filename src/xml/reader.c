@@ -81,8 +81,10 @@ elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file
     xml_close_file(reader); /* the text is no longer needed; only one file is open at a time */
     elem_id end = doc->first_element + doc->elements.len;
     if (parsed) {
-        xml_process_includes(reader, &source, first_include);
-        doc_upgrade(doc, source.root, end, reader->diags);
+        if (reader->limits.steps == XML_ALL_STEPS)
+            xml_process_includes(reader, &source, first_include);
+        if (reader->limits.steps != XML_NO_STEPS)
+            doc_upgrade(doc, source.root, end, reader->diags);
     }
     assert(reader->includes.len >= first_include && reader->source == outer);
     reader->includes.len = first_include;
@@ -156,7 +158,10 @@ static void read_all(void *arg)
                   doc_add_file(doc, str_intern_z(doc->strings, reading->name)));
     else
         read_file(reading);
+    if (reader->limits.steps != XML_ALL_STEPS)
+        return;
     doc_expand_templates(doc, reader->diags);
+    doc_fix_paths(doc, reader->diags);
     doc_qualify_names(doc);
     doc_index_names(doc, reader->diags);
 }

@@ -8,12 +8,20 @@
 
 #include "document/document.h"
 
+/* The steps after the parser. */
+enum xml_steps {
+    XML_ALL_STEPS, /* XIncludes, upgrade of the version, templates, namespaces */
+    XML_UPGRADE,   /* only the upgrade: for a tool that writes the file again */
+    XML_NO_STEPS   /* the tree is the text */
+};
+
 struct xml_limits {
     uint32_t max_depth;         /* nesting of elements; 0: 128 */
     uint32_t max_include_depth; /* 0: 16 */
     uint32_t max_includes;      /* number of included files; 0: 4,096 */
     uint32_t max_elements;      /* 0: 16,000,000 */
     uint32_t max_file_mib;      /* 0: 256 */
+    enum xml_steps steps;
 };
 
 /* Finds and reads files; see mxg_resolver in mxgen.h. All strings are UTF-8 and NUL-terminated. */
@@ -35,8 +43,8 @@ struct xml_files {
 void xml_startup(void);
 
 /*
- * Parses a file with its XIncludes into a document of doc_init, then expands templates, upgrades
- * the version and indexes names. false after a reported error; the tree is then partial.
+ * Parses a file into a document of doc_init, takes the steps, and after all of them indexes names.
+ * Keeps comments if the document says so. false after a reported error; the tree is then partial.
  */
 bool xml_read_file(struct document *doc, const struct xml_files *files,
                    const struct xml_limits *limits, const char *name, struct diag_list *diags);

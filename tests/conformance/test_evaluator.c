@@ -112,7 +112,8 @@ static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
     struct ir_value results[MAX_RESULTS];
     if (ir_get(graph, ref)->op != IR_CALL || (result == 0 && !returns)
         || lang_num_results(unit, function) > MAX_RESULTS
-        || !lang_eval_call(unit, function, args, results, MAX_STEPS, &run->generation->scratch))
+        || !lang_eval_call(unit, function, args, results, &(uint32_t){MAX_STEPS},
+                           &run->generation->scratch))
         return false;
     *out = results[returns ? result : result - 1];
     return true;

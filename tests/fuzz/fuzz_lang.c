@@ -85,7 +85,7 @@ static void evaluate(struct arena *arena, const struct lang_unit *unit)
     for (uint32_t i = 0; i < unit->functions.len; i++) {
         struct ir_value results[8];
         if (unit->functions.items[i].num_params == 0 && lang_num_results(unit, i) <= 8)
-            lang_eval_call(unit, i, NULL, results, MAX_STEPS, arena);
+            lang_eval_call(unit, i, NULL, results, &(uint32_t){MAX_STEPS}, arena);
     }
 }
 

@@ -32,6 +32,7 @@ sed 's/value="1, 0.5, 0"/value="abc"/' two.mtlx >bad.mtlx
 cp two.mtlx 'with space.mtlx'
 mkdir -p other && cp two.mtlx other/two.mtlx
 
+is() { [ "$1" = "$2" ] || { echo "'$1', not '$2'"; return 1; }; }
 files() { [ "$(cd "$1" && find . -type f | sort | tr '\n' ' ')" = "$2" ] || { find "$1"; return 1; }; }
 none_in() { [ -z "$(find "$1" -type f 2>/dev/null)" ]; }
 
@@ -47,15 +48,96 @@ check 'is its material' files assigned './C.frag ./C.vert '
 check 'several inputs' exits 0 "$mxgen" two.mtlx 'with space.mtlx' -e A -o several
 check 'several inputs get a folder each' files several './two/A.frag ./two/A.vert ./with space/A.frag ./with space/A.vert '
 check 'two inputs of one name' exits 1 "$mxgen" two.mtlx other/two.mtlx -e A -o clash
-check 'are refused' grep -q output-failed err
-check '--stdout' exits 0 "$mxgen" two.mtlx -e NG/out --stdout -o nowhere
+check 'are refused' grep -q "another input writes to 'clash/two', too \[output-clash\]" err
+check 'before anything is written' test ! -e clash
+check '--stdout' eval '(mkdir nowhere && cd nowhere && exits 0 "$mxgen" ../two.mtlx -e NG/out --stdout && mv out .. && rm -f err check.log)'
 check '--stdout prints both stages' test "$(grep -c '^#version' out)" -eq 2
 check '--stdout writes no file' none_in nowhere
+check '--stdout with a folder' exits 2 "$mxgen" two.mtlx --stdout -o nowhere
+check 'does not apply' grep -q "'--output' does not apply: --stdout" err
+check '--stdout with a depfile' exits 2 "$mxgen" two.mtlx --stdout --depfile d
+check 'does not apply, either' grep -q "'--depfile' does not apply: --stdout" err
 check '--depfile' exits 0 "$mxgen" 'with space.mtlx' -e A -o dep --depfile dep.d
 check 'depfile escapes spaces' grep -qF 'dep/A.vert dep/A.frag: with\ space.mtlx' dep.d
 check 'without -o files go to the current folder' eval '(mkdir -p cwd && cd cwd && "$mxgen" ../two.mtlx -e A && test -f A.frag)'
 check 'two runs give the same bytes' eval '"$mxgen" two.mtlx -o again && diff -r all again'
 check 'and so does another working directory' eval '(cd other && "$mxgen" ../two.mtlx -o ../elsewhere) && diff -r all elsewhere'
+
+# One file
+check '-o FILE' exits 0 "$mxgen" two.mtlx -e A -o one.frag
+check 'is the pixel stage' cmp one.frag all/A.frag
+check '-o FILE of the vertex stage' exits 0 "$mxgen" two.mtlx -e A -o one.vert
+check 'is the vertex stage' cmp one.vert all/A.vert
+check '-o FILE for OSL' exits 0 "$mxgen" two.mtlx -e A -t osl -o one.osl
+check 'is the shader' grep -q '^surface A' one.osl
+check 'two elements are no file' exits 1 "$mxgen" two.mtlx -o two.frag
+check 'and are told so' grep -q "'two.frag' is one file, and the document has 2 elements.*\[output-clash\]" err
+check 'a stage that the element does not have' exits 1 "$mxgen" two.mtlx -e A -t osl -o A.displacement.osl
+check 'is told' grep -q "has no such stage \[output-failed\]" err
+while IFS='|' read -r options reason; do
+    # shellcheck disable=SC2086
+    check "no file: $options" exits 2 "$mxgen" $options
+    check 'says why' grep -q "names a file, but $reason" err
+done <<'X'
+two.mtlx -e A -o A.osl|this ending is of another target
+two.mtlx -e A -t osl -o A.frag|this ending is of another target
+two.mtlx -e A -t osl --osl-network -o A.osl|an OSL network has several files
+two.mtlx -e A --reflect -o A.frag|--reflect writes another file
+two.mtlx bad.mtlx -e A -o A.frag|there are several documents
+other -e A -o A.frag|there are several documents
+X
+check 'and nothing is written' eval '! ls -d two.frag A.* 2>/dev/null | grep -q .'
+mkdir folder.frag
+check 'a folder may have any name' exits 0 "$mxgen" two.mtlx -o folder.frag
+check 'and gets its files' diff -r all folder.frag
+
+# Folders
+mkdir -p tree/props tree/.hidden tree/empty && cp two.mtlx tree && cp two.mtlx tree/props/lamp.mtlx && cp bad.mtlx tree/.hidden
+ln -s .. tree/props/up && ln -s . tree/self && mkfifo tree/pipe.mtlx
+check 'a folder' exits 0 timeout 60 "$mxgen" tree -e A -o forest
+check 'is all documents below, each with a folder' files forest './props/lamp/A.frag ./props/lamp/A.vert ./two/A.frag ./two/A.vert '
+check 'a folder of a folder' exits 0 "$mxgen" tree/props/ two.mtlx -e A -o grove
+check 'beside a file' files grove './lamp/A.frag ./lamp/A.vert ./two/A.frag ./two/A.vert '
+check 'a folder without documents' exits 1 "$mxgen" tree/empty
+check 'is told' grep -q "'tree/empty': the folder has no document" err
+check 'validate takes a folder, too' exits 0 timeout 60 "$mxgen" validate tree
+
+mkdir -p library/sub && echo '<materialx version="1.39"><nodedef name="ND_own" node="own"><output name="out" type="float"/></nodedef></materialx>' >library/sub/own.mtlx
+ln -s . library/self && ln -s . library/again && ln -s .. library/sub/up && ln -s sub library/alias && mkfifo library/sub/pipe.mtlx
+check 'a library with circles of links and a pipe' exits 0 timeout 60 "$mxgen" library list library
+check 'has each file once' is "$(grep -c ND_own out)" 1
+check 'as the library of a document' exits 0 timeout 60 "$mxgen" two.mtlx -e A --library library -o linked --depfile linked.d
+check 'by the first path of its folder' grep -q ' library/alias/own.mtlx' linked.d
+
+# A file that is read and written, or written twice
+cp two.mtlx clash.mtlx && cp "$here/parts/name_clash.mtlx" .
+echo '<materialx version="1.39"><nodedef name="ND_own" node="own"><output name="out" type="float"/></nodedef></materialx>' >lib.mtlx
+printf '%s\n' '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="clash.mtlx"/></materialx>' >including.mtlx
+while IFS='|' read -r file options; do
+    cp "$file" before
+    # shellcheck disable=SC2086
+    check "one file: $options" exits 1 "$mxgen" $options
+    check 'is told' grep -q "\[output-clash\]" err
+    check 'and kept' cmp "$file" before
+done <<'X'
+clash.mtlx|clash.mtlx -o clashes --depfile clash.mtlx
+clash.mtlx|clash.mtlx -o clashes --depfile ./tree/../clash.mtlx
+clash.mtlx|including.mtlx -o clashes --depfile clash.mtlx
+lib.mtlx|clash.mtlx --library lib.mtlx -o clashes --depfile lib.mtlx
+clash.mtlx|clash.mtlx -o clashes --depfile clashes/A.frag
+name_clash.mtlx|name_clash.mtlx -o clashes
+name_clash.mtlx|name_clash.mtlx -t osl -o clashes
+name_clash.mtlx|name_clash.mtlx -t osl --osl-network -o clashes
+lib.mtlx|library pack lib.mtlx -o lib.mtlx
+lib.mtlx|library expand lib.mtlx -o ./lib.mtlx
+clash.mtlx|format clash.mtlx -o ./clash.mtlx
+clash.mtlx|upgrade clash.mtlx -o clash.mtlx
+X
+check 'before anything is written' test ! -e clashes
+ln -s clash.mtlx link.mtlx
+check 'a link to it' exits 1 "$mxgen" link.mtlx -o clashes --depfile clash.mtlx
+check 'is the same file' grep -q "\[output-clash\]" err
+check 'an element of both names alone' exits 0 "$mxgen" name_clash.mtlx -e a.b -o clashes
 
 mkdir -p deep/deeper && sed 's|<look |<xi:include href="../../thrice_part.mtlx"/><look |; s|<materialx |&xmlns:xi="http://www.w3.org/2001/XInclude" |' two.mtlx >deep/deeper/up.mtlx
 echo '<materialx version="1.39"/>' >thrice_part.mtlx
@@ -90,7 +172,6 @@ check 'a truncated file' exits 1 "$mxgen" half.mtlx -o half
 check 'gives nothing' none_in half
 check 'missing file' exits 1 "$mxgen" none.mtlx
 check 'has its id' grep -q '\[file-missing\]' err
-check 'a folder as a file' exits 1 "$mxgen" other
 check 'too little memory' exits 1 "$mxgen" two.mtlx --max-memory 1000
 check 'is told' grep -q 'memory \[failed\]' err
 : >empty.mtlx
@@ -141,6 +222,42 @@ check 'thirty errors' exits 1 "$mxgen" validate thirty.mtlx
 check 'are twenty' eval 'test "$(grep -c unknown-node err)" -eq 20 && grep -q "more than 20 errors" err'
 check 'unless asked for' exits 1 "$mxgen" validate thirty.mtlx --max-errors 0
 check 'all' eval 'test "$(grep -c unknown-node err)" -eq 30'
+# Equal warnings appear once, with the lines of the others; a note without a message needs --verbose.
+{
+    echo '<materialx version="1.39">'
+    for i in $(seq 15); do echo "<constant name='c$i' type='float' nodeid='$i'/><output name='o$i' type='float' nodename='c$i'/>"; done
+    echo '<constant name="p" type="color3"><input name="value" type="color3" value="1, 1, 1" colorspace="srgb_tx"/></constant>'
+    echo '<output name="q" type="color3" nodename="p"/></materialx>'
+} >repeats.mtlx
+check 'a warning fifteen times' exits 0 "$mxgen" validate repeats.mtlx
+check 'is told once' eval 'test "$(grep -c unknown-attribute err)" -eq 1 && grep -q "^note: and 14 more, in the lines 3, 4, 5, 6, 7, 8, 9, 10, …" err'
+check 'a name of a colour space is not told' eval '! grep -q colorspace-alias err'
+check 'but with --verbose' exits 0 "$mxgen" validate repeats.mtlx --verbose
+check 'as a note' grep -q "note: 'srgb_tx' is another name of the colour space 'srgb_texture' \[colorspace-alias\]" err
+# What follows from a missing include is counted for every element
+{
+    echo '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="absent.mtlx"/>'
+    for i in 1 2 3; do echo "<glow name='g$i' type='float'/><output name='o$i' type='float' nodename='g$i'/>"; done
+    echo '</materialx>'
+} >absent_include.mtlx
+check 'a missing include' exits 1 "$mxgen" validate absent_include.mtlx
+check 'is the only error' eval 'test "$(grep -c "error: " err)" -eq 1 && grep -q "note: 3 more errors may follow" err'
+check 'when generating, too' exits 1 "$mxgen" absent_include.mtlx -o absent
+check 'it is' eval 'test "$(grep -c "error: " err)" -eq 1'
+check 'an unknown working space' exits 1 "$mxgen" two.mtlx --colorspace acecsg -o space
+check 'is compared with those that exist' grep -q "'acecsg' is not a value of option 'colorspace'; expected acescg" err
+check 'one like no other' exits 1 "$mxgen" two.mtlx --colorspace moonlight -o space
+check 'lists them' grep -q 'one of: none, lin_rec709, .*acescg' err
+# Nodes are found by name
+check 'library list WORD' exits 0 "$mxgen" library list NOISE2
+check 'lists these nodes only' eval 'test "$(grep -c noise2d out)" -eq "$(wc -l <out)" && grep -q "^ND_noise2d_float  noise2d(" out'
+check 'of a misspelt word' exits 1 "$mxgen" library list nois2d
+check 'it suggests one' grep -q "did you mean 'noise2d'" err
+check 'explain NODE' exits 0 "$mxgen" explain standard_surface
+check 'prints the inputs' grep -Eq '^ +base_color +color3 +0.8, 0.8, 0.8' out
+check 'explain of neither' exits 2 "$mxgen" explain standard_surfac
+check 'suggests a node' grep -q "did you mean 'standard_surface'" err
+check 'no format is printed raw' eval '"$mxgen" explain | { ! grep -q "%[sud]"; }'
 
 # Output that cannot be written
 touch file
@@ -172,6 +289,17 @@ for command in generate inspect check; do
     check 'lists the targets' grep -q 'glsl, vulkan, essl, ' err
 done
 check 'help on an unknown command' exits 2 "$mxgen" help inspec
+while IFS='|' read -r options option; do
+    # shellcheck disable=SC2086
+    check "no such option of it: $options" exits 2 "$mxgen" $options
+    check 'does not apply' grep -q "option '--$option' does not apply" err
+done <<'X'
+library list -o list|output
+library list --html|html
+library pack --pictures -o pack|pictures
+library expand --markdown|markdown
+explain bad-value --markdown -o explained|output
+X
 check 'unknown action' exits 2 "$mxgen" library lst
 
 # Texts

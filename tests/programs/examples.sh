@@ -74,6 +74,10 @@ if command -v oslc >/dev/null && command -v testshade >/dev/null; then
 else
     skip 'without oslc and testshade the group is not run'
 fi
+check 'edit' exits 0 "${program[edit]}"
+sed '1,/<\/materialx>/d' out >polished.mtlx
+check 'writes what it built' eval 'sed "/<\/materialx>/q" out | "$mxgen" --target vulkan --stdout - | grep -q noise'
+check 'and what it edited' eval '"$mxgen" --target vulkan --stdout polished.mtlx >edited && [ -s edited ] && ! grep -q noise edited'
 check 'host_resolver' exits 0 "${program[host_resolver]}"
 check 'reads three assets' grep -q 'fract' out
 [ -z "${program[c_minimal]:-}" ] || check 'c_minimal' exits 0 "${program[c_minimal]}" "$examples/gold.mtlx"

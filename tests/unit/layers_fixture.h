@@ -11,12 +11,15 @@
 
 #include "test.h"
 
+#include <stdlib.h>
+
 struct layer_file {
     const char *name, *text;
 };
 
 struct layers {
     struct mem mem;
+    unsigned char dirt; /* new memory is filled with it */
     jmp_buf trap;
     struct arena arena;
     struct diag_list diags;         /* of both layers */
@@ -75,11 +78,27 @@ static inline void layers_read(struct layers *l, struct library *layer, const ch
     layers_index(l, layer);
 }
 
+/* Memory that is not clean, and differs from one pair of layers to the next. */
+static inline void *layers_realloc(void *user_data, void *block, size_t old_size, size_t new_size)
+{
+    const struct layers *l = user_data;
+    if (new_size == 0) {
+        free(block);
+        return NULL;
+    }
+    block = realloc(block, new_size);
+    if (block && new_size > old_size)
+        memset((char *)block + old_size, l->dirt, new_size - old_size);
+    return block;
+}
+
 static inline void layers_begin(struct layers *l, const struct layer_file *files)
 {
+    static unsigned char dirt = 0x5a;
     memset(l, 0, sizeof *l);
     l->files = files;
-    mem_init(&l->mem, NULL, NULL);
+    l->dirt = dirt = (unsigned char)(dirt + 53);
+    mem_init(&l->mem, layers_realloc, l);
     l->mem.trap = &l->trap;
     arena_init(&l->arena, &l->mem);
     diag_list_init(&l->diags, &l->arena);

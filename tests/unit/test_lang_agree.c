@@ -116,7 +116,8 @@ static void try_version(struct agree *a, uint32_t version, const char *how)
     for (uint32_t i = 0; i < a->fn->num_params; i++)
         if (param(a, i)->mode != LANG_OUT && !lang_param_dropped(&a->generated, version, a->id, i))
             left[num_left++] = a->args[i];
-    if (REQUIRE(lang_eval_call(&a->generated, version, left, results, MAX_STEPS, &a->scratch)))
+    if (REQUIRE(lang_eval_call(&a->generated, version, left, results, &(uint32_t){MAX_STEPS},
+                               &a->scratch)))
         require_results(a, results, how);
 }
 
@@ -140,7 +141,7 @@ static bool call_value(void *user_data, const struct ir_graph *graph, ir_ref cal
     struct agree *a = user_data;
     uint32_t id = graph->callees.items[ir_get(graph, call)->attr].index;
     struct ir_value results[MAX_ARGS];
-    if (!lang_eval_call(&a->generated, id, args, results, MAX_STEPS, &a->scratch))
+    if (!lang_eval_call(&a->generated, id, args, results, &(uint32_t){MAX_STEPS}, &a->scratch))
         return false;
     *out = results[result]; /* all functions here return something */
     return true;
@@ -190,7 +191,8 @@ static void try_once(struct agree *a)
     }
     arena_init(&a->scratch, &a->mem);
     lang_unit_init(&a->generated, &a->scratch, &a->strings, &a->library);
-    REQUIRE(lang_eval_call(&a->generated, a->id, in, a->expected, MAX_STEPS, &a->scratch));
+    REQUIRE(
+        lang_eval_call(&a->generated, a->id, in, a->expected, &(uint32_t){MAX_STEPS}, &a->scratch));
     try_lowering(a, 0);
     try_lowering(a, 1000);
     try_plan(a);

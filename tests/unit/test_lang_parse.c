@@ -522,7 +522,8 @@ static void test_values(void)
         REQUIRE_STR(messages(&f), "");
         uint32_t id = file == LANG_NONE ? LANG_NONE : find(&f, file, "f");
         struct ir_value value = {0};
-        bool good = id != LANG_NONE && lang_eval_call(&f.unit, id, NULL, &value, 10000, &f.arena);
+        bool good = id != LANG_NONE
+                    && lang_eval_call(&f.unit, id, NULL, &value, &(uint32_t){10000}, &f.arena);
         if (!REQUIRE(good && value.type == IR_TYPE_FLOAT && value.w[0].f == cases[i].value))
             printf("    %g, not %g: %s\n", (double)value.w[0].f, (double)cases[i].value,
                    cases[i].text);

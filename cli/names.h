@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* A table of names by their 64-bit hash; names with equal hashes count as one. */
-#ifndef MXG_CHECK_NAMES_H
-#define MXG_CHECK_NAMES_H
+#ifndef MXG_CLI_NAMES_H
+#define MXG_CLI_NAMES_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check/names.h"
+#include "cli/names.h"
 
 #include "cli/cli.h"
 #include "cli/memory.h"

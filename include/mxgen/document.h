@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Documents as objects: their text, their elements, and edits. mxgen.h includes this header; the
+ * rules at its top apply here, too.
+ */
+#ifndef MXGEN_DOCUMENT_H
+#define MXGEN_DOCUMENT_H
+
+#include <mxgen/mxgen.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Elements ---- */
+
+/*
+ * The number of an element in a document; 0: none. A document that an edit makes keeps the numbers
+ * of the document that it comes from. The tree is the one that generation sees: after includes,
+ * templates, the upgrade to 1.39, and with namespaces in the names. Elements of the library are not
+ * part of it. Functions below accept any number: one that is not in the document counts as 0.
+ */
+typedef uint32_t mxg_element;
+
+/* <materialx> */
+MXG_API mxg_element mxg_document_root(const mxg_document *document);
+/* By path: "NG_marble1/out". */
+MXG_API mxg_element mxg_document_find(const mxg_document *document, const char *path);
+MXG_API mxg_element mxg_document_child(const mxg_document *document, mxg_element parent,
+                                       const char *name);
+/*
+ * Writes the path as far as it fits, and a NUL; returns its length, or 0 for the root and for no
+ * element.
+ */
+MXG_API size_t mxg_document_path(const mxg_document *document, mxg_element element, char *out,
+                                 size_t capacity);
+
+typedef struct mxg_element_info {
+    size_t size;                           /* in */
+    const char *category;                  /* "nodegraph", "input", "standard_surface" */
+    const char *name;                      /* "" if it has none */
+    const char *type;                      /* the attribute `type`; "" if absent */
+    mxg_element parent, first_child, next; /* 0: none */
+    uint32_t num_attributes;               /* without the name */
+    /* where the element begins: line and column from 1; file NULL and line 0 after an edit */
+    const char *file;
+    uint32_t line, column;
+} mxg_element_info;
+MXG_API mxg_status mxg_document_element(const mxg_document *document, mxg_element element,
+                                        mxg_element_info *out);
+
+typedef struct mxg_attribute {
+    size_t size; /* in */
+    const char *name, *value;
+} mxg_attribute;
+MXG_API mxg_status mxg_document_attribute(const mxg_document *document, mxg_element element,
+                                          uint32_t index, mxg_attribute *out);
+/* The value of an attribute by name ("name" included); NULL if it is absent. */
+MXG_API const char *mxg_document_attribute_value(const mxg_document *document, mxg_element element,
+                                                 const char *name);
+
+/* The value of an input, output, token or other element with `value`. */
+typedef struct mxg_value {
+    size_t size; /* in */
+    const char *type, *text;
+    /*
+     * Components of a number, integer, boolean (0 or 1), colour, vector or matrix; 0 for all other
+     * types, and for a text that is not a value of the type.
+     */
+    uint32_t num_values;
+    float values[16];
+    int32_t integer; /* the exact value of an integer */
+} mxg_value;
+/* MXG_ERROR_ARGUMENT if the element has no value. */
+MXG_API mxg_status mxg_document_value(const mxg_document *document, mxg_element element,
+                                      mxg_value *out);
+
+/* The element that an input or output is connected to, as the document says it. */
+typedef struct mxg_connection {
+    size_t size; /* in */
+    /*
+     * A node or nodegraph; for an `interfacename` the input of the nodegraph, or 0 if a definition
+     * declares the input.
+     */
+    mxg_element source;
+    const char *output; /* the name of the output of `source`; "" if the document names none */
+    const char *interfacename; /* "" if absent */
+} mxg_connection;
+/*
+ * MXG_ERROR_ARGUMENT if the element is not connected. MXG_ERROR_DOCUMENT if it names an element
+ * that does not exist.
+ */
+MXG_API mxg_status mxg_document_connection(const mxg_document *document, mxg_element port,
+                                           mxg_connection *out);
+
+/*
+ * The definition of a node, or of the nodegraph that implements it. The index counts through the
+ * library and the document: mxg_document_nodedef. false: there is none, or it does not fit; the
+ * diagnostics of mxg_document_validate give the reason.
+ */
+MXG_API bool mxg_document_definition(const mxg_document *document, mxg_element element,
+                                     uint32_t *out_nodedef);
+/* Like mxg_library_nodedef and its neighbours, with the definitions of the document as well. */
+MXG_API uint32_t mxg_document_num_nodedefs(const mxg_document *document);
+MXG_API mxg_status mxg_document_nodedef(const mxg_document *document, uint32_t index,
+                                        mxg_nodedef *out);
+MXG_API mxg_status mxg_document_port(const mxg_document *document, uint32_t nodedef, uint32_t index,
+                                     mxg_port *out);
+
+/*
+ * The document as MaterialX XML, in the layout of MXG_REWRITE_FORMAT; comments stay, includes are
+ * replaced by the elements of their files. Reading the text gives an equal tree. NULL: out of
+ * memory.
+ */
+MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_size);
+
+/* ---- Edits ---- */
+
+/*
+ * Makes a document from another one, or from nothing. Documents stay immutable: an edit works on a
+ * copy, which mxg_edit_end turns into a document.
+ *
+ *     mxg_edit *edit;
+ *     mxg_edit_begin(ctx, lib, NULL, "gold", &edit);
+ *     mxg_element shader = mxg_edit_add(edit, 0, "standard_surface", "SR", "surfaceshader");
+ *     mxg_edit_value(edit, shader, "base_color", "color3", "0.9, 0.6, 0.2");
+ *     mxg_element material = mxg_edit_add(edit, 0, "surfacematerial", "Gold", "material");
+ *     mxg_edit_connect(edit, material, "surfaceshader", shader, NULL);
+ *     mxg_edit_end(edit, &doc);
+ *
+ * An edit that fails changes nothing, returns MXG_ERROR_ARGUMENT (or 0 for an element), and
+ * mxg_edit_error gives the reason. The calls check what they can check alone: names, places in the
+ * tree, text that XML can hold. mxg_edit_end checks the rest like mxg_document_parse. One thread at
+ * a time may use an edit.
+ */
+typedef struct mxg_edit mxg_edit;
+
+/*
+ * `from` NULL: an empty document of version 1.39, whose `name` appears in messages; files that it
+ * names are relative to it (NULL: "<edit>"). Otherwise a copy of `from`, which keeps its name, and
+ * whose library must be `library`. `from` may end before the edit.
+ */
+MXG_API mxg_status mxg_edit_begin(mxg_context *context, mxg_library *library,
+                                  const mxg_document *from, const char *name, mxg_edit **out_edit);
+
+/* Elements of the edit, as it is now. */
+MXG_API mxg_element mxg_edit_find(const mxg_edit *edit, const char *path);
+MXG_API mxg_element mxg_edit_child(const mxg_edit *edit, mxg_element parent, const char *name);
+
+/*
+ * Appends an element; parent 0 is the root. `name` and `type` may be NULL. A name must be valid and
+ * new below the parent.
+ */
+MXG_API mxg_element mxg_edit_add(mxg_edit *edit, mxg_element parent, const char *category,
+                                 const char *name, const char *type);
+/* Sets an attribute; a value of NULL removes it. "name" works like mxg_edit_rename. */
+MXG_API mxg_status mxg_edit_set(mxg_edit *edit, mxg_element element, const char *attribute,
+                                const char *value);
+/* Renames an element, and changes the references to it: connections, definitions, assignments. */
+MXG_API mxg_status mxg_edit_rename(mxg_edit *edit, mxg_element element, const char *name);
+/*
+ * Gives an input of a node a value, and removes its connection. Adds the input if the node has
+ * none of this name. `type` NULL: the type of the input that is there.
+ */
+MXG_API mxg_status mxg_edit_value(mxg_edit *edit, mxg_element node, const char *input,
+                                  const char *type, const char *value);
+/* The same for a number, integer, boolean, colour, vector or matrix. */
+MXG_API mxg_status mxg_edit_numbers(mxg_edit *edit, mxg_element node, const char *input,
+                                    const char *type, const float *values, uint32_t num_values);
+/*
+ * Connects an input of a node, or an <output> element (then `input` is NULL), to a node or
+ * nodegraph beside it, to a nodegraph of the root, or to an input of the nodegraph around it.
+ * Removes the value. Adds the input if it is missing, with the type of `from`, or of its output
+ * `output` (NULL: the only one).
+ */
+MXG_API mxg_status mxg_edit_connect(mxg_edit *edit, mxg_element node, const char *input,
+                                    mxg_element from, const char *output);
+/* Removes an element with all below it. References to it become errors of mxg_edit_end's document.
+ */
+MXG_API mxg_status mxg_edit_remove(mxg_edit *edit, mxg_element element);
+/* Moves an element before another one (`before` 0: to the end) below `parent` (0: the root). */
+MXG_API mxg_status mxg_edit_move(mxg_edit *edit, mxg_element element, mxg_element parent,
+                                 mxg_element before);
+/*
+ * Appends a copy of an element of any document, with all below it. `name` NULL keeps the name,
+ * which must be new below the parent.
+ */
+MXG_API mxg_element mxg_edit_copy(mxg_edit *edit, mxg_element parent, const mxg_document *document,
+                                  mxg_element element, const char *name);
+
+/* The reason of the last failure; "" if no call failed. Valid until the next call. */
+MXG_API const char *mxg_edit_error(const mxg_edit *edit);
+
+/*
+ * Makes the document and frees the edit, in every case. *out_document is set whenever memory
+ * allows, also with MXG_ERROR_DOCUMENT. Diagnostics name an element that the edit added by its
+ * path, because it has no line.
+ */
+MXG_API mxg_status mxg_edit_end(mxg_edit *edit, mxg_document **out_document);
+/* Frees the edit. Accepts NULL. */
+MXG_API void mxg_edit_cancel(mxg_edit *edit);
+
+/* ---- Text for text ---- */
+
+typedef enum mxg_rewriting {
+    /*
+     * The document as it is, in one layout: an element per line, two spaces per level, the name as
+     * the first attribute, at most one blank line in a row. Comments, includes and the order of
+     * elements and attributes stay.
+     */
+    MXG_REWRITE_FORMAT,
+    /*
+     * The same after the upgrade of an older version (1.22 to 1.38) to 1.39. The remarks `upgraded`
+     * in the diagnostics describe each change. Files that it includes stay as they are.
+     */
+    MXG_REWRITE_UPGRADE,
+    MXG_REWRITING_MAX_ENUM = 0x7fffffff
+} mxg_rewriting;
+
+/*
+ * Reads a document and writes it again: mxg_result_text returns the text. `data` NULL: reads the
+ * file `name` with the resolver. *out_result is set whenever memory allows; with
+ * MXG_ERROR_DOCUMENT, for example for a text that is not XML, it has diagnostics but no text.
+ */
+MXG_API mxg_status mxg_rewrite(mxg_context *context, mxg_rewriting rewriting, const char *name,
+                               const char *data, size_t size, mxg_result **out_result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,576 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Documents as objects: reading, building, editing, writing. */
+#include "fixture.h"
+
+#include <math.h>
+
+static mxg_context *open_context(struct heap *heap, struct memory_files *files)
+{
+    mxg_context *context = NULL;
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    desc.realloc = heap_realloc;
+    desc.realloc_user_data = heap;
+    mxg_resolver resolver = memory_resolver(files);
+    desc.resolver = &resolver;
+    REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_OK);
+    return context;
+}
+
+struct fixture {
+    struct heap heap;
+    struct memory_files files;
+    mxg_context *context;
+    mxg_library *library;
+    mxg_document *document; /* main.mtlx */
+};
+
+static void open_fixture(struct fixture *f)
+{
+    memset(f, 0, sizeof *f);
+    f->files.files = fixture_files;
+    f->context = open_context(&f->heap, &f->files);
+    f->library = mxg_library_builtin(f->context);
+    REQUIRE_EQ(mxg_document_load(f->context, f->library, "main.mtlx", &f->document), MXG_OK);
+}
+
+static void close_fixture(struct fixture *f)
+{
+    mxg_document_destroy(f->document);
+    mxg_library_unref(f->library);
+    mxg_context_destroy(f->context);
+    REQUIRE_EQ(f->heap.held, 0);
+    REQUIRE_EQ(f->heap.wrong_sizes, 0);
+}
+
+static mxg_document *parse(struct fixture *f, const char *text)
+{
+    mxg_document *document = NULL;
+    mxg_document_parse(f->context, f->library, "text.mtlx", text, strlen(text), &document);
+    return document;
+}
+
+static mxg_edit *begin(struct fixture *f, const mxg_document *from)
+{
+    mxg_edit *edit = NULL;
+    REQUIRE_EQ(mxg_edit_begin(f->context, f->library, from, NULL, &edit), MXG_OK);
+    return edit;
+}
+
+static const char *xml_below(const mxg_document *document)
+{
+    const char *xml = mxg_document_xml(document, NULL);
+    const char *root = xml ? strstr(xml, "<materialx") : NULL;
+    return root ? root : "";
+}
+
+/* ---- Reading ---- */
+
+static void test_elements(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    const mxg_document *d = f.document;
+    mxg_element root = mxg_document_root(d), graph = mxg_document_find(d, "G"),
+                coat = mxg_document_find(d, "S/coat");
+    mxg_element_info info = MXG_INIT(mxg_element_info);
+    REQUIRE_EQ(mxg_document_element(d, coat, &info), MXG_OK);
+    REQUIRE_STR(info.category, "input");
+    REQUIRE_STR(info.name, "coat");
+    REQUIRE_STR(info.type, "float");
+    REQUIRE_STR(info.file, "main.mtlx");
+    REQUIRE_EQ(info.line, 13);
+    REQUIRE_EQ(info.column, 5);
+    REQUIRE_EQ(info.parent, mxg_document_find(d, "S"));
+    REQUIRE_EQ(info.num_attributes, 2);
+    REQUIRE_EQ(mxg_document_child(d, info.parent, "coat"), coat);
+    REQUIRE_STR(mxg_document_attribute_value(d, coat, "value"), "0.5");
+    REQUIRE_STR(mxg_document_attribute_value(d, coat, "name"), "coat");
+    REQUIRE(!mxg_document_attribute_value(d, coat, "uiname"));
+    mxg_attribute attribute = MXG_INIT(mxg_attribute);
+    REQUIRE_EQ(mxg_document_attribute(d, coat, 1, &attribute), MXG_OK);
+    REQUIRE_STR(attribute.name, "value");
+    REQUIRE_EQ(mxg_document_attribute(d, coat, 2, &attribute), MXG_ERROR_ARGUMENT);
+    /* children in document order: the two of the included file come first */
+    REQUIRE_EQ(mxg_document_element(d, root, &info), MXG_OK);
+    unsigned children = 0;
+    for (mxg_element e = info.first_child; e; e = info.next, children++)
+        REQUIRE_EQ(mxg_document_element(d, e, &info), MXG_OK);
+    REQUIRE_EQ(children, 5);
+    char path[64];
+    REQUIRE_EQ(mxg_document_path(d, mxg_document_find(d, "/G/n"), path, sizeof path), 3);
+    REQUIRE_STR(path, "G/n");
+    REQUIRE_EQ(mxg_document_path(d, coat, path, 3), 6);
+    REQUIRE_STR(path, "S/");
+    REQUIRE_EQ(mxg_document_path(d, root, path, sizeof path), 0);
+    REQUIRE_EQ(mxg_document_path(d, coat, NULL, 7), 6);
+    /* numbers that are no element, and elements of the library */
+    REQUIRE_EQ(mxg_document_element(d, 0, &info), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_element(d, 1, &info), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_element(d, UINT32_MAX, &info), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_find(d, "ND_mix_float"), 0);
+    REQUIRE_EQ(mxg_document_find(d, "G/none"), 0);
+    REQUIRE_EQ(mxg_document_child(NULL, graph, "n"), 0);
+    close_fixture(&f);
+}
+
+static void test_values(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_document *d = parse(&f, "<materialx version='1.39'><standard_surface name='S' "
+                                "type='surfaceshader'>"
+                                "<input name='a' type='color3' value='1, 0.5, 0'/>"
+                                "<input name='b' type='integer' value='16777217'/>"
+                                "<input name='c' type='boolean' value='true'/>"
+                                "<input name='d' type='string' value='oren'/>"
+                                "<input name='e' type='float' value='wide'/>"
+                                "<input name='f' type='float' nodename='N'/>"
+                                "</standard_surface></materialx>");
+    mxg_value value = MXG_INIT(mxg_value);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/a"), &value), MXG_OK);
+    REQUIRE_EQ(value.num_values, 3);
+    REQUIRE(value.values[0] == 1 && value.values[1] == 0.5f && value.values[2] == 0);
+    REQUIRE_STR(value.type, "color3");
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/b"), &value), MXG_OK);
+    REQUIRE_EQ(value.integer, 16777217);
+    REQUIRE_EQ(value.num_values, 1);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/c"), &value), MXG_OK);
+    REQUIRE(value.num_values == 1 && value.values[0] == 1);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/d"), &value), MXG_OK);
+    REQUIRE_EQ(value.num_values, 0);
+    REQUIRE_STR(value.text, "oren");
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/e"), &value), MXG_OK);
+    REQUIRE_EQ(value.num_values, 0);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/f"), &value), MXG_ERROR_ARGUMENT);
+    mxg_document_destroy(d);
+    close_fixture(&f);
+}
+
+static void test_links(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    const mxg_document *d = f.document;
+    mxg_connection link = MXG_INIT(mxg_connection);
+    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find(d, "S/base_color"), &link), MXG_OK);
+    REQUIRE_EQ(link.source, mxg_document_find(d, "G"));
+    REQUIRE_STR(link.output, "out");
+    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find(d, "G/n/amplitude"), &link), MXG_OK);
+    REQUIRE_EQ(link.source, mxg_document_find(d, "G/scale"));
+    REQUIRE_STR(link.interfacename, "scale");
+    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find(d, "G/out"), &link), MXG_OK);
+    REQUIRE_EQ(link.source, mxg_document_find(d, "G/t"));
+    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find(d, "S/coat"), &link),
+               MXG_ERROR_ARGUMENT);
+    mxg_document *broken = parse(&f, "<materialx version='1.39'><output name='o' type='float' "
+                                     "nodename='none'/></materialx>");
+    REQUIRE_EQ(mxg_document_connection(broken, mxg_document_find(broken, "o"), &link),
+               MXG_ERROR_DOCUMENT);
+    mxg_document_destroy(broken);
+    /* definitions of the library and of the document */
+    uint32_t nodedef;
+    mxg_nodedef definition = MXG_INIT(mxg_nodedef);
+    REQUIRE(mxg_document_definition(d, mxg_document_find(d, "S"), &nodedef));
+    REQUIRE_EQ(mxg_document_nodedef(d, nodedef, &definition), MXG_OK);
+    REQUIRE_STR(definition.name, "ND_standard_surface_surfaceshader");
+    REQUIRE(mxg_document_definition(d, mxg_document_find(d, "G/t"), &nodedef));
+    REQUIRE_EQ(mxg_document_nodedef(d, nodedef, &definition), MXG_OK);
+    REQUIRE_STR(definition.name, "ND_tint");
+    REQUIRE_EQ(nodedef + 1, mxg_document_num_nodedefs(d));
+    mxg_port port = MXG_INIT(mxg_port);
+    REQUIRE_EQ(mxg_document_port(d, nodedef, 1, &port), MXG_OK);
+    REQUIRE_STR(port.name, "by");
+    REQUIRE_EQ(mxg_document_port(d, nodedef, 3, &port), MXG_ERROR_ARGUMENT);
+    REQUIRE(!mxg_document_definition(d, mxg_document_find(d, "G"), &nodedef));
+    close_fixture(&f);
+}
+
+/* ---- Building ---- */
+
+static const char gold[] =
+    "<materialx version=\"1.39\">\n"
+    "  <standard_surface name=\"SR\" type=\"surfaceshader\">\n"
+    "    <input name=\"base_color\" type=\"color3\" value=\"0.9, 0.6, 0.2\"/>\n"
+    "    <input name=\"metalness\" type=\"float\" nodegraph=\"NG\" output=\"wear\"/>\n"
+    "  </standard_surface>\n"
+    "  <surfacematerial name=\"Gold\" type=\"material\">\n"
+    "    <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"SR\"/>\n"
+    "  </surfacematerial>\n"
+    "  <nodegraph name=\"NG\">\n"
+    "    <input name=\"amount\" type=\"float\" value=\"0.75\"/>\n"
+    "    <noise2d name=\"spots\" type=\"float\">\n"
+    "      <input name=\"amplitude\" type=\"float\" interfacename=\"amount\"/>\n"
+    "    </noise2d>\n"
+    "    <separate2 name=\"split\" type=\"multioutput\">\n"
+    "      <input name=\"in\" type=\"vector2\" value=\"1.0, 2.0\"/>\n"
+    "    </separate2>\n"
+    "    <output name=\"wear\" type=\"float\" nodename=\"spots\"/>\n"
+    "    <output name=\"x\" type=\"float\" nodename=\"split\" output=\"outx\"/>\n"
+    "  </nodegraph>\n"
+    "</materialx>\n";
+
+static void build_gold(mxg_edit *e)
+{
+    mxg_element shader = mxg_edit_add(e, 0, "standard_surface", "SR", "surfaceshader"),
+                material = mxg_edit_add(e, 0, "surfacematerial", "Gold", "material"),
+                graph = mxg_edit_add(e, 0, "nodegraph", "NG", NULL),
+                amount = mxg_edit_add(e, graph, "input", "amount", "float"),
+                spots = mxg_edit_add(e, graph, "noise2d", "spots", "float"),
+                split = mxg_edit_add(e, graph, "separate2", "split", "multioutput"),
+                wear = mxg_edit_add(e, graph, "output", "wear", "float"),
+                x = mxg_edit_add(e, graph, "output", "x", "float");
+    const float pair[] = {1, 2};
+    mxg_edit_value(e, shader, "base_color", "color3", "0.9, 0.6, 0.2");
+    mxg_edit_set(e, amount, "value", "0.75");
+    mxg_edit_numbers(e, split, "in", "vector2", pair, 2);
+    mxg_edit_connect(e, material, "surfaceshader", shader, NULL);
+    mxg_edit_connect(e, spots, "amplitude", amount, NULL);
+    mxg_edit_connect(e, wear, NULL, spots, NULL);
+    mxg_edit_connect(e, x, NULL, split, "outx");
+    mxg_edit_connect(e, shader, "metalness", graph, "wear");
+}
+
+static const char *generate(struct fixture *f, const mxg_document *document, const char *element,
+                            mxg_result **out)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    desc.element = element;
+    mxg_generate(f->context, document, &desc, out);
+    const char *source = mxg_result_source(*out, MXG_STAGE_PIXEL, NULL);
+    return source ? source : "";
+}
+
+static void test_build(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_edit *edit = begin(&f, NULL);
+    build_gold(edit);
+    REQUIRE_STR(mxg_edit_error(edit), "");
+    mxg_document *built = NULL, *parsed = parse(&f, gold);
+    REQUIRE_EQ(mxg_edit_end(edit, &built), MXG_OK);
+    REQUIRE_STR(xml_below(built), gold);
+    REQUIRE_STR(xml_below(parsed), gold);
+    REQUIRE_EQ(mxg_document_num_renderables(built), 1);
+    mxg_result *a = NULL, *b = NULL;
+    const char *from_built = generate(&f, built, NULL, &a);
+    REQUIRE(strlen(from_built) > 1000);
+    REQUIRE_STR(from_built, generate(&f, parsed, NULL, &b));
+    mxg_result_destroy(a);
+    mxg_result_destroy(b);
+    mxg_document_destroy(built);
+    mxg_document_destroy(parsed);
+    close_fixture(&f);
+}
+
+/* ---- Editing ---- */
+
+static void test_edit_of_a_document(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_element shader = mxg_document_find(f.document, "S"),
+                texture = mxg_document_find(f.document, "G/i");
+    char before[4096];
+    snprintf(before, sizeof before, "%s", xml_below(f.document));
+    mxg_edit *edit = begin(&f, f.document);
+    const float half[] = {0.5f};
+    REQUIRE_EQ(mxg_edit_numbers(edit, shader, "metalness", "float", half, 1), MXG_OK);
+    REQUIRE_EQ(mxg_edit_value(edit, shader, "coat", NULL, "0.25"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set(edit, texture, "doc", "a \"quoted\" <text> & more"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set(edit, texture, "doc", NULL), MXG_OK);
+    mxg_document *next = NULL;
+    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    /* numbers of elements stay, the old document does, too, and places lead to the old file */
+    REQUIRE_EQ(mxg_document_find(next, "S"), shader);
+    REQUIRE_STR(mxg_document_attribute_value(next, mxg_document_find(next, "S/coat"), "value"),
+                "0.25");
+    REQUIRE_STR(xml_below(f.document), before);
+    REQUIRE_EQ(mxg_document_num_files(next), mxg_document_num_files(f.document));
+    mxg_element_info info = MXG_INIT(mxg_element_info);
+    REQUIRE_EQ(mxg_document_element(next, shader, &info), MXG_OK);
+    REQUIRE_EQ(info.line, 11);
+    REQUIRE_EQ(mxg_document_element(next, mxg_document_find(next, "S/metalness"), &info), MXG_OK);
+    REQUIRE(info.line == 0 && !info.file);
+    /* the edited document is what its text says */
+    mxg_result *a = NULL, *b = NULL;
+    mxg_document *again = parse(&f, mxg_document_xml(next, NULL));
+    REQUIRE_STR(xml_below(again), xml_below(next));
+    REQUIRE_STR(generate(&f, next, "M", &a), generate(&f, again, "M", &b));
+    mxg_result_destroy(a);
+    mxg_result_destroy(b);
+    /* an edit of an edit, after the first document is gone */
+    mxg_document_destroy(f.document);
+    f.document = NULL;
+    edit = begin(&f, next);
+    REQUIRE_EQ(mxg_edit_remove(edit, mxg_edit_find(edit, "S/metalness")), MXG_OK);
+    REQUIRE_EQ(mxg_edit_value(edit, shader, "coat", "float", "0.5"), MXG_OK);
+    mxg_document_destroy(next);
+    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    REQUIRE_STR(xml_below(next), before);
+    mxg_document_destroy(again);
+    mxg_document_destroy(next);
+    close_fixture(&f);
+}
+
+static void test_rename(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_document *d = parse(&f, gold), *next = NULL;
+    mxg_edit *edit = begin(&f, d);
+    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "SR"), "Shader"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set(edit, mxg_edit_find(edit, "NG"), "name", "Graph"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "Graph/wear"), "worn"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "Graph/amount"), "much"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "Graph/spots"), "dots"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    const char *xml = xml_below(next);
+    REQUIRE(strstr(xml, "nodename=\"Shader\"") && !strstr(xml, "\"SR\""));
+    REQUIRE(strstr(xml, "nodegraph=\"Graph\" output=\"worn\"") && !strstr(xml, "\"wear\""));
+    REQUIRE(strstr(xml, "interfacename=\"much\"") && !strstr(xml, "\"amount\""));
+    REQUIRE(strstr(xml, "nodename=\"dots\"") && !strstr(xml, "\"spots\""));
+    mxg_document_destroy(next);
+    mxg_document_destroy(d);
+    d = parse(&f, "<materialx version='1.39'><look name='day'/><look name='night' inherit='day'/>"
+                  "<lookgroup name='all' looks='day, night' active='day'/>"
+                  "<nodedef name='day2' node='x'><output name='out' type='float'/></nodedef>"
+                  "</materialx>");
+    edit = begin(&f, d);
+    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "day"), "noon"), MXG_OK);
+    mxg_edit_end(edit, &next);
+    xml = xml_below(next);
+    REQUIRE(strstr(xml, "inherit=\"noon\"") && strstr(xml, "looks=\"noon, night\""));
+    mxg_document_destroy(next);
+    mxg_document_destroy(d);
+    close_fixture(&f);
+}
+
+static void test_move_and_copy(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_document *d = parse(&f, gold), *next = NULL;
+    mxg_edit *edit = begin(&f, d);
+    mxg_element graph = mxg_edit_find(edit, "NG"), shader = mxg_edit_find(edit, "SR");
+    REQUIRE_EQ(mxg_edit_move(edit, graph, 0, shader), MXG_OK);
+    mxg_element copy = mxg_edit_copy(edit, 0, d, shader, "SR2");
+    REQUIRE(copy != 0);
+    /* from another document, and below itself */
+    REQUIRE(mxg_edit_copy(edit, graph, f.document, mxg_document_find(f.document, "G/i"), NULL));
+    REQUIRE(mxg_edit_copy(edit, 0, f.document, mxg_document_find(f.document, "G"), NULL));
+    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    mxg_element_info info = MXG_INIT(mxg_element_info);
+    REQUIRE_EQ(mxg_document_element(next, mxg_document_root(next), &info), MXG_OK);
+    REQUIRE_EQ(info.first_child, graph);
+    REQUIRE_EQ(mxg_document_find(next, "SR2"), copy);
+    REQUIRE_STR(
+        mxg_document_attribute_value(next, mxg_document_find(next, "SR2/base_color"), "value"),
+        "0.9, 0.6, 0.2");
+    REQUIRE_STR(mxg_document_attribute_value(next, mxg_document_find(next, "G/i/file"), "value"),
+                "wood.png");
+    REQUIRE(mxg_document_find(next, "NG/i/file") != 0);
+    mxg_document_destroy(next);
+    mxg_document_destroy(d);
+    close_fixture(&f);
+}
+
+/* ---- Bad input ---- */
+
+static void test_refused(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_document *d = parse(&f, gold);
+    mxg_edit *e = begin(&f, d);
+    mxg_element shader = mxg_edit_find(e, "SR"), graph = mxg_edit_find(e, "NG"),
+                spots = mxg_edit_find(e, "NG/spots"), wear = mxg_edit_find(e, "NG/wear"),
+                material = mxg_edit_find(e, "Gold");
+    const float numbers[] = {1, NAN, 3};
+#define REFUSED(call, text) \
+    do { \
+        REQUIRE_EQ(call, MXG_ERROR_ARGUMENT); \
+        if (!REQUIRE(strstr(mxg_edit_error(e), text) != NULL)) \
+            printf("    %s\n", mxg_edit_error(e)); \
+    } while (0)
+#define NO_ELEMENT(call, text) \
+    do { \
+        REQUIRE_EQ(call, 0); \
+        if (!REQUIRE(strstr(mxg_edit_error(e), text) != NULL)) \
+            printf("    %s\n", mxg_edit_error(e)); \
+    } while (0)
+    NO_ELEMENT(mxg_edit_add(e, 0, "add", "SR", "float"), "'SR' already");
+    NO_ELEMENT(mxg_edit_add(e, 0, "add", "2x", "float"), "'2x' is no name");
+    NO_ELEMENT(mxg_edit_add(e, 0, "a d", "x", "float"), "'a d' is no name");
+    NO_ELEMENT(mxg_edit_add(e, 0, NULL, "x", "float"), "is no name");
+    NO_ELEMENT(mxg_edit_add(e, 1, "add", "x", "float"), "no such element");
+    NO_ELEMENT(mxg_edit_add(e, UINT32_MAX, "add", "x", "float"), "no such element");
+    REFUSED(mxg_edit_set(e, shader, "doc", "\xff"), "XML cannot hold");
+    REFUSED(mxg_edit_set(e, shader, "doc", "\x01"), "XML cannot hold");
+    REFUSED(mxg_edit_set(e, shader, "a=b", "c"), "is no name");
+    REFUSED(mxg_edit_set(e, shader, "name", NULL), "is no name");
+    REFUSED(mxg_edit_rename(e, shader, "NG"), "'NG' already");
+    REFUSED(mxg_edit_value(e, shader, "coat", NULL, "1"), "give its type");
+    REFUSED(mxg_edit_value(e, shader, "coat", "float", "much"), "'much' is no value");
+    REFUSED(mxg_edit_value(e, 0, "coat", "float", "1"), "no such element");
+    REFUSED(mxg_edit_numbers(e, shader, "coat", "color3", numbers, 3), "not a number");
+    REFUSED(mxg_edit_numbers(e, shader, "coat", "color3", numbers, 2), "number of components");
+    REFUSED(mxg_edit_numbers(e, shader, "coat", "surfaceshader", numbers, 1),
+            "number of components");
+    REFUSED(mxg_edit_connect(e, shader, "coat", spots, NULL), "beside the port");
+    REFUSED(mxg_edit_connect(e, spots, NULL, graph, NULL), "is an <output>");
+    REFUSED(mxg_edit_connect(e, shader, "coat", graph, "none"), "output 'none' is unknown");
+    REFUSED(mxg_edit_connect(e, wear, NULL, mxg_edit_find(e, "NG/split"), "outq"), "is unknown");
+    REFUSED(mxg_edit_connect(e, material, "surfaceshader", 0, NULL), "no such element");
+    REFUSED(mxg_edit_move(e, graph, spots, 0), "below or before itself");
+    REFUSED(mxg_edit_move(e, graph, 0, graph), "below or before itself");
+    REFUSED(mxg_edit_move(e, graph, 0, spots), "not below the parent");
+    REFUSED(mxg_edit_remove(e, mxg_document_root(d)), "no such element");
+    NO_ELEMENT(mxg_edit_copy(e, graph, d, mxg_document_root(d), NULL), "no such element");
+    NO_ELEMENT(mxg_edit_copy(e, 0, d, shader, NULL), "'SR' already");
+    REQUIRE_EQ(mxg_edit_remove(e, graph), MXG_OK);
+    REFUSED(mxg_edit_set(e, spots, "doc", "of a removed graph"), "no such element");
+    /* nothing else has changed */
+    mxg_document *next = NULL;
+    REQUIRE_EQ(mxg_edit_end(e, &next), MXG_OK);
+    REQUIRE_STR(
+        mxg_document_attribute_value(next, mxg_document_find(next, "SR/base_color"), "value"),
+        "0.9, 0.6, 0.2");
+    REQUIRE_EQ(mxg_document_find(next, "SR/coat"), 0);
+    mxg_document_destroy(next);
+    /* handles */
+    mxg_library *other = NULL;
+    const char *paths[] = {"model.mtlx"};
+    REQUIRE_EQ(mxg_library_load(f.context, f.library, paths, 1, &other), MXG_OK);
+    REQUIRE_EQ(mxg_edit_begin(f.context, other, d, NULL, &e), MXG_ERROR_ARGUMENT);
+    REQUIRE(!e);
+    REQUIRE_EQ(mxg_edit_begin(NULL, f.library, d, NULL, &e), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_edit_end(NULL, &next), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_edit_end(begin(&f, d), NULL), MXG_ERROR_ARGUMENT);
+    mxg_edit_cancel(NULL);
+    mxg_edit_cancel(begin(&f, d));
+    mxg_library_unref(other);
+    mxg_document_destroy(d);
+    close_fixture(&f);
+}
+
+/* An element without a line is named by its path. */
+static void test_diagnostics(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_edit *edit = begin(&f, NULL);
+    mxg_element shader = mxg_edit_add(edit, 0, "standard_surface", "SR", "surfaceshader");
+    mxg_edit_value(edit, shader, "coat", "color3", "1, 1, 1");
+    mxg_document *d = NULL;
+    mxg_edit_end(edit, &d);
+    mxg_result *result = NULL;
+    REQUIRE_EQ(mxg_document_validate(f.context, d, &result), MXG_ERROR_DOCUMENT);
+    const mxg_diagnostics *list = mxg_result_diagnostics(result);
+    mxg_diagnostic first = MXG_INIT(mxg_diagnostic);
+    REQUIRE_EQ(mxg_diagnostics_get(list, 0, &first), MXG_OK);
+    REQUIRE(strncmp(first.path, "SR", 2) == 0 && first.line == 0);
+    char text[512];
+    mxg_diagnostics_format(list, 0, NULL, 0, false, text, sizeof text);
+    REQUIRE(strstr(text, "<edit>: SR") == text);
+    mxg_result_destroy(result);
+    mxg_document_destroy(d);
+    close_fixture(&f);
+}
+
+/* Each allocation fails once; nothing leaks, and the calls say so. */
+static void test_memory(void)
+{
+    unsigned failures = 0;
+    for (unsigned at = 1;; at++) {
+        struct fixture f;
+        open_fixture(&f);
+        f.heap.fail_at = f.heap.calls + at;
+        unsigned before = f.heap.calls;
+        mxg_edit *edit = NULL;
+        mxg_document *next = NULL;
+        mxg_status status = mxg_edit_begin(f.context, f.library, f.document, NULL, &edit);
+        if (status == MXG_OK) {
+            build_gold(edit);
+            status = mxg_edit_end(edit, &next);
+        }
+        bool reached = f.heap.calls - before >= at;
+        failures += status == MXG_ERROR_MEMORY;
+        REQUIRE(status == MXG_OK || status == MXG_ERROR_DOCUMENT || status == MXG_ERROR_MEMORY);
+        mxg_document_destroy(next);
+        close_fixture(&f);
+        if (!reached)
+            break;
+    }
+    REQUIRE(failures >= 5);
+}
+
+/* ---- Text for text ---- */
+
+static void test_rewrite(void)
+{
+    static const char old[] = "<?xml version='1.0'?>\n<!-- head -->\n"
+                              "<materialx version='1.38'>\n\n\n"
+                              "  <!-- an angle -->\n"
+                              "  <atan2 type='float' name='a'> <!-- inside -->\n\n\n"
+                              "    <input name='in1' type='float' value='1'/><!-- one -->\n"
+                              "    <input name='in2' type='float' value='&lt;2'/>\n"
+                              "    <!-- last -->\n"
+                              "  </atan2>\n\n\n\n  <nodegraph name='g'><!-- none --></nodegraph>\n"
+                              "</materialx>\n<!-- tail -->\n";
+    static const char formatted[] =
+        "<?xml version=\"1.0\"?>\n<!-- head -->\n<materialx version=\"1.38\">\n"
+        "  <!-- an angle -->\n"
+        "  <atan2 name=\"a\" type=\"float\">\n    <!-- inside -->\n\n"
+        "    <input name=\"in1\" type=\"float\" value=\"1\"/> <!-- one -->\n"
+        "    <input name=\"in2\" type=\"float\" value=\"&lt;2\"/>\n"
+        "    <!-- last -->\n  </atan2>\n\n"
+        "  <nodegraph name=\"g\">\n    <!-- none -->\n  </nodegraph>\n"
+        "</materialx>\n<!-- tail -->\n";
+    struct fixture f;
+    open_fixture(&f);
+    mxg_result *result = NULL;
+    REQUIRE_EQ(mxg_rewrite(f.context, MXG_REWRITE_FORMAT, "a.mtlx", old, strlen(old), &result),
+               MXG_OK);
+    REQUIRE_STR(mxg_result_text(result, NULL), formatted);
+    mxg_result_destroy(result);
+    REQUIRE_EQ(mxg_rewrite(f.context, MXG_REWRITE_UPGRADE, "a.mtlx", old, strlen(old), &result),
+               MXG_OK);
+    const char *upgraded = mxg_result_text(result, NULL);
+    REQUIRE(strstr(upgraded, "version=\"1.39\"") && strstr(upgraded, "<!-- one -->"));
+    REQUIRE(strstr(upgraded, "name=\"iny\"") && !strstr(upgraded, "in1"));
+    REQUIRE(has_diagnostic(mxg_result_diagnostics(result), "upgraded"));
+    mxg_result_destroy(result);
+    /* a file, whose include stays */
+    REQUIRE_EQ(mxg_rewrite(f.context, MXG_REWRITE_FORMAT, "main.mtlx", NULL, 0, &result), MXG_OK);
+    REQUIRE(strstr(mxg_result_text(result, NULL), "<xi:include href=\"tint.mtlx\"/>") != NULL);
+    REQUIRE(strstr(mxg_result_text(result, NULL), "xmlns:xi=") != NULL);
+    mxg_result_destroy(result);
+    REQUIRE_EQ(mxg_rewrite(f.context, MXG_REWRITE_FORMAT, "none.mtlx", NULL, 0, &result),
+               MXG_ERROR_DOCUMENT);
+    REQUIRE(!mxg_result_text(result, NULL));
+    REQUIRE(has_diagnostic(mxg_result_diagnostics(result), "file-missing"));
+    mxg_result_destroy(result);
+    REQUIRE_EQ(mxg_rewrite(f.context, (mxg_rewriting)2, "a", old, 3, &result), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_rewrite(f.context, MXG_REWRITE_FORMAT, "a", "<a", 2, &result),
+               MXG_ERROR_DOCUMENT);
+    mxg_result_destroy(result);
+    close_fixture(&f);
+}
+
+int main(void)
+{
+    test_elements();
+    test_values();
+    test_links();
+    test_build();
+    test_edit_of_a_document();
+    test_rename();
+    test_move_and_copy();
+    test_refused();
+    test_diagnostics();
+    test_memory();
+    test_rewrite();
+    return test_report("api-edit");
+}

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# mxgen format and mxgen upgrade: the text changes, the document does not. Arguments: the program, the examples, a folder of
+# documents that may be absent.
+mxgen=$(realpath "$1")
+examples=$(realpath "$2")
+corpus=$3
+[ -d "$corpus" ] && corpus=$(realpath "$corpus")
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh"
+
+keeps() { # DOCUMENT: the formatted text has the same tree and comments, and formats to itself
+    local copy=formatted.mtlx
+    "$mxgen" format "$1" -o $copy -q && "$mxgen" format $copy -q | cmp - $copy || return 1
+    # beside the original, so that includes are found
+    diff <("$mxgen" inspect "$1" --graph 2>/dev/null) <(cd "$(dirname "$1")" && "$mxgen" inspect - --graph <"$work/$copy" 2>/dev/null) || return 1
+    [ "$(grep -o -- '<!--' "$1" | wc -l)" = "$(grep -o -- '<!--' $copy | wc -l)" ]
+}
+for document in "$examples"/*.mtlx; do
+    check "format keeps $(basename "$document")" keeps "$document"
+done
+if [ -d "$corpus" ]; then
+    while read -r document; do
+        check "format keeps $document" keeps "$document"
+    done < <(find "$corpus/resources" -name '*.mtlx' -type f | sort)
+else
+    skip "$corpus is absent: only the examples were formatted"
+fi
+
+cat >old.mtlx <<'END'
+<?xml version="1.0"?>
+<!-- licence -->
+<materialx version="1.36">
+  <!-- metal -->
+  <material name="M"> <!-- the only one -->
+    <shaderref name="sr" node="standard_surface">
+      <bindinput name="metalness" type="float" value="1"/> <!-- full -->
+    </shaderref>
+  </material>
+</materialx>
+END
+check 'upgrade' exits 0 "$mxgen" upgrade old.mtlx -o new.mtlx
+check 'it is of version 1.39' grep -q 'version="1.39"' new.mtlx
+check 'comments stay' test "$(grep -c -- '<!--' new.mtlx)" = 4
+check 'it is valid' exits 0 "$mxgen" validate new.mtlx --verbose
+check 'without another upgrade' eval '! grep -q upgraded err'
+"$mxgen" old.mtlx -o from_old -q && "$mxgen" new.mtlx -o from_new -q
+check 'it gives the same shader' cmp from_old/M.frag from_new/M.frag
+check 'a second upgrade changes nothing' exits 0 "$mxgen" upgrade new.mtlx --check
+check 'remarks tell the changes' eval '"$mxgen" upgrade old.mtlx --verbose 2>&1 >/dev/null | grep -q upgraded'
+
+check '--check tells' exits 1 "$mxgen" format old.mtlx new.mtlx --check
+check 'which document would change' grep -q "'old.mtlx' would change \[would-change\]" err
+check 'and no other' eval '! grep -q new.mtlx err'
+cp old.mtlx copy.mtlx
+check '--in-place' exits 0 "$mxgen" format copy.mtlx new.mtlx --in-place
+check 'nothing is left to do' exits 0 "$mxgen" format copy.mtlx new.mtlx --check
+check 'standard input' eval '"$mxgen" format - <old.mtlx | cmp - copy.mtlx'
+
+check 'a missing file' exits 1 "$mxgen" format none.mtlx
+check 'is told' grep -q file-missing err
+echo '<materialx version="1.39"><add name="a"' >cut.mtlx
+cp cut.mtlx before.mtlx
+check 'a truncated file' exits 1 "$mxgen" format cut.mtlx --in-place
+check 'stays' cmp cut.mtlx before.mtlx
+check 'is told' grep -q 'cut.mtlx:' err
+check 'two places' exits 2 "$mxgen" format old.mtlx -o a --in-place
+check 'two documents, one place' exits 2 "$mxgen" format old.mtlx new.mtlx -o a
+check 'a check that writes' exits 2 "$mxgen" format old.mtlx --check -o a
+check 'no place' exits 2 "$mxgen" format - --in-place
+check 'no document' exits 2 "$mxgen" format
+finish rewrite
