@@ -251,17 +251,15 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family);
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
 
-<<<<<<< HEAD
 /* verbatim.c: calls source for one target. Source that mxgen cannot call is an error. */
 void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *results);
 /* True if the source is the function of a light shader. */
 bool build_is_light_source(const struct builder *b, const struct implementation *impl);
 /* Adds the function of a light shader to the shader; UINT32_MAX after a diagnostic. */
 uint32_t build_light_source(struct builder *b, const struct implementation *impl);
-=======
+
 /* film.c: a thin film on a BSDF, as inputs of its microfacet leaves. `node` is the film node. */
 ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, elem_id node);
->>>>>>> main
 
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
