@@ -315,6 +315,11 @@ bool generation_emit(struct generation *g)
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
+    if (g->result->shader.scatters && g->result->shader.source_leaves.len) {
+        generation_report_not_renderable(
+            g, "a path tracer cannot sample closures whose source is for one target");
+        return false;
+    }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
     bool is_emitted = emit(g);
