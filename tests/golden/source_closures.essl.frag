@@ -83,7 +83,7 @@ void main()
     // lights
     vec3 V_direction = normalize(u_viewPosition - vd_positionWorld);
     vec3 direction = normalize(vd_normalWorld);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // soft
         lightshader bulb_2;
         bulb(u_lightData[i], vd_positionWorld, bulb_2);

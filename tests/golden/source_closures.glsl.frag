@@ -80,11 +80,18 @@ void soft_bsdf(ClosureData closureData, float weight, vec3 color, vec3 normal, i
     }
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
 void main()
@@ -97,7 +104,7 @@ void main()
     vec3 color = tinted;
     // lights
     vec3 diffuse_N = faceforward(N, -V, N);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // soft, diffuse
         lightshader bulb_2;
         bulb(u_lightData[i], vd.positionWorld, bulb_2);
@@ -112,10 +119,12 @@ void main()
     ClosureData soft_closure_data_2 = ClosureData(3, vec3(0.0), V, N, vd.positionWorld, 1.0);
     BSDF soft_2 = BSDF(vec3(0.0), vec3(1.0));
     soft_bsdf(soft_closure_data_2, 0.8, vec3(0.5), N, 1, soft_2);
+    vec3 diffuse_response = u_envLightIntensity * 0.18
+        * (soft_2.throughput * textureLod(u_envIrradiance,
+        mx_map_point(normalize((u_envMatrix * vec4(diffuse_N, 0.0)).xyz)), 0.0).xyz);
     ClosureData soft_closure_data_3 = ClosureData(2, vec3(0.0), V, N, vd.positionWorld, 1.0);
     BSDF soft_3 = BSDF(vec3(0.0), vec3(1.0));
     soft_bsdf(soft_closure_data_3, 0.8, vec3(0.5), N, 1, soft_3);
-    color += soft_2.response + (soft_3.response + soft_2.throughput
-        * (textureLod(u_envIrradiance, mx_latlong(diffuse_N), 0.0).xyz * (u_envLightIntensity * 0.18)));
+    color += diffuse_response + (soft_2.response + soft_3.response);
     out1 = vec4(color, 1.0);
 }

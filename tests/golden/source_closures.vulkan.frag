@@ -94,7 +94,7 @@ void main()
     vec3 color = tinted;
     // lights
     vec3 diffuse_facing = faceforward(N, -V, N);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // soft, diffuse
         lightshader bulb_2;
         bulb(u_lightData[i], vd.positionWorld, bulb_2);
