@@ -38,6 +38,14 @@ static void report_unknown_look(const struct document *doc, const char *name,
     diag_add(diags, DIAG_ID_unknown_look, place, name, near);
 }
 
+bool look_exists(const struct document *doc)
+{
+    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_LOOK)
+            return true;
+    return false;
+}
+
 /* Without a name: the only look. */
 static elem_id only_look(const struct document *doc, struct diag_list *diags)
 {
@@ -193,10 +201,13 @@ static void read_assigns(struct bind_look *look, elem_id element)
 }
 
 void look_read(struct bind_look *look, const struct document *doc, elem_id element,
-               struct arena *arena, struct diag_list *diags)
+               const struct scene *scene, struct arena *arena, struct diag_list *diags)
 {
     struct chain chain = {0};
     init_look(look, doc, element, arena, diags);
+    look->scene = scene;
+    for (uint32_t i = 0; i < scene->bindings.len; i++)
+        look_read_binding(look, i);
     find_parents(look, &chain);
     for (uint32_t i = 0; i < chain.len && !look->order; i++)
         if (doc_attr(doc, chain.items[i], STR_slotorder))
@@ -236,10 +247,26 @@ void look_assign_name(const struct bind_look *look, uint32_t assign, struct text
 {
     const struct look_assign *a = &look->assigns.items[assign];
     const struct document *doc = look->doc;
+    if (a->binding) {
+        text_str(out, look->scene->bindings.items[a->binding - 1].label);
+        return;
+    }
     str_id name = doc_element(doc, a->element)->name;
     text_fmt(out, "%s/", text_of(doc, doc_element(doc, a->look)->name));
     if (name)
         text_str(out, text_of(doc, name));
     else
         text_fmt(out, "#%u", (unsigned)a->ordinal);
+}
+
+struct diag_place look_assign_place(const struct bind_look *look, const struct look_assign *assign)
+{
+    return assign->binding ? look->scene->bindings.items[assign->binding - 1].place
+                           : doc_place(look->doc, assign->element);
+}
+
+struct diag_place look_slot_place(const struct bind_look *look, const struct look_assign *assign)
+{
+    return assign->binding ? look->scene->bindings.items[assign->binding - 1].place
+                           : doc_attr_place(look->doc, assign->element, STR_slot);
 }
