@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A baseline is a stored JSON report. Differences from it become changes in the documents, which
- * show the effect of a library edit on all documents.
+ * A baseline is a stored JSON report. A run reports its differences from it, which show the effect
+ * of an edit on all documents.
  */
 #ifndef MXG_CHECK_BASELINE_H
 #define MXG_CHECK_BASELINE_H
@@ -9,26 +9,46 @@
 #include "cli/names.h"
 #include "check/record.h"
 #include "check/report_reader.h"
+#include "check/root.h"
 
 struct baseline {
     struct report_reader reader;
     bool is_open;
-    /* offsets of the documents in the report; a mark shows that the run has compared them */
+    /*
+     * offsets of the documents in the report, by their names below the root; a mark shows that the
+     * run has compared them
+     */
     struct name_table offsets;
+    uint64_t num_compared;
+    size_t next_gone; /* the next entry that may be gone; the entries are then in order */
+    bool is_sorted;
 };
 
 /* False: baseline->reader.fault has the reason. Call baseline_close in both cases. */
 bool baseline_open(struct baseline *baseline, const char *path);
 void baseline_close(struct baseline *baseline);
 
+/*
+ * The reason why a run with these targets has another subject than the baseline, which the caller
+ * frees; NULL: it has the same one.
+ */
+char *baseline_find_mismatch(const struct baseline *baseline, const char *const *targets,
+                             size_t num_targets, bool compiles);
+
+/*
+ * The same for the root: none of the baseline's documents is below it. A baseline without documents
+ * fits every root.
+ */
+char *baseline_find_other_root(struct baseline *baseline, const char *root);
+
 /* Records the differences in the document, with memory of the store. */
 void baseline_compare(struct baseline *baseline, struct store *store,
                       struct check_document *document);
 
 /*
- * Prints the documents of the baseline that the run has not compared, in its order; returns their
- * number.
+ * The next document of the baseline that the run has not compared, in its order; NULL: no more. No
+ * comparison may follow.
  */
-uint64_t baseline_list_gone(struct baseline *baseline, FILE *out);
+struct check_document *baseline_next_gone(struct baseline *baseline, struct store *store);
 
 #endif

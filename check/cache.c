@@ -3,14 +3,17 @@
 #include "check/cache.h"
 
 #include "check/json.h"
+#include "check/protocol.h"
 #include "check/record_io.h"
 #include "cli/cli.h"
 #include "cli/files.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { NUM_FILES = 1024 }; /* capacity for remembered hashes: many documents share includes */
 
@@ -36,18 +39,37 @@ static struct cache_hash end_hash(SHA2_CTX *sha)
     return hash;
 }
 
-/* Hash of the bytes of a file; "" if it cannot be read. */
-static struct cache_hash hash_file(const char *path)
+/* Adds the bytes of a file of at most the size of the limit, piece by piece; false: past a limit.
+ */
+static bool add_file(const struct cache *cache, SHA2_CTX *sha, int fd)
+{
+    uint8_t piece[64 << 10];
+    struct stat info;
+    uint64_t end = desk_clock() + cache->time_limit;
+    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)
+        || (uint64_t)info.st_size > cache->max_file_size)
+        return false;
+    ssize_t len = 0;
+    for (uint64_t size = 0; (len = read(fd, piece, sizeof piece)) > 0;) {
+        size += (uint64_t)len;
+        if (size > cache->max_file_size || desk_clock() > end)
+            return false;
+        SHA256Update(sha, piece, (size_t)len);
+    }
+    return len == 0;
+}
+
+/* Hash of the bytes of a file; "" if it cannot be read, or exceeds a limit. */
+static struct cache_hash hash_file(const struct cache *cache, const char *path)
 {
     SHA2_CTX sha;
-    size_t size = 0;
-    char *data = files_is_regular(path) ? files_read(path, &size) : NULL;
-    if (!data)
-        return (struct cache_hash){""};
+    /* no wait for the other end of a pipe, which is no regular file anyway */
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     SHA256Init(&sha);
-    SHA256Update(&sha, (const uint8_t *)data, size);
-    free(data);
-    return end_hash(&sha);
+    bool good = fd >= 0 && add_file(cache, &sha, fd);
+    if (fd >= 0)
+        close(fd);
+    return good ? end_hash(&sha) : (struct cache_hash){""};
 }
 
 static int compare_names(const void *a, const void *b)
@@ -87,7 +109,7 @@ static const char *remembered_hash(struct cache *cache, const char *path)
     if (!file->path || strcmp(file->path, path) != 0) {
         free(file->path);
         file->path = cli_format("%s", path);
-        file->hash = is_folder_name(path) ? hash_folder(path) : hash_file(path);
+        file->hash = is_folder_name(path) ? hash_folder(path) : hash_file(cache, path);
     }
     return file->hash.hex;
 }
@@ -109,11 +131,10 @@ static void add_renderer(SHA2_CTX *sha)
     free(program);
 }
 
-void cache_init(struct cache *cache, const char *folder, const struct arg_list *args,
-                const mxg_library *library)
+void cache_init(struct cache *cache, const struct arg_list *args, const mxg_library *library)
 {
-    *cache = (struct cache){.folder = folder, .begin = time(NULL)};
-    if (!folder)
+    cache->begin = time(NULL);
+    if (!cache->folder)
         return;
     SHA2_CTX sha;
     const uint8_t version = CHECK_FORMAT_VERSION;
@@ -128,7 +149,7 @@ void cache_init(struct cache *cache, const char *folder, const struct arg_list *
     }
     for (uint32_t i = 0; i < mxg_library_num_files(library); ++i) {
         add_text(&sha, mxg_library_file(library, i));
-        add_text(&sha, hash_file(mxg_library_file(library, i)).hex);
+        add_text(&sha, hash_file(cache, mxg_library_file(library, i)).hex);
     }
     cache->configuration = end_hash(&sha);
     if (!cache->files)
@@ -147,7 +168,7 @@ void cache_finish(struct cache *cache)
 static struct cache_key make_key(const struct cache *cache, const char *path)
 {
     SHA2_CTX sha;
-    struct cache_key key = {.document = hash_file(path)};
+    struct cache_key key = {.document = hash_file(cache, path)};
     if (!key.document.hex[0])
         return key;
     SHA256Init(&sha);
@@ -160,7 +181,31 @@ static struct cache_key make_key(const struct cache *cache, const char *path)
 
 static char *entry_path(const struct cache *cache, const struct cache_key *key)
 {
-    return cli_format("%s/%.2s/%s.json", cache->folder, key->name.hex, key->name.hex + 2);
+    return cli_format("%s/%.2s/%s.entry", cache->folder, key->name.hex, key->name.hex + 2);
+}
+
+/* ---- The file of an entry: a line with the hash of the JSON after it ---- */
+
+static struct cache_hash hash_bytes(const char *bytes, size_t size)
+{
+    SHA2_CTX sha;
+    SHA256Init(&sha);
+    SHA256Update(&sha, (const uint8_t *)bytes, size);
+    return end_hash(&sha);
+}
+
+/* NULL if there is no entry, or a damaged one. */
+static json_t *read_entry(const char *path)
+{
+    enum { LINE = sizeof(struct cache_hash) }; /* the newline is where the text has its NUL */
+    size_t size = 0;
+    char *data = files_is_regular(path) ? files_read(path, &size) : NULL;
+    json_t *entry = NULL;
+    if (data && size > LINE && data[LINE - 1] == '\n'
+        && memcmp(data, hash_bytes(data + LINE, size - LINE).hex, LINE - 1) == 0)
+        entry = json_loadb(data + LINE, size - LINE, 0, NULL);
+    free(data);
+    return entry;
 }
 
 /* Size and time stand for the content of an image, because images are large. */
@@ -207,7 +252,7 @@ json_t *cache_find(struct cache *cache, const char *path, struct cache_key *out_
     if (!out_key->name.hex[0])
         return NULL;
     char *file = entry_path(cache, out_key);
-    json_t *entry = json_load_file(file, 0, NULL), *record = NULL;
+    json_t *entry = read_entry(file), *record = NULL;
     free(file);
     if (is_current(cache, entry))
         record = json_incref(json_object_get(entry, "record"));
@@ -227,7 +272,8 @@ static bool may_have_changed(const struct cache *cache, const char *path)
  */
 static bool is_about_absence(const char *id)
 {
-    static const char *const ids[] = {"failed", "file-missing", "file-unreadable", "no-profile"};
+    static const char *const ids[] = {"failed", "check-memory", "file-missing", "file-unreadable",
+                                      "no-profile"};
     for (size_t i = 0; i < sizeof ids / sizeof *ids; ++i)
         if (strcmp(id, ids[i]) == 0)
             return true;
@@ -243,7 +289,7 @@ static bool follows_from_files(const struct cache *cache, const struct check_doc
         if (files_is_regular(document->images[i]) && may_have_changed(cache, document->images[i]))
             return false;
     if (document->failed == CHECK_CRASH || document->failed == CHECK_TIMEOUT
-        || document->num_files == 0)
+        || document->failed == CHECK_MEMORY || document->num_files == 0)
         return false;
     for (size_t i = 0; i < document->num_messages; ++i)
         if (is_about_absence(document->messages[i].id))
@@ -265,9 +311,12 @@ static char *make_entry(struct cache *cache, const struct check_document *docume
     json_object_set_new(entry, "files", files);
     json_object_set_new(entry, "images", images);
     json_object_set_new(entry, "record", record_to_json(document, true));
-    char *text = json_dumps(entry, JSON_STYLE);
+    char *text = json_dumps(entry, JSON_STYLE), *file = NULL;
+    if (text)
+        file = cli_format("%s\n%s", hash_bytes(text, strlen(text)).hex, text);
+    free(text);
     json_decref(entry);
-    return text;
+    return file;
 }
 
 void cache_put(struct cache *cache, const struct cache_key *key,

@@ -4,7 +4,7 @@
  * on: the document's bytes and name, the workers' arguments, their program and the libraries. The
  * entry lists the other files with their hashes, and images in pictures with size and time. Each
  * entry appears as a whole, so several runs can share a cache, and a killed run leaves no broken
- * entry. An unreadable entry counts as absent.
+ * entry. An entry begins with its checksum; a damaged one counts as absent and is made anew.
  */
 #ifndef MXG_CHECK_CACHE_H
 #define MXG_CHECK_CACHE_H
@@ -28,15 +28,22 @@ struct cache_key {
 
 struct cache {
     const char *folder; /* NULL: no cache */
+    /*
+     * limits for the hash of a file: the cache does not know files past them, so a worker, which
+     * has the same limits, checks their documents
+     */
+    uint64_t max_file_size, time_limit; /* bytes; nanoseconds */
     struct cache_hash configuration;
     struct cached_file *files; /* hashes of recently read files */
     const char *fault;         /* the reason why entries cannot be written */
     time_t begin;
 };
 
-/* `args` are the arguments of the workers, the program first. */
-void cache_init(struct cache *cache, const char *folder, const struct arg_list *args,
-                const mxg_library *library);
+/*
+ * `args` are the arguments of the workers, the program first. The caller sets folder and limits
+ * before.
+ */
+void cache_init(struct cache *cache, const struct arg_list *args, const mxg_library *library);
 void cache_finish(struct cache *cache);
 
 /*

@@ -4,17 +4,19 @@
  * document; this file orders, judges and reports the records.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "check/baseline.h"
 #include "check/budget.h"
 #include "check/cache.h"
 #include "check/check.h"
+#include "check/gate.h"
 #include "check/inputs.h"
 #include "check/json.h"
 #include "check/pool.h"
+#include "check/progress.h"
 #include "check/protocol.h"
 #include "check/record_io.h"
 #include "cli/files.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -38,7 +40,7 @@ struct slot {
 struct check {
     struct cli cli;
     struct arg_list target_args, files_from, targets, worker_args;
-    size_t jobs, time_limit;
+    size_t jobs, time_limit, memory_limit;
     bool no_compile, render, stats;
     bool needs_measures;    /* every document needs measures */
     bool needs_errors_only; /* only errors need their printed form */
@@ -46,15 +48,19 @@ struct check {
     struct check_inputs inputs;
     struct pool pool;
     struct cache cache;
+    struct progress progress;
     struct budget budget;
-    struct baseline baseline;
-    bool update_baseline;
-    const char *baseline_path;
+    struct gate gate;
+    struct check_root root;
+    const char *root_folder; /* NULL: the working directory */
     const char *budget_args[NUM_MEASURES];
     const char *cache_folder, *shard;
     uint64_t num_found; /* number of documents, including other shards */
 
     /* a ring: limits how far workers can be ahead of the report */
+    struct outputs outputs; /* the files of the reports, and the inputs of the whole run */
+    bool has_clash;         /* a document is one of the former: no report may be written */
+
     struct slot *slots;
     size_t num_slots;
     uint64_t first, last; /* documents in the ring: the next one to report, and the end */
@@ -71,7 +77,9 @@ static struct slot *slot_of(struct check *check, uint64_t number)
 static struct check_document *make_failure(struct store *store, const struct slot *slot)
 {
     struct check_document *document = store_alloc(store, sizeof *document);
-    const char *id = slot->failed == CHECK_TIMEOUT ? "check-timeout" : "check-crashed";
+    const char *id = slot->failed == CHECK_TIMEOUT  ? "check-timeout"
+                     : slot->failed == CHECK_MEMORY ? "check-memory"
+                                                    : "check-crashed";
     char *rendered = cli_format("%s: error: %s [%s]\n", slot->path, slot->reason, id);
     document->file = slot->path;
     document->failed = slot->failed;
@@ -123,7 +131,26 @@ static void finish_slot(struct slot *slot)
     *slot = (struct slot){0};
 }
 
-static void tell_document(struct check *check, struct slot *slot)
+static void show_progress(struct check *check, const struct check_document *document)
+{
+    const struct check_totals *totals = &check->reports.totals;
+    uint64_t failed = check->reports.run.is_compared
+                          ? totals->failing
+                          : totals->documents - totals->failed[CHECK_PASSED];
+    progress_show(&check->progress, totals->documents, failed, document->file);
+}
+
+/* A report would overwrite the file, so the run ends without reports. */
+static void check_clash(struct check *check, const char *path)
+{
+    if (check->has_clash || !outputs_has(&check->outputs, path))
+        return;
+    check->has_clash = true;
+    report_error(&check->cli.report, "output-clash",
+                 "a report would overwrite the input '%s'; choose another name", path);
+}
+
+static void report_slot(struct check *check, struct slot *slot)
 {
     struct store store = {0};
     struct check_document *document = read_record(check, &store, slot);
@@ -135,19 +162,22 @@ static void tell_document(struct check *check, struct slot *slot)
         document = make_failure(&store, slot);
     }
     document->index = slot->index;
+    document->name = check_root_name(&check->root, &store, document->file);
+    for (size_t i = 0; i < document->num_files; ++i)
+        check_clash(check, document->files[i]);
     budget_judge(&check->budget, &store, document);
-    if (check->reports.run.is_compared)
-        baseline_compare(&check->baseline, &store, document);
+    gate_compare(&check->gate, &check->reports, &store, document, &check->cli.report);
     check->reports.totals.cached += slot->cached != NULL;
     reports_document(&check->reports, document);
+    show_progress(check, document);
     store_finish(&store);
     finish_slot(slot);
 }
 
-static void tell_done(struct check *check)
+static void report_finished_slots(struct check *check)
 {
     for (; check->first < check->last && slot_of(check, check->first)->is_done; ++check->first)
-        tell_document(check, slot_of(check, check->first));
+        report_slot(check, slot_of(check, check->first));
 }
 
 /* ---- Work ---- */
@@ -178,6 +208,7 @@ static bool give_next(struct check *check)
     const char *path = next_path(check);
     if (!path)
         return false;
+    check_clash(check, path);
     struct slot *slot = slot_of(check, check->last++);
     *slot = (struct slot){.path = cli_copy(path, strlen(path)), .index = check->num_found - 1};
     slot->cached = cache_find(&check->cache, path, &slot->key);
@@ -205,13 +236,14 @@ static bool take_answer(struct check *check)
 static void check_all(struct check *check)
 {
     bool more = true;
-    while (!check->pool.fault && (more || check->pool.num_open)) {
+    while (!check->pool.fault && !check->has_clash && (more || check->pool.num_open)) {
         while (more && pool_wants(&check->pool) && check->last - check->first < check->num_slots)
             more = give_next(check);
         if (check->pool.num_open)
             take_answer(check);
-        tell_done(check);
+        report_finished_slots(check);
     }
+    progress_clear(&check->progress);
     if (check->pool.fault)
         report_error(&check->cli.report, "check-failed", "%s", check->pool.fault);
 }
@@ -282,24 +314,19 @@ static void make_worker_args(struct check *check)
         add_worker_arg(check, "--no-compile", NULL);
     if (check->render)
         add_worker_arg(check, "--render", NULL);
+    if (check->memory_limit)
+        args_append(&check->worker_args, cli_format("--memory-limit=%zu", check->memory_limit));
     cli_forward(&check->cli, &check->worker_args);
     args_append(&check->worker_args, NULL);
 }
 
-/* Compares with an existing baseline; writes a missing one, or a new one on demand. */
-static bool prepare_baseline(struct check *check)
+static bool open_root(struct check *check)
 {
-    const char **path = &check->reports.paths[SINK_BASELINE];
-    if (!*path || !files_is_regular(*path))
+    if (check_root_open(&check->root, check->root_folder))
         return true;
-    check->baseline_path = *path;
-    check->reports.run.is_compared = baseline_open(&check->baseline, *path);
-    if (!check->reports.run.is_compared)
-        report_error(&check->cli.report, "report-unreadable", "cannot read '%s': %s", *path,
-                     check->baseline.reader.fault);
-    if (!check->update_baseline)
-        *path = NULL;
-    return check->reports.run.is_compared;
+    report_error(&check->cli.report, "file-missing", "cannot open '%s': %s",
+                 check->root_folder ? check->root_folder : ".", strerror(errno));
+    return false;
 }
 
 /* Names the inputs of all documents, for the depfile. */
@@ -315,7 +342,7 @@ static void name_inputs(struct check *check)
         if (check->cli.parser.inputs.items[i][0] == '@')
             args_append(inputs, check->cli.parser.inputs.items[i] + 1);
     if (check->reports.run.is_compared)
-        args_append(inputs, check->baseline_path);
+        args_append(inputs, check->gate.path);
 }
 
 static bool prepare(struct check *check)
@@ -335,7 +362,8 @@ static bool prepare(struct check *check)
     run->verbose = cli->verbose;
     run->compiles = !check->no_compile;
     run->with_times = check->stats;
-    if (!prepare_baseline(check))
+    if (!open_root(check)
+        || !gate_open(&check->gate, &check->reports, check->root.given, &check->cli.report))
         return false;
     name_inputs(check);
     const char *const *paths = check->reports.paths;
@@ -346,7 +374,16 @@ static bool prepare(struct check *check)
         cli->quiet && !check->needs_measures && !paths[SINK_SARIF] && !paths[SINK_JUNIT];
     check->num_slots = 2 * pool_capacity(check->jobs) + 64;
     check->slots = calloc(check->num_slots, sizeof *check->slots);
-    return check->slots && reports_begin(&check->reports, &check->cli.report);
+    bool good = reports_claim(&check->reports, &check->outputs, &check->cli.report);
+    for (size_t i = 0; i < run->inputs.len; ++i) {
+        /* --update-baseline replaces the baseline that it reads */
+        bool is_replaced = check->gate.update && check->gate.path
+                           && strcmp(run->inputs.items[i], check->gate.path) == 0;
+        good =
+            (is_replaced || outputs_read(&check->outputs, &check->cli.report, run->inputs.items[i]))
+            && good;
+    }
+    return good && check->slots && reports_begin(&check->reports, &check->cli.report);
 }
 
 /* Reports a missing renderer once instead of for every element. */
@@ -371,14 +408,20 @@ static int run(struct check *check)
         return EXIT_FAULT;
     make_worker_args(check);
     inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
-    cache_init(&check->cache, check->cache_folder, &check->worker_args, check->cli.library);
+    check->cache = (struct cache){
+        .folder = check->cache_folder,
+        .max_file_size = (uint64_t)(cli_max_file_size(&check->cli)) << 20,
+        .time_limit = (uint64_t)check->time_limit * 1000000000u,
+    };
+    cache_init(&check->cache, &check->worker_args, check->cli.library);
     pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs,
               (double)check->time_limit);
+    check->pool.memory_limit = check->memory_limit;
+    progress_init(&check->progress, !check->cli.quiet);
+    check->reports.run.progress = &check->progress;
     check_all(check);
-    if (check->reports.run.is_compared && !check->reports.run.num_shards)
-        check->reports.totals.changes[CHANGE_GONE] +=
-            baseline_list_gone(&check->baseline, check->reports.text.out);
-    reports_end(&check->reports, report, !check->pool.fault);
+    gate_tell_gone(&check->gate, &check->reports);
+    reports_end(&check->reports, report, !check->pool.fault && !check->has_clash);
     if (check->cache.fault)
         fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n",
                 check->cache_folder, check->cache.fault);
@@ -396,8 +439,10 @@ static void finish(struct check *check)
     pool_finish(&check->pool);
     cache_finish(&check->cache);
     budget_finish(&check->budget);
-    baseline_close(&check->baseline);
+    gate_finish(&check->gate);
+    check_root_finish(&check->root);
     inputs_finish(&check->inputs);
+    outputs_finish(&check->outputs);
     args_free(&check->worker_args);
     free(check->target_args.items);
     free(check->files_from.items);
@@ -424,6 +469,7 @@ static int run_if_sensible(struct check *check)
     if (misuse)
         fprintf(stderr, "mxgen: %s\n", misuse);
     return !misuse && find_targets(check) && parse_shard(check) && parse_budgets(check)
+                   && gate_parse(&check->gate, &check->reports)
                ? run(check)
                : EXIT_USAGE;
 }
@@ -433,8 +479,8 @@ int command_check(const struct command *command, int argc, char **argv)
     json_use_memory();
     if (argc > 1 && strcmp(argv[1], "merge") == 0)
         return check_merge(command, argc - 1, argv + 1);
-    struct check check = {.time_limit = 120};
-    struct arg args[16 + NUM_SINK_KINDS + NUM_MEASURES] = {
+    struct check check = {.time_limit = 120, .memory_limit = 4096};
+    struct arg args[16 + NUM_GATE_ARGS + NUM_SINK_KINDS + NUM_MEASURES] = {
         {"target", 't', ARG_LIST, "T,...", "targets (default: glsl)", &check.target_args},
         {"jobs", 'j', ARG_SIZE, "N",
          "documents checked at the same time; 0: number of cores (default: 0)", &check.jobs,
@@ -447,12 +493,16 @@ int command_check(const struct command *command, int argc, char **argv)
         {"time-limit", 0, ARG_SIZE, "S",
          "limit in seconds for one step: one element for one target; 0: none (default: 120)",
          &check.time_limit, .high = MAX_TIME_LIMIT},
+        {"memory-limit", 0, ARG_SIZE, "MIB",
+         "limit of the memory of a worker; 0: none (default: 4096)", &check.memory_limit},
         {"cache", 0, ARG_TEXT, "DIR", "keeps results, and checks only changed documents again",
          &check.cache_folder},
         {"shard", 0, ARG_TEXT, "K/N",
          "checks part K of N; 'mxgen check merge' joins the JSON reports", &check.shard},
-        {"update-baseline", 0, ARG_FLAG, NULL, "replaces the baseline after the comparison",
-         &check.update_baseline},
+        {"root", 0, ARG_TEXT, "DIR",
+         "names documents in reports and baselines by their path below this folder (default: the "
+         "working directory)",
+         &check.root_folder},
         {"stats", 0, ARG_FLAG, NULL, "prints times, the slowest documents and the largest shaders",
          &check.stats},
     };
@@ -460,6 +510,7 @@ int command_check(const struct command *command, int argc, char **argv)
     while (args[num_args].name)
         ++num_args;
     num_args += reports_args(&check.reports, args + num_args);
+    num_args += gate_args(&check.gate, args + num_args);
     for (int i = 0; i < NUM_MEASURES; ++i)
         args[num_args++] = (struct arg){
             measure_infos[i].option, 0,       ARG_TEXT, "N | T=N,...", measure_infos[i].meaning,

@@ -5,6 +5,7 @@
 
 #include "check/sink.h"
 #include "cli/cli.h"
+#include "cli/outputs.h"
 
 /* The requested reports, and the totals. */
 struct check_reports {
@@ -19,14 +20,24 @@ size_t reports_args(struct check_reports *reports, struct arg *args);
 /* The reason why the arguments are invalid; NULL if they are valid. */
 const char *reports_misuse(const struct check_reports *reports);
 
+/*
+ * Notes the files of the reports. False after a message about two reports with one file, or a
+ * report over a file that `outputs` knows as an input.
+ */
+bool reports_claim(const struct check_reports *reports, struct outputs *outputs,
+                   struct report *report);
+
 /* Opens the files. False after a message about a file that cannot be written. */
 bool reports_begin(struct check_reports *reports, struct report *report);
 
 /* Passes a document to all reports. Documents come in order. */
 void reports_document(struct check_reports *reports, const struct check_document *document);
 
+/* Passes a document of the baseline that the run lacks, after all documents of the run. */
+void reports_gone(struct check_reports *reports, const struct check_document *document);
+
 /*
- * True if the run passes: all documents pass, or, with a baseline, no new failures occur.
+ * True if the run passes: all documents pass, or, with a baseline, no change fails the run.
  */
 bool reports_are_good(const struct check_reports *reports);
 

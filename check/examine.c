@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/examine.h"
 
+#include "cli/memory.h"
 #include "compile/compile.h"
 
 #include <stdlib.h>
@@ -83,7 +84,7 @@ static void count_error(struct examiner *examiner, const struct check_message *m
 }
 
 /* Adds the number of further errors to the last one. */
-static void tell_rest(struct examiner *examiner, struct check_message *last)
+static void note_limit(struct examiner *examiner, struct check_message *last)
 {
     if (strstr(last->rendered, "the rest is not shown"))
         return;
@@ -93,6 +94,19 @@ static void tell_rest(struct examiner *examiner, struct check_message *last)
     free(text);
 }
 
+/* Copies the notes of a message into the store. */
+static void copy_notes(struct examiner *examiner, struct check_message *message)
+{
+    struct check_note *notes =
+        store_array(&examiner->store, message->num_notes, sizeof *message->notes);
+    for (size_t i = 0; i < message->num_notes; ++i) {
+        notes[i] = message->notes[i];
+        notes[i].text = copy(examiner, notes[i].text);
+        notes[i].file = copy(examiner, notes[i].file);
+    }
+    message->notes = notes;
+}
+
 void examine_add(struct examiner *examiner, struct check_shader *shader,
                  struct check_message message)
 {
@@ -100,7 +114,8 @@ void examine_add(struct examiner *examiner, struct check_shader *shader,
     uint32_t index = find_message(examiner, &message);
     if (index == examiner->document->num_messages && is_beyond_limit(examiner, &message)) {
         index = examiner->last_error;
-        tell_rest(examiner, &examiner->document->messages[index]);
+        ++examiner->document->num_hidden;
+        note_limit(examiner, &examiner->document->messages[index]);
     } else if (index == examiner->document->num_messages) {
         message.id = copy(examiner, message.id);
         message.text = copy(examiner, message.text);
@@ -108,6 +123,7 @@ void examine_add(struct examiner *examiner, struct check_shader *shader,
         message.element = copy(examiner, message.element);
         message.target = copy(examiner, message.target);
         message.rendered = copy(examiner, message.rendered);
+        copy_notes(examiner, &message);
         add_message(examiner, &message);
         count_error(examiner, &message, index);
     }
@@ -115,8 +131,8 @@ void examine_add(struct examiner *examiner, struct check_shader *shader,
         refer(examiner, shader, index);
 }
 
-static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagnostic,
-                    uint32_t index)
+static bool is_shown(const struct examiner *examiner, const mxg_diagnostic *diagnostic,
+                     uint32_t index)
 {
     if (diagnostic->parent != index)
         return false; /* it belongs to the message before it */
@@ -146,13 +162,30 @@ static void add_quoted_place(struct examiner *examiner, const mxg_diagnostic *di
                         store_text(&examiner->store, quote + 1, len));
 }
 
+/* The notes of a diagnostic; NULL without one. The caller frees them; they borrow the texts. */
+static struct check_note *take_notes(const mxg_diagnostics *list, uint32_t index, size_t *out_num)
+{
+    mxg_diagnostic note = {sizeof note};
+    struct check_note *notes = NULL;
+    *out_num = 0;
+    for (uint32_t i = index + 1;
+         mxg_diagnostics_get(list, i, &note) == MXG_OK && note.parent == index; ++i) {
+        notes = memory_resize(notes, (*out_num + 1) * sizeof *notes);
+        notes[(*out_num)++] = (struct check_note){note.message, note.file ? note.file : "",
+                                                  note.line, note.column, note.length};
+    }
+    return notes;
+}
+
 static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
                             struct check_shader *shader, const char *element)
 {
+    examiner->document->num_hidden += mxg_diagnostics_errors(list);
     for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
-        if (!is_told(examiner, &diagnostic, i))
+        examiner->document->num_hidden -= diagnostic.severity == MXG_SEVERITY_ERROR;
+        if (!is_shown(examiner, &diagnostic, i))
             continue;
         if (is_about_absence(diagnostic.id))
             add_quoted_place(examiner, &diagnostic);
@@ -166,9 +199,12 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
                                         .element = element,
                                         .target = shader ? shader->target : NULL};
         bool is_read = message.severity == MXG_SEVERITY_ERROR || !examiner->errors_only;
-        if (is_read && find_message(examiner, &message) == examiner->document->num_messages)
+        if (is_read && find_message(examiner, &message) == examiner->document->num_messages) {
             message.rendered = report_render(&examiner->cli->report, list, i);
+            message.notes = take_notes(list, i, &message.num_notes);
+        }
         examine_add(examiner, shader, message);
+        free(message.notes);
     }
 }
 
@@ -178,16 +214,22 @@ static void add_status(struct examiner *examiner, mxg_status status, struct chec
 {
     if (status == MXG_OK || status == MXG_ERROR_DOCUMENT)
         return;
-    char *rendered =
-        cli_format("%s: error: %s [failed]\n", examiner->document->file, mxg_status_string(status));
+    bool is_limit =
+        status == MXG_ERROR_MEMORY && examiner->memory_limit && !examiner->cli->max_memory;
+    const char *id = is_limit ? "check-memory" : "failed";
+    char *text = is_limit ? cli_format("a worker needs more than %zu MiB of memory: %s",
+                                       examiner->memory_limit, element ? element : "the document")
+                          : cli_format("%s", mxg_status_string(status));
+    char *rendered = cli_format("%s: error: %s [%s]\n", examiner->document->file, text, id);
     examine_add(examiner, shader,
-                (struct check_message){.id = "failed",
-                                       .text = mxg_status_string(status),
+                (struct check_message){.id = id,
+                                       .text = text,
                                        .file = examiner->document->file,
                                        .element = element,
                                        .target = shader ? shader->target : NULL,
                                        .rendered = rendered});
     free(rendered);
+    free(text);
 }
 
 /* ---- Stages ---- */
@@ -224,28 +266,30 @@ static void validate(struct examiner *examiner, const mxg_document *document)
     examiner->document->validate_ms = examine_clock() - begin;
 }
 
-static void generate(struct examiner *examiner, const mxg_document *document, const char *element,
-                     struct check_shader *shader)
+static void generate(struct examiner *examiner, const mxg_document *document,
+                     struct check_element *element, struct check_shader *shader)
 {
     double begin = examine_clock();
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = shader->target;
-    desc.element = element;
+    desc.element = element->path;
     desc.options = examiner->cli->options;
     /* no report needs the source */
     desc.without_source =
         examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size;
     desc.only_diagnostics = desc.without_source && !examiner->render;
     mxg_result *result = NULL;
-    channel_mark(&examiner->channel, CHECK_GENERATE, element, shader->target);
+    channel_mark(&examiner->channel, CHECK_GENERATE, element->path, shader->target);
     mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);
-    add_diagnostics(examiner, mxg_result_diagnostics(result), shader, element);
-    add_status(examiner, status, shader, element);
+    add_diagnostics(examiner, mxg_result_diagnostics(result), shader, element->path);
+    add_status(examiner, status, shader, element->path);
     if (status != MXG_OK)
         check_fail(&shader->failed, CHECK_GENERATE);
     shader->generate_ms = examine_clock() - begin;
-    if (status == MXG_OK)
-        examine_shader(examiner, result, shader, element);
+    if (status == MXG_OK) {
+        examine_shader(examiner, result, shader, element->path);
+        examine_settings(examiner, result, element);
+    }
     if (status == MXG_OK && examiner->render)
         examine_images(examiner, result);
     check_fail(&examiner->document->failed, shader->failed);
@@ -262,7 +306,7 @@ static void examine_element(struct examiner *examiner, const mxg_document *docum
         struct check_shader *shader = &element->shaders[element->num_shaders++];
         shader->target = examiner->targets.items[i];
         shader->topology = "";
-        generate(examiner, document, element->path, shader);
+        generate(examiner, document, element, shader);
     }
     if (examiner->render && element->num_shaders && element->shaders[0].failed != CHECK_GENERATE)
         examine_picture(examiner, element);

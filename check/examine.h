@@ -10,6 +10,7 @@ struct examiner {
     struct cli *cli;
     struct arg_list targets;
     bool compile, render;
+    size_t memory_limit; /* of this process, in MiB; 0: none */
     struct channel channel;
     bool is_brief;    /* no report needs measures */
     bool errors_only; /* only errors need their printed form */
@@ -31,6 +32,10 @@ void examiner_finish(struct examiner *examiner);
 /* examine_shader.c: measures and compiles a generated shader. */
 void examine_shader(struct examiner *examiner, const mxg_result *result,
                     struct check_shader *shader, const char *element);
+
+/* Records the published inputs and textures of an element, unless another target has done so. */
+void examine_settings(struct examiner *examiner, const mxg_result *result,
+                      struct check_element *element);
 
 /* examine_picture.c: lists the images in an element's picture; draws the picture. */
 void examine_images(struct examiner *examiner, const mxg_result *result);

@@ -286,8 +286,8 @@ static void compile(struct examiner *examiner, const mxg_result *result,
     compiled_finish(&compiled);
 }
 
-static void tell_facts(struct examiner *examiner, const mxg_result *result,
-                       struct check_shader *shader)
+static void add_facts(struct examiner *examiner, const mxg_result *result,
+                      struct check_shader *shader)
 {
     mxg_shader_info info = {sizeof info};
     mxg_result_info(result, &info);
@@ -303,10 +303,66 @@ void examine_shader(struct examiner *examiner, const mxg_result *result,
                     struct check_shader *shader, const char *element)
 {
     if (!examiner->is_brief)
-        tell_facts(examiner, result, shader);
+        add_facts(examiner, result, shader);
     if (examiner->compile && compile_knows_target(shader->target))
         compile(examiner, result, shader, element);
     rank_parts(shader);
     for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)
         check_add_file(&examiner->store, examiner->document, mxg_result_file(result, i));
+}
+
+/* ---- Settings ---- */
+
+/* "0.8, 0.1, 0.1", as a document writes it; the caller frees it. */
+static char *value_text(const mxg_variable *variable)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    for (uint32_t i = 0; out && i < variable->num_values; ++i) {
+        char number[32];
+        int digits = 1; /* as few as tell this number from all others */
+        do
+            snprintf(number, sizeof number, "%.*g", digits, (double)variable->values[i]);
+        while (digits++ < 9 && strtof(number, NULL) != variable->values[i]);
+        fprintf(out, "%s%s", i ? ", " : "", number);
+    }
+    if (out)
+        fclose(out);
+    return text;
+}
+
+static void add_setting(struct examiner *examiner, struct check_setting **settings, size_t *num,
+                        const char *path, const char *value)
+{
+    struct store *store = &examiner->store;
+    *settings = store_grow(store, *settings, *num, sizeof **settings);
+    (*settings)[(*num)++] = (struct check_setting){store_text(store, path, strlen(path)),
+                                                   store_text(store, value, strlen(value))};
+}
+
+static void add_variable(struct examiner *examiner, struct check_element *element,
+                         const mxg_variable *variable)
+{
+    char *value = NULL;
+    if (!*variable->path)
+        return;
+    if (variable->block == MXG_BLOCK_TEXTURES)
+        add_setting(examiner, &element->textures, &element->num_textures, variable->path,
+                    variable->file);
+    else if (variable->num_values && (value = value_text(variable)) != NULL)
+        add_setting(examiner, &element->values, &element->num_values, variable->path, value);
+    free(value);
+}
+
+void examine_settings(struct examiner *examiner, const mxg_result *result,
+                      struct check_element *element)
+{
+    if (examiner->is_brief || element->num_values || element->num_textures)
+        return;
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        add_variable(examiner, element, &variable);
+    }
 }

@@ -83,10 +83,17 @@ static bool is_document_name(const char *name)
     return len > 5 && strcmp(name + len - 5, ".mtlx") == 0;
 }
 
-static bool is_folder(const char *path, bool follow)
+/* True for folders, pipes and devices; a link that leads nowhere is a missing document. */
+static bool is_special(const char *path)
 {
     struct stat info;
-    return (follow ? stat(path, &info) : lstat(path, &info)) == 0 && S_ISDIR(info.st_mode);
+    return stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
 static int compare_texts(const void *a, const void *b)
@@ -119,8 +126,8 @@ static void push_folder(struct check_inputs *inputs, const char *path)
             continue;
         char *name =
             cli_format("%s%s%s", path, len && path[len - 1] == '/' ? "" : "/", entry->d_name);
-        bool is_document = is_document_name(name) && !is_folder(name, true);
-        if (is_document || is_folder(name, false))
+        bool is_document = is_document_name(name) && !is_special(name);
+        if (is_document || is_folder(name))
             args_append(&names, name);
         else
             free(name);

@@ -4,6 +4,7 @@
 
 #include "check/protocol.h"
 #include "cli/cli.h"
+#include "cli/parent.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -51,6 +52,7 @@ void pool_init(struct pool *pool, char *const *argv, size_t num_workers, double 
     pool->waiting = calloc(pool_capacity(num_workers), sizeof *pool->waiting);
     if (!pool->workers || !pool->waiting)
         pool->fault = "out of memory";
+    parent_announce();
     signal(SIGPIPE, SIG_IGN); /* the pool notices a dead worker when it reads */
 }
 
@@ -268,10 +270,13 @@ static bool answer_end(struct pool *pool, struct pool_worker *worker, struct poo
 {
     unsigned num_begun = atomic_load(&worker->desk->num_begun) - worker->num_answered;
     size_t at = num_begun && num_begun <= worker->num_tasks ? num_begun - 1 : 0;
-    bool is_ready = atomic_load(&worker->desk->is_ready), is_late = worker->is_late;
+    bool is_ready = atomic_load(&worker->desk->is_ready), is_late = worker->is_late,
+         is_large = atomic_load(&worker->desk->is_out_of_memory) && pool->memory_limit && !is_late;
     char *mark = num_begun ? desk_describe(worker->desk) : cli_format("start");
     *out = (struct pool_answer){.ticket = take_task(pool, worker, at).ticket,
-                                .failed = is_late ? CHECK_TIMEOUT : CHECK_CRASH};
+                                .failed = is_late    ? CHECK_TIMEOUT
+                                          : is_large ? CHECK_MEMORY
+                                                     : CHECK_CRASH};
     memmove(pool->waiting + worker->num_tasks, pool->waiting,
             pool->num_waiting * sizeof *pool->waiting);
     memcpy(pool->waiting, worker->queue, worker->num_tasks * sizeof *pool->waiting);
@@ -280,10 +285,14 @@ static bool answer_end(struct pool *pool, struct pool_worker *worker, struct poo
     if (is_late)
         out->reason =
             cli_format("the step takes longer than %g seconds: %s", pool->time_limit, mark);
+    else if (is_large)
+        out->reason =
+            cli_format("a worker needs more than %zu MiB of memory: %s", pool->memory_limit, mark);
     else if (is_ready)
         out->reason = describe_end(mark, status);
     free(mark);
-    return is_late || is_ready || fail(pool, "this program ended before it was ready:", 0);
+    return is_late || is_large || is_ready
+           || fail(pool, "this program ended before it was ready:", 0);
 }
 
 static double deadline(const struct pool *pool, const struct pool_worker *worker)

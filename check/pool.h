@@ -29,15 +29,16 @@ struct pool {
     size_t num_waiting, num_open; /* waiting, and without an answer */
     double task_time;             /* mean of the last tasks, in seconds; 0: unknown */
     double time_limit;            /* seconds per step of a document */
+    size_t memory_limit;          /* MiB of a worker, which sets it for itself; 0: none */
     const char *fault;            /* the reason why workers cannot start; the pool is unusable */
     char reason[256];
 };
 
 struct pool_answer {
     size_t ticket;
-    char *record; /* the caller frees it; NULL: the worker died or exceeded the time limit */
+    char *record; /* the caller frees it; NULL: the worker died or exceeded a limit */
     size_t size;
-    enum check_stage failed; /* CHECK_CRASH or CHECK_TIMEOUT */
+    enum check_stage failed; /* CHECK_CRASH, CHECK_TIMEOUT or CHECK_MEMORY */
     char *reason;            /* the caller frees it; why there is no record */
 };
 

@@ -53,11 +53,12 @@ enum { DESK_FD = 3 /* descriptor in a worker */, DESK_TARGET = 64, DESK_ELEMENT 
 
 /* Texts are complete unless the worker died while it wrote them. Their last byte stays NUL. */
 struct desk {
-    atomic_uint is_ready;       /* the worker has loaded its library */
-    atomic_uint num_begun;      /* number of started tasks */
-    atomic_ullong step_begin;   /* desk_clock, in nanoseconds */
-    atomic_uint stage;          /* enum check_stage of the step */
-    char element[DESK_ELEMENT]; /* "": the document */
+    atomic_uint is_ready;         /* the worker has loaded its library */
+    atomic_uint num_begun;        /* number of started tasks */
+    atomic_ullong step_begin;     /* desk_clock, in nanoseconds */
+    atomic_uint stage;            /* enum check_stage of the step */
+    atomic_uint is_out_of_memory; /* an allocation failed that the worker cannot handle */
+    char element[DESK_ELEMENT];   /* "": the document */
     char target[DESK_TARGET];
 };
 

@@ -16,15 +16,50 @@ const struct measure_info measure_infos[NUM_MEASURES] = {
 };
 
 const char *const check_change_names[NUM_CHECK_CHANGES] = {
-#define CHANGE(name, text) text,
+#define CHANGE(name, text, meaning, fails) text,
     CHECK_CHANGES(CHANGE)
 #undef CHANGE
 };
+
+const char *const check_change_meanings[NUM_CHECK_CHANGES] = {
+#define CHANGE(name, text, meaning, fails) meaning,
+    CHECK_CHANGES(CHANGE)
+#undef CHANGE
+};
+
+const check_change_set check_failing_changes =
+#define CHANGE(name, text, meaning, fails) (fails ? 1u << CHANGE_##name : 0u) |
+    CHECK_CHANGES(CHANGE)
+#undef CHANGE
+        0u;
 
 void check_fail(enum check_stage *failed, enum check_stage stage)
 {
     if (stage != CHECK_PASSED && (*failed == CHECK_PASSED || stage < *failed))
         *failed = stage;
+}
+
+/* True if a shader failed at this stage. */
+static bool has_failed_shader(const struct check_document *document, enum check_stage stage)
+{
+    for (size_t i = 0; i < document->num_elements; ++i)
+        for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
+            if (document->elements[i].shaders[k].failed == stage)
+                return true;
+    return false;
+}
+
+enum check_stage check_own_failure(const struct check_document *document)
+{
+    return has_failed_shader(document, document->failed) ? CHECK_PASSED : document->failed;
+}
+
+bool check_has_change(const struct check_document *document, check_change_set kinds)
+{
+    for (size_t i = 0; i < document->num_changes; ++i)
+        if (kinds >> document->changes[i].kind & 1u)
+            return true;
+    return false;
 }
 
 bool check_is_same_message(const struct check_message *a, const struct check_message *b)
@@ -39,6 +74,8 @@ uint32_t check_add_message(struct store *store, struct check_document *document,
     document->messages =
         store_grow(store, document->messages, document->num_messages, sizeof *message);
     document->messages[document->num_messages] = *message;
+    if (!message->state)
+        document->messages[document->num_messages].state = "";
     return (uint32_t)document->num_messages++;
 }
 

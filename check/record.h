@@ -25,7 +25,8 @@
     X(RENDER, "render") \
     X(BUDGET, "budget") \
     X(CRASH, "crash")     /* the program that checked it died */ \
-    X(TIMEOUT, "timeout") /* or exceeded the time limit */
+    X(TIMEOUT, "timeout") /* or exceeded the time limit */ \
+    X(MEMORY, "memory")   /* or the limit of memory */
 
 enum check_stage {
 #define STAGE(name, text) CHECK_##name,
@@ -49,6 +50,12 @@ struct measure_info {
 };
 extern const struct measure_info measure_infos[NUM_MEASURES];
 
+/* The explanation of a message; members as below. */
+struct check_note {
+    const char *text, *file;
+    uint32_t line, column, length;
+};
+
 struct check_message {
     mxg_severity severity;
     const char *id, *text;
@@ -56,6 +63,10 @@ struct check_message {
     uint32_t line, column, length; /* 0: unknown */
     const char *element, *target;  /* the first place of the message; "": the document */
     const char *rendered; /* printed like a compiler message, with notes and the source line */
+    struct check_note *notes;
+    size_t num_notes;
+    /* since the baseline, in SARIF's words: "new", "unchanged", "absent"; "": no comparison */
+    const char *state;
 };
 
 /*
@@ -82,46 +93,72 @@ struct check_shader {
     double generate_ms, compile_ms;
 };
 
+/* The value of a published input, or the file of a texture. */
+struct check_setting {
+    const char *path, *value;
+};
+
 struct check_element {
     const char *path, *type;
     struct check_shader *shaders;
     size_t num_shaders;
+    /* of the first target that has a shader, in its order; none in a brief record */
+    struct check_setting *values, *textures;
+    size_t num_values, num_textures;
     const char *picture;   /* a PNG in base64; "": none */
     const char *signature; /* signature of the picture, see picture.h */
 };
 
-/* Differences from a baseline. */
+/* Differences from a baseline: kind, name, meaning, whether it fails a run without --fail-on. */
 #define CHECK_CHANGES(X) \
-    X(FAILS, "fails") /* a new failure */ \
-    X(FIXED, "fixed") \
-    X(TOPOLOGY, "topology") \
-    X(SIZE, "size") \
-    X(PICTURE, "picture") \
-    X(NEW, "new") \
-    X(GONE, "gone")
+    X(FAILS, "fails", "a document or shader fails that passed or was missing", true) \
+    X(NEW_ERRORS, "new-errors", "a document has an error that the baseline lacks", true) \
+    X(UNCOMPILED, "uncompiled", "no compiler has seen a shader that was compiled", true) \
+    X(FIXED, "fixed", "a document or shader passes that failed", false) \
+    X(GONE_ERRORS, "gone-errors", "a document no longer has an error", false) \
+    X(NEW_WARNINGS, "new-warnings", "a document has a warning that the baseline lacks", false) \
+    X(GONE_WARNINGS, "gone-warnings", "a document no longer has a warning", false) \
+    X(TOPOLOGY, "topology", "a shader differs in more than the values of uniforms", false) \
+    X(SIZE, "size", "a measure differs", false) \
+    X(VALUES, "values", "a published input has another value", false) \
+    X(TEXTURES, "textures", "a material reads another texture file", false) \
+    X(PICTURE, "picture", "a material looks different", false) \
+    X(NEW, "new", "a document or element is new", false) \
+    X(GONE, "gone", "a document or element is gone", false)
 
 enum check_change_kind {
-#define CHANGE(name, text) CHANGE_##name,
+#define CHANGE(name, text, meaning, fails) CHANGE_##name,
     CHECK_CHANGES(CHANGE)
 #undef CHANGE
         NUM_CHECK_CHANGES
 };
 
 extern const char *const check_change_names[NUM_CHECK_CHANGES];
+extern const char *const check_change_meanings[NUM_CHECK_CHANGES];
+
+/* A set of kinds: bit k stands for kind k. */
+typedef uint32_t check_change_set;
+
+/* The kinds that always fail a run. */
+extern const check_change_set check_failing_changes;
 
 struct check_change {
     enum check_change_kind kind;
     const char *element, *target; /* "": the document; all targets */
     const char *text;
+    /* a new message, of the document; NULL: the change is no message. Not stored */
+    const struct check_message *message;
 };
 
 struct check_document {
     uint64_t index; /* index among all documents, including other shards */
     const char *file;
+    const char *name; /* its path below the root (root.h); "": it is outside */
     enum check_stage failed;
     struct check_message *messages; /* each once, in order of discovery */
     size_t num_messages;
-    const char **files; /* files that were read, the document first */
+    uint32_t num_hidden; /* errors beyond the limit, which `messages` lacks */
+    const char **files;  /* files that were read, the document first */
     size_t num_files;
     /*
      * folders of textures and of missing files, with a '/' at the end: the record depends on the
@@ -137,15 +174,26 @@ struct check_document {
     double load_ms, validate_ms, render_ms;
     struct check_change *changes; /* differences from the baseline */
     size_t num_changes;
+    struct check_message *gone_messages; /* of the baseline, which the document no longer has */
+    size_t num_gone_messages;
 };
 
 /* Sets the stage of a failure, unless an earlier one is set. */
 void check_fail(enum check_stage *failed, enum check_stage stage);
 
+/*
+ * The stage at which the document itself failed, or CHECK_PASSED: failures of its shaders do not
+ * count.
+ */
+enum check_stage check_own_failure(const struct check_document *document);
+
+/* True if the document has a change of one of these kinds. */
+bool check_has_change(const struct check_document *document, check_change_set kinds);
+
 /* True if two messages are equal. */
 bool check_is_same_message(const struct check_message *a, const struct check_message *b);
 
-/* Appends a message; returns its index. */
+/* Appends a message, which need not have a state; returns its index. */
 uint32_t check_add_message(struct store *store, struct check_document *document,
                            const struct check_message *message);
 

@@ -147,9 +147,30 @@ static void parts(struct record_io *io, struct check_shader *shader)
     }
 }
 
+static void settings(struct record_io *io, const char *key, struct check_setting **settings,
+                     size_t *num_settings)
+{
+    *num_settings = begin_array(io, key, *num_settings);
+    if (io->store)
+        *settings = store_array(io->store, *num_settings, sizeof **settings);
+    for (size_t i = 0; i < *num_settings; ++i) {
+        text(io, NULL, &(*settings)[i].path);
+        text(io, NULL, &(*settings)[i].value);
+    }
+}
+
 static const struct record_coding coding = {
-    text,  count,       flag,      write_time,          name,
-    parts, begin_array, end_array, begin_or_end_object, begin_or_end_object,
+    text,
+    count,
+    flag,
+    write_time,
+    name,
+    parts,
+    settings,
+    begin_array,
+    end_array,
+    begin_or_end_object,
+    begin_or_end_object,
 };
 
 void record_to_bytes(struct record_bytes *out, const struct check_document *document)

@@ -62,6 +62,16 @@ static void outcome(struct record_io *io, enum check_stage *failed)
         *failed = CHECK_LOAD;
 }
 
+static void note(struct record_io *io, void *item)
+{
+    struct check_note *note = item;
+    text(io, "message", &note->text);
+    text(io, "file", &note->file);
+    small_count(io, "line", &note->line);
+    small_count(io, "column", &note->column);
+    small_count(io, "length", &note->length);
+}
+
 static void message(struct record_io *io, void *item)
 {
     static const char *const severities[] = {"error", "warning", "note"};
@@ -77,6 +87,9 @@ static void message(struct record_io *io, void *item)
     text(io, "element", &message->element);
     text(io, "target", &message->target);
     text(io, "rendered", &message->rendered);
+    message->notes = objects(io, "notes", false, message->notes, &message->num_notes,
+                             sizeof *message->notes, note);
+    text(io, "baselineState", &message->state);
 }
 
 static void shader(struct record_io *io, void *item)
@@ -105,6 +118,8 @@ static void element(struct record_io *io, void *item)
     text(io, "type", &element->type);
     element->shaders = objects(io, "shaders", true, element->shaders, &element->num_shaders,
                                sizeof *element->shaders, shader);
+    io->coding->settings(io, "values", &element->values, &element->num_values);
+    io->coding->settings(io, "textures", &element->textures, &element->num_textures);
     text(io, "signature", &element->signature);
     text(io, "picture", &element->picture);
 }
@@ -132,9 +147,11 @@ static void drop_bad_indices(struct check_shader *shader, size_t num_messages)
 void record_members(struct record_io *io, struct check_document *document)
 {
     text(io, "file", &document->file);
+    text(io, "name", &document->name);
     outcome(io, &document->failed);
     document->messages = objects(io, "messages", true, document->messages, &document->num_messages,
                                  sizeof *document->messages, message);
+    small_count(io, "hiddenErrors", &document->num_hidden);
     texts(io, "files", true, &document->files, &document->num_files);
     texts(io, "folders", false, &document->folders, &document->num_folders);
     texts(io, "images", false, &document->images, &document->num_images);
@@ -142,6 +159,9 @@ void record_members(struct record_io *io, struct check_document *document)
                                  sizeof *document->elements, element);
     document->changes = objects(io, "changes", false, document->changes, &document->num_changes,
                                 sizeof *document->changes, change);
+    document->gone_messages =
+        objects(io, "goneMessages", false, document->gone_messages, &document->num_gone_messages,
+                sizeof *document->gone_messages, message);
     io->coding->time(io, "loadMs", &document->load_ms);
     io->coding->time(io, "validateMs", &document->validate_ms);
     io->coding->time(io, "renderMs", &document->render_ms);

@@ -30,6 +30,9 @@ struct record_coding {
     unsigned (*name)(struct record_io *io, const char *key, unsigned value,
                      const char *const *names, unsigned num_names);
     void (*parts)(struct record_io *io, struct check_shader *shader);
+    /* The writer omits an empty list. */
+    void (*settings)(struct record_io *io, const char *key, struct check_setting **settings,
+                     size_t *num_settings);
     /* Returns the number of items: `num` when writing. */
     size_t (*begin_array)(struct record_io *io, const char *key, size_t num);
     /* The writer omits an empty array unless `is_required`. */

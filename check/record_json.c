@@ -151,6 +151,38 @@ static void parts(struct record_io *io, struct check_shader *shader)
         json_decref(all);
 }
 
+static void read_settings(struct record_io *io, json_t *object, struct check_setting **settings,
+                          size_t *num_settings)
+{
+    const char *path;
+    json_t *value;
+    *num_settings = 0;
+    *settings = store_array(io->store, json_object_size(object), sizeof **settings);
+    json_object_foreach(object, path, value)
+    {
+        const char *text = json_string_value(value);
+        if (text)
+            (*settings)[(*num_settings)++] =
+                (struct check_setting){store_text(io->store, path, strlen(path)),
+                                       store_text(io->store, text, strlen(text))};
+    }
+}
+
+/* "values": {"SR/base": "0.5", …} */
+static void settings(struct record_io *io, const char *key, struct check_setting **settings,
+                     size_t *num_settings)
+{
+    if (io->store) {
+        read_settings(io, get(io, key), settings, num_settings);
+        return;
+    }
+    json_t *object = *num_settings ? json_object() : NULL;
+    for (size_t i = 0; i < *num_settings; ++i)
+        json_set(object, (*settings)[i].path, json_text((*settings)[i].value));
+    if (object)
+        put(io, key, object);
+}
+
 static size_t begin_array(struct record_io *io, const char *key, size_t num)
 {
     enter(io, io->store ? get(io, key) : json_array());
@@ -181,7 +213,8 @@ static void end_object(struct record_io *io)
 }
 
 static const struct record_coding coding = {
-    text, count, flag, write_time, name, parts, begin_array, end_array, begin_object, end_object,
+    text,     count,       flag,      write_time,   name,       parts,
+    settings, begin_array, end_array, begin_object, end_object,
 };
 
 json_t *record_to_json(const struct check_document *document, bool with_times)

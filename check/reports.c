@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/check.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 const struct sink_kind *const sink_kinds[NUM_SINK_KINDS] = {
@@ -35,6 +36,20 @@ const char *reports_misuse(const struct check_reports *reports)
                 return "two reports would be one file, or one standard output; name a file for "
                        "each";
     return NULL;
+}
+
+bool reports_claim(const struct check_reports *reports, struct outputs *outputs,
+                   struct report *report)
+{
+    bool good = true;
+    for (size_t i = 0; i < NUM_SINK_KINDS; ++i) {
+        if (!reports->paths[i])
+            continue;
+        char *owner = cli_format("--%s", sink_kinds[i]->option);
+        good = outputs_write(outputs, report, reports->paths[i], owner) && good;
+        free(owner);
+    }
+    return good;
 }
 
 bool reports_begin(struct check_reports *reports, struct report *report)
@@ -82,13 +97,17 @@ static void add_shader(struct check_totals *totals, const struct check_shader *s
         add_uncompiled(totals, shader->target, run);
 }
 
-static void add_changes(struct check_totals *totals, const struct check_document *document)
+static void add_changes(struct check_totals *totals, const struct check_document *document,
+                        const struct check_run *run)
 {
     bool has[NUM_CHECK_CHANGES] = {false};
     for (size_t i = 0; i < document->num_changes; ++i)
         has[document->changes[i].kind] = true;
     for (size_t i = 0; i < NUM_CHECK_CHANGES; ++i)
         totals->changes[i] += has[i];
+    bool fails = check_has_change(document, run->fail_on);
+    totals->failing += fails;
+    totals->known += run->is_compared && document->failed && !fails;
 }
 
 static void add_document(struct check_totals *totals, const struct check_document *document,
@@ -105,7 +124,7 @@ static void add_document(struct check_totals *totals, const struct check_documen
     for (size_t i = 0; i < document->num_elements; ++i)
         for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
             add_shader(totals, &document->elements[i].shaders[k], run);
-    add_changes(totals, document);
+    add_changes(totals, document, run);
     totals->load_ms += document->load_ms;
     totals->validate_ms += document->validate_ms;
     totals->render_ms += document->render_ms;
@@ -113,7 +132,7 @@ static void add_document(struct check_totals *totals, const struct check_documen
 
 /* ---- Documents ---- */
 
-static void tell(struct sink *sink, const struct check_document *document)
+static void write_document(struct sink *sink, const struct check_document *document)
 {
     if (!sink->out)
         return;
@@ -125,14 +144,31 @@ void reports_document(struct check_reports *reports, const struct check_document
 {
     add_document(&reports->totals, document, &reports->run);
     for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
-        tell(&reports->files[i], document);
-    tell(&reports->text, document);
+        write_document(&reports->files[i], document);
+    write_document(&reports->text, document);
+}
+
+void reports_gone(struct check_reports *reports, const struct check_document *document)
+{
+    struct check_totals *totals = &reports->totals;
+    ++totals->gone;
+    ++totals->changes[CHANGE_GONE];
+    totals->failing += check_has_change(document, reports->run.fail_on);
+    for (size_t i = 0; i <= NUM_SINK_KINDS; ++i) {
+        struct sink *sink = i < NUM_SINK_KINDS ? &reports->files[i] : &reports->text;
+        if (!sink->out || !sink->kind->gone)
+            continue;
+        sink->kind->gone(sink, document);
+        ++sink->num_gone;
+    }
 }
 
 bool reports_are_good(const struct check_reports *reports)
 {
     const struct check_totals *totals = &reports->totals;
-    return reports->run.is_compared ? totals->changes[CHANGE_FAILS] == 0
+    if (reports->run.accepts)
+        return true;
+    return reports->run.is_compared ? totals->failing == 0
                                     : totals->failed[CHECK_PASSED] == totals->documents;
 }
 
@@ -144,7 +180,8 @@ bool reports_end(struct check_reports *reports, struct report *report, bool keep
         if (!sink->out)
             continue;
         sink->kind->end(sink, &reports->totals);
-        const char *reason = files_end(&sink->stream, keep);
+        const char *fault = sink->fault, *reason = files_end(&sink->stream, keep && !fault);
+        reason = fault ? fault : reason;
         if (reason)
             report_error(report, "output-failed", "cannot write '%s': %s", reports->paths[i],
                          reason);

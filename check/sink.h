@@ -6,8 +6,9 @@
 #ifndef MXG_CHECK_SINK_H
 #define MXG_CHECK_SINK_H
 
-#include "cli/args.h"
+#include "check/progress.h"
 #include "check/record.h"
+#include "cli/args.h"
 #include "cli/files.h"
 
 enum { MAX_TARGETS = 16, MAX_SHARDS = 1000000 };
@@ -18,10 +19,11 @@ struct check_totals {
     /* documents by stage; at CHECK_PASSED: documents that passed */
     uint64_t failed[NUM_CHECK_STAGES];
     /*
-     * differences from a baseline: documents with such a change; CHANGE_GONE includes documents
-     * that the run lacks
+     * differences from a baseline: documents with such a change, with any change that fails the
+     * run, and documents that the run lacks
      */
-    uint64_t changes[NUM_CHECK_CHANGES];
+    uint64_t changes[NUM_CHECK_CHANGES], failing, gone;
+    uint64_t known;                      /* failed documents without a change that fails the run */
     const char *uncompiled[MAX_TARGETS]; /* targets without a compiler */
     size_t num_uncompiled;
     double load_ms, validate_ms, generate_ms, compile_ms, render_ms; /* sums over all workers */
@@ -33,6 +35,9 @@ struct check_run {
     size_t num_targets;
     bool quiet, verbose, compiles;
     bool is_compared;           /* the run compares with a baseline */
+    bool accepts;               /* it writes the baseline: no change and no failure fails it */
+    check_change_set fail_on;   /* the changes that fail it */
+    struct progress *progress;  /* the text report erases it before it prints; NULL: none */
     bool with_times;            /* reports include times, which differ from run to run */
     uint64_t shard, num_shards; /* from 1; 0: the run has no shards */
     const char *outputs[8];     /* names of the report files */
@@ -46,14 +51,17 @@ struct sink {
     const struct check_run *run;
     struct files_stream stream;
     FILE *out; /* the file of the report */
-    uint64_t num_documents;
-    void *state; /* private state; `end` frees it */
+    uint64_t num_documents, num_gone;
+    const char *fault; /* the reason why the report is incomplete; NULL: none */
+    void *state;       /* private state; `end` frees it */
 };
 
 struct sink_kind {
     const char *option, *help;        /* "--json FILE" */
     void (*begin)(struct sink *sink); /* NULL: nothing to do */
     void (*document)(struct sink *sink, const struct check_document *document);
+    /* A document of the baseline that the run lacks, after all others; NULL: not reported. */
+    void (*gone)(struct sink *sink, const struct check_document *document);
     void (*end)(struct sink *sink, const struct check_totals *totals);
 };
 

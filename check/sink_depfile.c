@@ -39,6 +39,7 @@ static void end(struct sink *sink, const struct check_totals *totals)
     putc('\n', sink->out);
 }
 
-const struct sink_kind sink_depfile = {"depfile",
-                                       "writes the dependencies of the reports, for make and ninja",
-                                       begin, write_document, end};
+const struct sink_kind sink_depfile = {
+    "depfile", "writes the dependencies of the reports, for make and ninja",
+    begin,     write_document,
+    NULL,      end};

@@ -1,37 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --html: a gallery in one self-contained page, with filters and sorting. The page is well-formed
- * XML too. gallery.js sorts and hides the cards; without it the page shows all of them.
+ * --html: a gallery in one self-contained page: the totals, the failures, then all other elements.
+ * The page is well-formed XML too. gallery.js sorts and hides the cards; without it the page shows
+ * all of them.
  */
 #include "check/sink.h"
+#include "check/spool.h"
+#include "cli/cli.h"
 #include "cli/markup.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+
+/* Cards in the order of the page. */
+enum rank { FAILS_THE_RUN, KNOWN_FAILURE, OTHER, NUM_RANKS };
+
+/* The cards wait in spools, because the totals and the failures precede them. */
+struct html_state {
+    FILE *cards[NUM_RANKS];
+};
+
+/* A card: an element, or a document without elements (NULL). */
+struct card {
+    const struct check_document *document;
+    const struct check_element *element;
+    bool is_gone;
+};
 
 static void begin(struct sink *sink)
 {
-    fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
-          "<meta name=\"viewport\" content=\"width=device-width\"/><title>mxgen "
-          "check</title>\n<style>\n",
-          sink->out);
-    markup_lines(sink->out, gallery_style);
-    fputs("</style></head><body>\n<header><h1>mxgen check</h1>"
-          "<input type=\"search\" placeholder=\"file, element, message\" aria-label=\"filter\"/>"
-          "<select id=\"status\" aria-label=\"status\"><option value=\"\">all</option>"
-          "<option value=\"failed\">failed</option><option value=\"warned\">with warnings</option>"
-          "<option value=\"changed\">changed</option><option "
-          "value=\"passed\">passed</option></select>"
-          "<select id=\"order\" aria-label=\"order\"><option value=\"index\">in order</option>",
-          sink->out);
-    for (size_t i = 0; i < NUM_MEASURES; ++i)
-        fprintf(sink->out, "<option value=\"%s\">most %s</option>", measure_infos[i].key,
-                measure_infos[i].noun);
-    fputs("</select><output></output></header>\n<main>\n", sink->out);
+    struct html_state *state = sink->state = calloc(1, sizeof *state);
+    for (int i = 0; state && i < NUM_RANKS; ++i)
+        state->cards[i] = spool_begin();
+    for (int i = 0; i < NUM_RANKS; ++i)
+        if (!state || !state->cards[i])
+            sink->fault = strerror(errno);
 }
 
-/* ---- A card for each element ---- */
+/* ---- Facts about a card ---- */
 
 static uint64_t largest(const struct check_element *element, size_t measure)
 {
@@ -42,135 +51,338 @@ static uint64_t largest(const struct check_element *element, size_t measure)
     return value;
 }
 
-static const char *stage_of(const struct check_document *document,
-                            const struct check_element *element)
+/* A fault of the document counts for all its elements. */
+static enum check_stage stage_of(const struct card *card)
 {
-    enum check_stage failed = CHECK_PASSED;
-    for (size_t i = 0; element && i < element->num_shaders; ++i)
-        check_fail(&failed, element->shaders[i].failed);
-    /* a fault of the document counts for all its elements */
-    check_fail(&failed,
-               element && document->failed > CHECK_VALIDATE ? CHECK_PASSED : document->failed);
-    return check_stage_names[failed];
+    enum check_stage failed = card->is_gone ? CHECK_PASSED : check_own_failure(card->document);
+    for (size_t i = 0; card->element && i < card->element->num_shaders; ++i)
+        check_fail(&failed, card->element->shaders[i].failed);
+    return failed;
 }
 
-/* A change of the document counts for all its elements. */
-static bool is_change_of(const struct check_change *change, const struct check_element *element)
+/* Changes and messages of the document count for all its elements. */
+static bool is_about(const char *element, const struct card *card)
 {
-    return !element || !*change->element || strcmp(change->element, element->path) == 0;
+    return !card->element || !*element || strcmp(element, card->element->path) == 0;
 }
 
-static bool has_changed(const struct check_document *document, const struct check_element *element)
+static bool has_change(const struct card *card, check_change_set kinds)
 {
-    for (size_t i = 0; i < document->num_changes; ++i)
-        if (is_change_of(&document->changes[i], element))
+    for (size_t i = 0; i < card->document->num_changes; ++i) {
+        const struct check_change *change = &card->document->changes[i];
+        if ((kinds >> change->kind & 1u) && is_about(change->element, card))
             return true;
+    }
     return false;
 }
 
-static void write_changes(FILE *out, const struct check_document *document,
-                          const struct check_element *element)
+static bool has_message(const struct card *card, mxg_severity severity)
 {
-    for (size_t i = 0; i < document->num_changes; ++i) {
-        const struct check_change *change = &document->changes[i];
-        if (!is_change_of(change, element))
+    for (size_t i = 0; i < card->document->num_messages && !card->is_gone; ++i) {
+        const struct check_message *message = &card->document->messages[i];
+        if (message->severity == severity && is_about(message->element, card))
+            return true;
+    }
+    return false;
+}
+
+static enum rank rank_of(const struct check_run *run, const struct card *card)
+{
+    bool failed = stage_of(card) != CHECK_PASSED;
+    if (run->is_compared ? has_change(card, run->fail_on) : failed)
+        return FAILS_THE_RUN;
+    return failed ? KNOWN_FAILURE : OTHER;
+}
+
+/* ---- Parts of a card ---- */
+
+static void write_head(FILE *out, const struct check_run *run, const struct card *card)
+{
+    enum rank rank = rank_of(run, card);
+    bool failed = stage_of(card) != CHECK_PASSED, warned = has_message(card, MXG_SEVERITY_WARNING),
+         errors = has_message(card, MXG_SEVERITY_ERROR);
+    fprintf(out, "<article class=\"%s%s%s%s%s%s\"",
+            card->is_gone ? "gone"
+            : failed      ? "failed"
+                          : "passed",
+            rank == FAILS_THE_RUN ? " fails" : "", warned ? " warned" : "",
+            has_change(card, ~0u) ? " changed" : "", warned || errors ? " wide" : "",
+            card->element && card->element->num_shaders > 4 ? " wide" : "");
+    for (size_t i = 0; card->element && i < NUM_MEASURES; ++i)
+        fprintf(out, " data-%s=\"%" PRIu64 "\"", measure_infos[i].option + strlen("max-"),
+                largest(card->element, i));
+    putc('>', out);
+    if (card->element && *card->element->picture)
+        fprintf(out, "<img alt=\"\" loading=\"lazy\" src=\"data:image/png;base64,%s\"/>",
+                card->element->picture);
+    fputs("<h2>", out);
+    markup_text(out, card->element ? card->element->path : "document");
+    fprintf(out, " <b>%s</b></h2><p>",
+            card->is_gone           ? "gone"
+            : rank == KNOWN_FAILURE ? "failed, as in the baseline"
+            : failed                ? "failed"
+            : rank == FAILS_THE_RUN ? "passed, but changed"
+                                    : "passed");
+    markup_text(out, card->document->file);
+    fputs("</p>", out);
+}
+
+/* "The compiler rejects the shader for glsl: 'x' is undeclared": the first failure in words. */
+static void write_reason(FILE *out, const struct card *card)
+{
+    static const char *const words[NUM_CHECK_STAGES] = {
+        [CHECK_LOAD] = "The document cannot be loaded",
+        [CHECK_VALIDATE] = "The document does not match the node library",
+        [CHECK_GENERATE] = "mxgen cannot generate the shader",
+        [CHECK_COMPILE] = "The compiler rejects the shader",
+        [CHECK_RENDER] = "The element cannot be rendered",
+        [CHECK_BUDGET] = "The shader exceeds its budget",
+        [CHECK_CRASH] = "The worker crashed",
+        [CHECK_TIMEOUT] = "A step takes too long",
+    };
+    enum check_stage stage = stage_of(card);
+    const struct check_message *first = NULL;
+    if (stage == CHECK_PASSED)
+        return;
+    fprintf(out, "<p class=\"why\">%s", words[stage]);
+    const char *before = " for ";
+    for (size_t i = 0; card->element && i < card->element->num_shaders; ++i) {
+        if (card->element->shaders[i].failed != stage)
             continue;
-        fprintf(out, "<p class=\"change\">%s: %s%s", check_change_names[change->kind],
-                change->target, *change->target ? ": " : "");
+        fprintf(out, "%s%s", before, card->element->shaders[i].target);
+        before = ", ";
+    }
+    for (size_t i = 0; i < card->document->num_messages && !first; ++i)
+        if (card->document->messages[i].severity == MXG_SEVERITY_ERROR
+            && is_about(card->document->messages[i].element, card))
+            first = &card->document->messages[i];
+    fputs(first ? ": " : "", out);
+    markup_text(out, first ? first->text : "");
+    fputs("</p>", out);
+}
+
+/* A row per measure and a column per target. */
+static void write_table(FILE *out, const struct check_element *element)
+{
+    fputs("<table><tr><th></th>", out);
+    for (size_t k = 0; k < element->num_shaders; ++k)
+        fprintf(out, "<th>%s</th>", element->shaders[k].target);
+    fputs("</tr><tr><th>result</th>", out);
+    for (size_t k = 0; k < element->num_shaders; ++k)
+        fprintf(out, "<td>%s</td>",
+                element->shaders[k].failed ? check_stage_names[element->shaders[k].failed]
+                                           : "passed");
+    for (size_t i = 0; i < NUM_MEASURES; ++i) {
+        fprintf(out, "</tr><tr><th>%s</th>", measure_infos[i].noun);
+        for (size_t k = 0; k < element->num_shaders; ++k)
+            fprintf(out,
+                    !*element->shaders[k].topology
+                            || (i == MEASURE_INSTRUCTIONS && !element->shaders[k].compiled)
+                        ? "<td></td>"
+                        : "<td>%" PRIu64 "</td>",
+                    element->shaders[k].measures[i]);
+    }
+    fputs("</tr></table>", out);
+}
+
+/* New messages are shown as messages. */
+static void write_changes(FILE *out, const struct check_run *run, const struct card *card)
+{
+    for (size_t i = 0; i < card->document->num_changes; ++i) {
+        const struct check_change *change = &card->document->changes[i];
+        if (!is_about(change->element, card) || change->message)
+            continue;
+        fprintf(out,
+                "<p class=\"change%s\">%s: ", run->fail_on >> change->kind & 1u ? " fails" : "",
+                check_change_names[change->kind]);
+        if (!card->element && *change->element) {
+            fputs("'", out);
+            markup_text(out, change->element);
+            fputs("': ", out);
+        }
+        fprintf(out, "%s%s", change->target, *change->target ? ": " : "");
         markup_text(out, change->text);
         fputs("</p>", out);
     }
 }
 
-static void begin_card(struct sink *sink, const struct check_document *document,
-                       const struct check_element *element)
+/*
+ * A printed message: its sentences can wrap, but source lines and the carets under them must not.
+ */
+static void write_message(FILE *out, const struct check_message *message)
 {
-    const char *stage = stage_of(document, element);
-    bool warned = false;
-    for (size_t i = 0; i < document->num_messages; ++i)
-        warned = warned || document->messages[i].severity == MXG_SEVERITY_WARNING;
-    bool passed = strcmp(stage, check_stage_names[CHECK_PASSED]) == 0;
-    fprintf(sink->out, "<article class=\"%s%s%s\"", passed ? "passed" : "failed",
-            warned ? " warned" : "", has_changed(document, element) ? " changed" : "");
-    for (size_t i = 0; element && i < NUM_MEASURES; ++i)
-        fprintf(sink->out, " data-%s=\"%" PRIu64 "\"", measure_infos[i].option + strlen("max-"),
-                largest(element, i));
-    putc('>', sink->out);
-    if (element && *element->picture) {
-        fputs("<img alt=\"\" loading=\"lazy\"", sink->out);
-        fprintf(sink->out, " src=\"data:image/png;base64,%s\"/>", element->picture);
+    static const char margin[] = "    ";
+    bool in_source = false;
+    fprintf(out, "<div class=\"message %s\">%s",
+            message->severity == MXG_SEVERITY_ERROR ? "error" : "warning",
+            strcmp(message->state, "new") == 0 ? "<b>new</b>" : "");
+    for (const char *line = message->rendered; *line;) {
+        size_t len = strcspn(line, "\n");
+        bool is_source = strncmp(line, margin, strlen(margin)) == 0;
+        char *text = cli_copy(line, len);
+        if (in_source && !is_source)
+            fputs("</pre>", out);
+        if (!in_source || !is_source)
+            fputs(is_source ? "<pre>" : "<p>", out);
+        markup_text(out, text);
+        fputs(is_source ? "\n" : "</p>", out);
+        in_source = is_source;
+        line += len + (line[len] == '\n');
+        free(text);
     }
-    fputs("<h2>", sink->out);
-    markup_text(sink->out, element ? element->path : "document");
-    fprintf(sink->out, " <b>%s</b></h2><p>", stage);
-    markup_text(sink->out, document->file);
-    fputs("</p>", sink->out);
+    fputs(in_source ? "</pre></div>" : "</div>", out);
 }
 
-static void write_table(FILE *out, const struct check_element *element)
+static void write_messages(FILE *out, const struct card *card)
 {
-    fputs("<table><tr><th>target</th><th></th>", out);
-    for (size_t i = 0; i < NUM_MEASURES; ++i)
-        fprintf(out, "<th>%s</th>", measure_infos[i].noun);
-    fputs("</tr>", out);
-    for (size_t k = 0; k < element->num_shaders; ++k) {
-        const struct check_shader *shader = &element->shaders[k];
-        fprintf(out, "<tr><td>%s</td><td>%s</td>", shader->target,
-                check_stage_names[shader->failed]);
-        for (size_t i = 0; i < NUM_MEASURES; ++i)
-            fprintf(out,
-                    i == MEASURE_INSTRUCTIONS && !shader->compiled ? "<td></td>"
-                                                                   : "<td>%" PRIu64 "</td>",
-                    shader->measures[i]);
-        fputs("</tr>", out);
-    }
-    fputs("</table>", out);
+    for (size_t i = 0; i < card->document->num_messages && !card->is_gone; ++i)
+        if (is_about(card->document->messages[i].element, card))
+            write_message(out, &card->document->messages[i]);
 }
 
-/* Messages of the document stand on every card, messages of an element on its own card. */
-static bool is_about(const struct check_message *message, const struct check_element *element)
+/* The elements that a document had. */
+static void write_lost(FILE *out, const struct check_document *document)
 {
-    return !element || !*message->element || strcmp(message->element, element->path) == 0;
+    for (size_t i = 0; i < document->num_elements; ++i) {
+        fputs(i ? ", " : "<p>Its elements were ", out);
+        markup_text(out, document->elements[i].path);
+    }
+    fputs(document->num_elements ? ".</p>" : "", out);
 }
 
-static void write_card(struct sink *sink, const struct check_document *document,
-                       const struct check_element *element)
+/* ---- Cards ---- */
+
+static void write_card(struct sink *sink, const struct card *card)
 {
-    begin_card(sink, document, element);
-    if (element)
-        write_table(sink->out, element);
-    write_changes(sink->out, document, element);
-    for (size_t i = 0; i < document->num_messages; ++i) {
-        const struct check_message *message = &document->messages[i];
-        if (!is_about(message, element))
-            continue;
-        fprintf(sink->out, "<pre class=\"%s\">",
-                message->severity == MXG_SEVERITY_ERROR ? "error" : "warning");
-        markup_text(sink->out, message->rendered);
-        fputs("</pre>", sink->out);
-    }
-    fputs("</article>\n", sink->out);
+    struct html_state *state = sink->state;
+    if (sink->fault)
+        return;
+    FILE *out = state->cards[rank_of(sink->run, card)];
+    write_head(out, sink->run, card);
+    write_reason(out, card);
+    if (card->element)
+        write_table(out, card->element);
+    write_changes(out, sink->run, card);
+    write_messages(out, card);
+    if (card->is_gone)
+        write_lost(out, card->document);
+    fputs("</article>\n", out);
 }
 
 static void write_document(struct sink *sink, const struct check_document *document)
 {
     for (size_t i = 0; i < document->num_elements; ++i)
-        write_card(sink, document, &document->elements[i]);
+        write_card(sink, &(struct card){document, &document->elements[i], false});
     if (document->num_elements == 0)
-        write_card(sink, document, NULL);
+        write_card(sink, &(struct card){document, NULL, false});
+}
+
+static void write_gone(struct sink *sink, const struct check_document *document)
+{
+    write_card(sink, &(struct card){document, NULL, true});
+}
+
+/* ---- The page ---- */
+
+static void write_controls(FILE *out)
+{
+    static const struct {
+        const char *value, *text;
+    } statuses[] = {{"", "all"},
+                    {"fails", "fails the run"},
+                    {"failed", "failed"},
+                    {"warned", "with warnings"},
+                    {"changed", "changed"},
+                    {"gone", "gone"},
+                    {"passed", "passed"}};
+    fputs("<header><h1>mxgen check</h1>"
+          "<input type=\"search\" placeholder=\"file, element, message\" "
+          "aria-label=\"filter\"/>"
+          "<select id=\"status\" aria-label=\"status\">",
+          out);
+    for (size_t i = 0; i < sizeof statuses / sizeof *statuses; ++i)
+        fprintf(out, "<option value=\"%s\">%s</option>", statuses[i].value, statuses[i].text);
+    fputs("</select><select id=\"order\" aria-label=\"order\">"
+          "<option value=\"index\">failures first</option>",
+          out);
+    for (size_t i = 0; i < NUM_MEASURES; ++i)
+        fprintf(out, "<option value=\"%s\">most %s</option>", measure_infos[i].key,
+                measure_infos[i].noun);
+    fputs("</select><output></output></header>\n", out);
+}
+
+/* The time of the report, which SOURCE_DATE_EPOCH can set (reproducible-builds.org). */
+static void write_date(FILE *out)
+{
+    const char *fixed = getenv("SOURCE_DATE_EPOCH");
+    time_t now = fixed ? (time_t)strtoll(fixed, NULL, 10) : time(NULL);
+    const struct tm *utc = gmtime(&now);
+    char text[32] = "";
+    if (utc)
+        strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", utc);
+    fprintf(out, "<time>%s</time>", text);
+}
+
+static void write_total(FILE *out, const char *class, uint64_t count, const char *noun)
+{
+    fprintf(out, "<li class=\"%s\"><b>%" PRIu64 "</b> %s</li>", count ? class : "", count, noun);
+}
+
+static void write_totals(FILE *out, const struct check_run *run, const struct check_totals *totals)
+{
+    fputs("<section><p>", out);
+    write_date(out);
+    fprintf(out, ", mxgen %s, targets", mxg_version_string());
+    for (size_t i = 0; i < run->num_targets; ++i)
+        fprintf(out, "%s %s", i ? "," : "", run->targets[i]);
+    fputs(run->compiles ? "</p><ul>" : ", not compiled</p><ul>", out);
+    write_total(out, "bad", totals->documents - totals->failed[CHECK_PASSED], "failed");
+    for (int stage = CHECK_PASSED + 1; stage < NUM_CHECK_STAGES; ++stage)
+        if (totals->failed[stage])
+            write_total(out, "part", totals->failed[stage], check_stage_names[stage]);
+    write_total(out, "good", totals->failed[CHECK_PASSED], "passed");
+    write_total(out, "", totals->documents, "documents");
+    write_total(out, "", totals->elements, "elements");
+    write_total(out, "", totals->shaders, "shaders");
+    write_total(out, "bad", totals->errors, "errors");
+    write_total(out, "warn", totals->warnings, "warnings");
+    fputs("</ul>", out);
+    if (run->is_compared) {
+        fputs("<ul>", out);
+        write_total(out, totals->failing ? "bad" : "good", totals->failing,
+                    "failing since the baseline");
+        write_total(out, "", totals->known, "known to fail");
+        for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
+            if (totals->changes[kind])
+                write_total(out, run->fail_on >> kind & 1u ? "bad" : "part", totals->changes[kind],
+                            check_change_names[kind]);
+        fputs("</ul>", out);
+    }
+    fputs("</section>\n", out);
 }
 
 static void end(struct sink *sink, const struct check_totals *totals)
 {
-    fprintf(sink->out,
-            "</main>\n<footer>%" PRIu64 " documents, %" PRIu64 " failed, %" PRIu64
-            " elements, %" PRIu64 " shaders</footer>\n",
-            totals->documents, totals->documents - totals->failed[CHECK_PASSED], totals->elements,
-            totals->shaders);
-    fputs("<script>\n//<![CDATA[\n", sink->out);
-    markup_lines(sink->out, gallery_script);
-    fputs("//]]>\n</script></body></html>\n", sink->out);
+    struct html_state *state = sink->state;
+    FILE *out = sink->out;
+    fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
+          "<meta name=\"viewport\" content=\"width=device-width\"/><title>mxgen "
+          "check</title>\n<style>\n",
+          out);
+    markup_lines(out, gallery_style);
+    fputs("</style></head><body>\n", out);
+    write_controls(out);
+    write_totals(out, sink->run, totals);
+    fputs("<main>\n", out);
+    for (int i = 0; state && i < NUM_RANKS; ++i) {
+        const char *fault = spool_end(state->cards[i], out);
+        sink->fault = sink->fault ? sink->fault : fault;
+    }
+    fputs("</main>\n<script>\n//<![CDATA[\n", out);
+    markup_lines(out, gallery_script);
+    fputs("//]]>\n</script></body></html>\n", out);
+    free(state);
 }
 
-const struct sink_kind sink_html = {"html", "writes a gallery as one HTML page", begin,
-                                    write_document, end};
+const struct sink_kind sink_html = {
+    "html", "writes a gallery as one HTML page", begin, write_document, write_gone, end};

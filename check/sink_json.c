@@ -4,6 +4,7 @@
  * is one object, and the sink writes its members as they arrive.
  */
 #include "check/json.h"
+#include "check/place.h"
 #include "check/record_io.h"
 #include "check/sink.h"
 
@@ -43,6 +44,15 @@ static void write_document(struct sink *sink, const struct check_document *docum
     json_decref(record);
 }
 
+/* Ends the documents, and begins the documents that are gone. */
+static void write_gone(struct sink *sink, const struct check_document *document)
+{
+    json_t *record = record_to_json(document, false);
+    fputs(sink->num_gone ? ",\n" : "\n],\"gone\":[\n", sink->out);
+    json_dumpf(record, sink->out, JSON_STYLE);
+    json_decref(record);
+}
+
 /* An object with the nonzero counts, by their names. */
 static json_t *make_counts(const char *const *names, const uint64_t *counts, size_t num)
 {
@@ -70,26 +80,60 @@ static void end(struct sink *sink, const struct check_totals *totals)
     fputs("}\n", sink->out);
 }
 
+/* ---- Baselines ---- */
+
+static struct check_message *plain_messages(struct store *store,
+                                            const struct check_document *document)
+{
+    struct check_message *messages = store_array(store, document->num_messages, sizeof *messages);
+    for (size_t i = 0; i < document->num_messages; ++i) {
+        const struct check_message *message = &document->messages[i];
+        messages[i] = *message;
+        messages[i].file = place_name(store, document, message->file);
+        messages[i].text = place_text(store, document, message->text);
+        messages[i].rendered = messages[i].state = "";
+        messages[i].num_notes = 0;
+    }
+    return messages;
+}
+
+static struct check_element *plain_elements(struct store *store,
+                                            const struct check_document *document)
+{
+    struct check_element *elements = store_array(store, document->num_elements, sizeof *elements);
+    for (size_t i = 0; i < document->num_elements; ++i) {
+        elements[i] = document->elements[i];
+        elements[i].picture = "";
+        elements[i].shaders =
+            store_array(store, elements[i].num_shaders, sizeof *elements[i].shaders);
+        for (size_t k = 0; k < elements[i].num_shaders; ++k) {
+            elements[i].shaders[k] = document->elements[i].shaders[k];
+            elements[i].shaders[k].num_parts = 0;
+        }
+    }
+    return elements;
+}
+
 /*
- * A baseline: a report without pictures, because their signatures are enough, and without the
- * results of a comparison.
+ * A baseline is a report of the facts that a comparison needs, with names below the root: it does
+ * not depend on the folder of the run.
  */
 static void write_plain(struct sink *sink, const struct check_document *document)
 {
     struct check_document plain = *document;
     struct store store = {0};
-    plain.num_changes = 0;
-    plain.elements = store_array(&store, plain.num_elements, sizeof *plain.elements);
-    for (size_t i = 0; i < plain.num_elements; ++i) {
-        plain.elements[i] = document->elements[i];
-        plain.elements[i].picture = "";
-    }
+    plain.file = *document->name ? document->name : document->file;
+    plain.messages = plain_messages(&store, document);
+    plain.elements = plain_elements(&store, document);
+    plain.num_files = plain.num_folders = plain.num_images = 0;
+    plain.num_changes = plain.num_gone_messages = 0;
     write_document(sink, &plain);
     store_finish(&store);
 }
 
 const struct sink_kind sink_baseline = {
-    "baseline", "compares with this earlier JSON report, or writes it if it does not exist", begin,
-    write_plain, end};
-const struct sink_kind sink_json = {"json", "writes the full report as JSON", begin, write_document,
-                                    end};
+    "baseline", "compares with this stored report; --update-baseline writes it",
+    begin,      write_plain,
+    NULL,       end};
+const struct sink_kind sink_json = {
+    "json", "writes the full report as JSON", begin, write_document, write_gone, end};

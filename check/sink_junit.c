@@ -1,115 +1,257 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * --junit: one suite per document, with one case for the document and one per element and target,
- * in the form that CI servers show.
+ * in the form that CI servers show. With a baseline a case fails if a change fails the run; a known
+ * failure is a skipped case.
  */
 #include "check/sink.h"
+#include "check/spool.h"
+#include "cli/cli.h"
 #include "cli/markup.h"
 
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
+
+enum outcome { PASSED, FAILED, SKIPPED, NUM_OUTCOMES };
+
+/* The suites wait in a spool, because the sums precede them. */
+struct junit_state {
+    FILE *suites;
+    uint64_t tests, counts[NUM_OUTCOMES];
+    double ms;
+};
 
 static void begin(struct sink *sink)
 {
-    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"mxgen check\">\n",
-          sink->out);
+    struct junit_state *state = sink->state = calloc(1, sizeof *state);
+    if (state)
+        state->suites = spool_begin();
+    if (!state || !state->suites)
+        sink->fault = strerror(errno);
 }
 
-static bool is_document_stage(enum check_stage stage)
-{
-    return stage == CHECK_LOAD || stage == CHECK_VALIDATE || stage == CHECK_CRASH
-           || stage == CHECK_TIMEOUT;
-}
+/* A case: the document (element and shader NULL), or an element for a target. */
+struct junit_case {
+    const struct check_document *document;
+    const struct check_element *element;
+    const struct check_shader *shader;
+};
 
 static bool is_error(const struct check_message *message)
 {
     return message->severity == MXG_SEVERITY_ERROR;
 }
 
-static void write_failure(FILE *out, enum check_stage stage, const struct check_message *first)
+/* A change belongs to its shader, else to the document. */
+static bool is_change_of(const struct check_change *change, const struct junit_case *test)
 {
-    fprintf(out, "><failure type=\"%s\" message=\"", first ? first->id : check_stage_names[stage]);
-    markup_text(out, first ? first->text : check_stage_names[stage]);
-    fputs("\">", out);
+    bool has_shader = *change->element && *change->target;
+    return test->shader ? strcmp(change->element, test->element->path) == 0
+                              && strcmp(change->target, test->shader->target) == 0
+                        : !has_shader;
 }
 
-static void begin_case(struct sink *sink, const struct check_document *document,
-                       const char *element, const char *target, double ms)
+static enum check_stage stage_of(const struct junit_case *test)
 {
-    fputs("<testcase classname=\"", sink->out);
-    markup_text(sink->out, document->file);
-    fputs("\" name=\"", sink->out);
-    markup_text(sink->out, element);
-    fprintf(sink->out, *target ? ", %s\"" : "\"%s", target);
+    return test->shader ? test->shader->failed : check_own_failure(test->document);
+}
+
+/* The first change of a case that fails the run; NULL: there is none. */
+static const struct check_change *find_failing(const struct check_run *run,
+                                               const struct junit_case *test)
+{
+    for (size_t i = 0; i < test->document->num_changes; ++i) {
+        const struct check_change *change = &test->document->changes[i];
+        if ((run->fail_on >> change->kind & 1u) && is_change_of(change, test))
+            return change;
+    }
+    return NULL;
+}
+
+/* True for the only case of a document that is gone. */
+static bool is_gone(const struct junit_case *test)
+{
+    const struct check_document *document = test->document;
+    return document->num_changes && document->changes[0].kind == CHANGE_GONE
+           && !*document->changes[0].element;
+}
+
+static enum outcome outcome_of(const struct check_run *run, const struct junit_case *test)
+{
+    bool fails =
+        run->is_compared ? find_failing(run, test) != NULL : stage_of(test) != CHECK_PASSED;
+    return fails ? FAILED : stage_of(test) || is_gone(test) ? SKIPPED : PASSED;
+}
+
+/* ---- Texts ---- */
+
+/* The messages of a case: those of its shader, or those of the document and no shader. */
+static const struct check_message *message_at(const struct junit_case *test, size_t index)
+{
+    const struct check_document *document = test->document;
+    if (test->shader)
+        return index < test->shader->num_messages
+                   ? &document->messages[test->shader->messages[index]]
+                   : NULL;
+    return index < document->num_messages ? &document->messages[index] : NULL;
+}
+
+static const struct check_message *find_error(const struct junit_case *test)
+{
+    const struct check_message *message;
+    for (size_t i = 0; (message = message_at(test, i)) != NULL; ++i)
+        if (is_error(message))
+            return message;
+    return NULL;
+}
+
+/* All errors of a failed case, then all changes that fail the run. */
+static void write_text(struct sink *sink, FILE *out, const struct junit_case *test)
+{
+    const struct check_message *message;
+    for (size_t i = 0; stage_of(test) && (message = message_at(test, i)) != NULL; ++i)
+        if (is_error(message))
+            markup_text(out, message->rendered);
+    for (size_t i = 0; i < test->document->num_changes; ++i) {
+        const struct check_change *change = &test->document->changes[i];
+        if (!(sink->run->fail_on >> change->kind & 1u) || !is_change_of(change, test))
+            continue;
+        fprintf(out, "%s: ", check_change_names[change->kind]);
+        markup_text(out, change->text);
+        fputc('\n', out);
+    }
+}
+
+static void write_outcome(struct sink *sink, FILE *out, const struct junit_case *test)
+{
+    enum outcome outcome = outcome_of(sink->run, test);
+    const struct check_change *change = find_failing(sink->run, test);
+    bool has_new = change && change->message;
+    const struct check_message *first = has_new          ? change->message
+                                        : stage_of(test) ? find_error(test)
+                                                         : NULL;
+    const char *stage = check_stage_names[stage_of(test)];
+    if (outcome == PASSED) {
+        fputs("/>\n", out);
+    } else if (outcome == SKIPPED) {
+        fputs(is_gone(test) ? "><skipped message=\"gone: " : "><skipped message=\"known failure: ",
+              out);
+        markup_text(out, is_gone(test) ? test->document->changes[0].text
+                         : first       ? first->text
+                                       : stage);
+        fputs("\"/></testcase>\n", out);
+    } else {
+        fprintf(out, "><failure type=\"%s\" message=\"",
+                first    ? first->id
+                : change ? check_change_names[change->kind]
+                         : stage);
+        markup_text(out, first ? first->text : change ? change->text : stage);
+        fputs("\">", out);
+        write_text(sink, out, test);
+        fputs("</failure></testcase>\n", out);
+    }
+}
+
+/* ---- Cases ---- */
+
+static void begin_case(struct sink *sink, FILE *out, const struct junit_case *test, double ms)
+{
+    fputs("<testcase classname=\"", out);
+    markup_text(out, test->document->file);
+    fputs("\" name=\"", out);
+    markup_text(out, test->element ? test->element->path : "document");
+    fprintf(out, test->shader ? ", %s\"" : "\"", test->shader ? test->shader->target : "");
     if (sink->run->with_times)
-        fprintf(sink->out, " time=\"%.3f\"", ms / 1e3);
+        fprintf(out, " time=\"%.3f\"", ms / 1e3);
 }
 
-/* The case of the document: it fails if the document, or its worker, failed. */
-static void write_document_case(struct sink *sink, const struct check_document *document)
+/* Calls a function for each case of a document. */
+static void for_each_case(struct sink *sink, const struct check_document *document,
+                          void (*visit)(struct sink *sink, const struct junit_case *test))
 {
-    const struct check_message *first = NULL;
-    begin_case(sink, document, "document", "", document->load_ms + document->validate_ms);
-    if (!is_document_stage(document->failed)) {
-        fputs("/>\n", sink->out);
-        return;
-    }
-    for (size_t i = 0; i < document->num_messages && !first; ++i)
-        first = is_error(&document->messages[i]) ? &document->messages[i] : NULL;
-    write_failure(sink->out, document->failed, first);
-    for (size_t i = 0; i < document->num_messages; ++i)
-        if (is_error(&document->messages[i]))
-            markup_text(sink->out, document->messages[i].rendered);
-    fputs("</failure></testcase>\n", sink->out);
+    visit(sink, &(struct junit_case){document, NULL, NULL});
+    for (size_t i = 0; i < document->num_elements; ++i)
+        for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
+            visit(sink, &(struct junit_case){document, &document->elements[i],
+                                             &document->elements[i].shaders[k]});
 }
 
-static void write_shader_case(struct sink *sink, const struct check_document *document,
-                              const struct check_element *element,
-                              const struct check_shader *shader)
+static double time_of(const struct junit_case *test)
 {
-    const struct check_message *first = NULL;
-    begin_case(sink, document, element->path, shader->target,
-               shader->generate_ms + shader->compile_ms);
-    if (!shader->failed) {
-        fputs("/>\n", sink->out);
-        return;
-    }
-    for (size_t i = 0; i < shader->num_messages && !first; ++i)
-        first = is_error(&document->messages[shader->messages[i]])
-                    ? &document->messages[shader->messages[i]]
-                    : NULL;
-    write_failure(sink->out, shader->failed, first);
-    for (size_t i = 0; i < shader->num_messages; ++i)
-        if (is_error(&document->messages[shader->messages[i]]))
-            markup_text(sink->out, document->messages[shader->messages[i]].rendered);
-    fputs("</failure></testcase>\n", sink->out);
+    return test->shader ? test->shader->generate_ms + test->shader->compile_ms
+                        : test->document->load_ms + test->document->validate_ms;
+}
+
+static void count_case(struct sink *sink, const struct junit_case *test)
+{
+    struct junit_state *state = sink->state;
+    ++state->tests;
+    ++state->counts[outcome_of(sink->run, test)];
+    state->ms += time_of(test);
+}
+
+static void write_case(struct sink *sink, const struct junit_case *test)
+{
+    struct junit_state *state = sink->state;
+    begin_case(sink, state->suites, test, time_of(test));
+    write_outcome(sink, state->suites, test);
+}
+
+static void write_counts(struct sink *sink, FILE *out, const struct junit_state *state)
+{
+    fprintf(out,
+            " tests=\"%" PRIu64 "\" failures=\"%" PRIu64 "\" errors=\"0\" skipped=\"%" PRIu64 "\"",
+            state->tests, state->counts[FAILED], state->counts[SKIPPED]);
+    if (sink->run->with_times)
+        fprintf(out, " time=\"%.3f\"", state->ms / 1e3);
+    fputs(">\n", out);
 }
 
 static void write_document(struct sink *sink, const struct check_document *document)
 {
-    size_t tests = 1, failures = is_document_stage(document->failed);
-    for (size_t i = 0; i < document->num_elements; ++i) {
-        tests += document->elements[i].num_shaders;
-        for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
-            failures += document->elements[i].shaders[k].failed != CHECK_PASSED;
-    }
-    fputs("<testsuite name=\"", sink->out);
-    markup_text(sink->out, document->file);
-    fprintf(sink->out, "\" tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"0\">\n", tests,
-            failures);
-    write_document_case(sink, document);
-    for (size_t i = 0; i < document->num_elements; ++i)
-        for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
-            write_shader_case(sink, document, &document->elements[i],
-                              &document->elements[i].shaders[k]);
-    fputs("</testsuite>\n", sink->out);
+    struct junit_state *state = sink->state;
+    if (sink->fault)
+        return;
+    struct junit_state before = *state, own = {0};
+    for_each_case(sink, document, count_case);
+    own.tests = state->tests - before.tests;
+    own.ms = state->ms - before.ms;
+    for (int i = 0; i < NUM_OUTCOMES; ++i)
+        own.counts[i] = state->counts[i] - before.counts[i];
+    fputs("<testsuite name=\"", state->suites);
+    markup_text(state->suites, document->file);
+    fputs("\"", state->suites);
+    write_counts(sink, state->suites, &own);
+    for_each_case(sink, document, write_case);
+    fputs("</testsuite>\n", state->suites);
+}
+
+/* A document that is gone has one case: it fails, or is skipped. */
+static void write_gone(struct sink *sink, const struct check_document *document)
+{
+    struct check_document plain = *document;
+    plain.num_elements = plain.num_messages = 0;
+    plain.failed = CHECK_PASSED;
+    write_document(sink, &plain);
 }
 
 static void end(struct sink *sink, const struct check_totals *totals)
 {
+    struct junit_state *state = sink->state;
     (void)totals;
-    fputs("</testsuites>\n", sink->out);
+    if (!sink->fault) {
+        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"mxgen check\"",
+              sink->out);
+        write_counts(sink, sink->out, state);
+        sink->fault = spool_end(state->suites, sink->out);
+        fputs("</testsuites>\n", sink->out);
+    }
+    free(state);
 }
 
 const struct sink_kind sink_junit = {
-    "junit", "writes JUnit XML, with a test case for each element and target", begin,
-    write_document, end};
+    "junit",    "writes JUnit XML, with a test case for each element and target",
+    begin,      write_document,
+    write_gone, end};

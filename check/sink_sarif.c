@@ -4,9 +4,12 @@
  * it.
  */
 #include "check/json.h"
+#include "check/place.h"
 #include "check/sink.h"
+#include "cli/names.h"
 
 #include <ctype.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,25 +53,58 @@ static char *uri_of(struct store *store, const char *path)
     return uri;
 }
 
-/* Section 3.27.12; a region ends at the column after its last character (3.30.8). */
-static json_t *make_location(const struct check_message *message)
+/*
+ * Section 3.28. A region ends at the column after its last character (3.30.8); without an end it
+ * would reach to the end of the line.
+ */
+static json_t *make_location(const char *file, uint32_t line, uint32_t column, uint32_t length)
 {
     struct store store = {0};
-    json_t *place =
-        json_pack("{s:{s:s}}", "artifactLocation", "uri", uri_of(&store, message->file));
+    json_t *place = json_pack("{s:{s:s}}", "artifactLocation", "uri", uri_of(&store, file));
     store_finish(&store);
     json_t *region = json_object();
-    json_set_count(region, "startLine", message->line);
-    json_set_count(region, "startColumn", message->column);
-    if (message->column && message->length)
-        json_set_count(region, "endColumn", message->column + message->length);
-    if (message->line)
+    json_set_count(region, "startLine", line);
+    json_set_count(region, "startColumn", column);
+    if (column)
+        json_set_count(region, "endColumn", (uint64_t)column + (length ? length : 1));
+    if (line)
         json_object_set(place, "region", region);
     json_decref(region);
     return json_pack("{s:o}", "physicalLocation", place);
 }
 
-static void write_result(struct sink *sink, const struct check_message *message)
+/* The notes (3.27.22): each a place with its text. */
+static json_t *make_related(const struct check_message *message)
+{
+    json_t *related = json_array();
+    for (size_t i = 0; i < message->num_notes; ++i) {
+        const struct check_note *note = &message->notes[i];
+        json_t *location = *note->file
+                               ? make_location(note->file, note->line, note->column, note->length)
+                               : json_object();
+        json_object_set_new(location, "message", json_pack("{s:o}", "text", json_text(note->text)));
+        json_array_append_new(related, location);
+    }
+    return related;
+}
+
+/*
+ * Section 3.27.17: what identifies a result although its document changes around it. Results of
+ * one hash have numbers.
+ */
+static json_t *make_fingerprints(const struct check_document *document,
+                                 const struct check_message *message, struct name_table *seen)
+{
+    char text[48];
+    bool is_new;
+    snprintf(text, sizeof text, "%016" PRIx64, place_hash(document, message));
+    uint64_t number = ++names_add(seen, text, &is_new)->value;
+    snprintf(text + 16, sizeof text - 16, ":%" PRIu64, number);
+    return json_pack("{s:s}", "mxgenMessage/v1", text);
+}
+
+static void write_result(struct sink *sink, const struct check_document *document,
+                         const struct check_message *message, struct name_table *seen)
 {
     static const char *const levels[] = {"error", "warning", "note"};
     struct sarif_state *state = sink->state;
@@ -76,7 +112,13 @@ static void write_result(struct sink *sink, const struct check_message *message)
         json_pack("{s:s, s:s, s:{s:o}}", "ruleId", message->id, "level", levels[message->severity],
                   "message", "text", json_text(message->text));
     if (*message->file)
-        json_object_set_new(result, "locations", json_pack("[o]", make_location(message)));
+        json_object_set_new(result, "locations",
+                            json_pack("[o]", make_location(message->file, message->line,
+                                                           message->column, message->length)));
+    if (message->num_notes)
+        json_object_set_new(result, "relatedLocations", make_related(message));
+    json_object_set_new(result, "partialFingerprints", make_fingerprints(document, message, seen));
+    json_set_text(result, "baselineState", message->state);
     note_id(state, message->id);
     fputs(state->comma ? ",\n" : "\n", sink->out);
     state->comma = true;
@@ -86,8 +128,12 @@ static void write_result(struct sink *sink, const struct check_message *message)
 
 static void write_document(struct sink *sink, const struct check_document *document)
 {
+    struct name_table seen = {0};
     for (size_t i = 0; sink->state && i < document->num_messages; ++i)
-        write_result(sink, &document->messages[i]);
+        write_result(sink, document, &document->messages[i], &seen);
+    for (size_t i = 0; sink->state && i < document->num_gone_messages; ++i)
+        write_result(sink, document, &document->gone_messages[i], &seen);
+    names_finish(&seen);
 }
 
 /* The cause and the cure from 'mxgen explain' (3.49). */
@@ -100,6 +146,7 @@ static json_t *make_rule(const char *id)
         ++i;
     if (i == mxg_num_diagnostic_kinds())
         return rule;
+    json_object_set_new(rule, "helpUri", json_sprintf(MESSAGES_URL "#%s", id));
     if (*kind.cause)
         json_object_set_new(rule, "fullDescription", json_pack("{s:s}", "text", kind.cause));
     if (*kind.cure)
@@ -125,5 +172,5 @@ static void end(struct sink *sink, const struct check_totals *totals)
     free(state);
 }
 
-const struct sink_kind sink_sarif = {"sarif", "writes the messages as SARIF 2.1.0", begin,
-                                     write_document, end};
+const struct sink_kind sink_sarif = {
+    "sarif", "writes the messages as SARIF 2.1.0", begin, write_document, write_document, end};

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The report for people: failures with their reasons, and a summary at the end. --stats adds the
+ * The report for people: failures with their reasons, and a summary at the end. With a baseline it
+ * tells only what has changed, and first of all the changes that fail the run. --stats adds the
  * slowest and the largest.
  */
 #include "check/sink.h"
+#include "check/spool.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -22,11 +24,14 @@ struct top {
 
 struct text_state {
     struct top slowest, largest;
+    FILE *others; /* changes that do not fail the run: after those that do */
 };
 
 static void begin(struct sink *sink)
 {
-    sink->state = calloc(1, sizeof(struct text_state));
+    struct text_state *state = sink->state = calloc(1, sizeof(struct text_state));
+    if (state && sink->run->is_compared && !sink->run->quiet)
+        state->others = spool_begin();
 }
 
 /* ---- Rankings ---- */
@@ -89,15 +94,46 @@ static bool has_warning(const struct check_document *document)
     return false;
 }
 
-/* Prints lines such as "topology: 'Gold', glsl: another shader: …". */
-static void print_changes(FILE *out, const struct check_document *document)
+static void print_verdict(struct sink *sink, const char *verdict,
+                          const struct check_document *document, bool with_warnings)
 {
+    FILE *out = sink->out;
+    progress_clear(sink->run->progress);
+    fprintf(out, "%s %s", verdict, document->file);
+    fprintf(out, document->failed ? " (%s)\n" : "\n", check_stage_names[document->failed]);
+    for (size_t i = 0; i < document->num_messages; ++i)
+        if (document->messages[i].severity == MXG_SEVERITY_ERROR || with_warnings)
+            fputs(document->messages[i].rendered, out);
+}
+
+/*
+ * Prints lines such as "changed a.mtlx (topology) 'Gold' for glsl: another shader: …", and under a
+ * new message its source line and notes.
+ */
+static void print_change(FILE *out, const struct check_document *document,
+                         const struct check_change *change, bool fails)
+{
+    const char *rest = change->message ? strchr(change->message->rendered, '\n') : NULL;
+    fprintf(out, "%s %s (%s)", fails ? "FAILED" : "changed", document->file,
+            check_change_names[change->kind]);
+    if (*change->element)
+        fprintf(out, " '%s'", change->element);
+    fprintf(out, "%s%s: %s\n", *change->target ? " for " : "", change->target, change->text);
+    fputs(rest ? rest + 1 : "", out);
+}
+
+/* The changes that fail the run go to the report, the others after them. */
+static void print_changes(struct sink *sink, const struct check_document *document)
+{
+    struct text_state *state = sink->state;
+    FILE *others = state && state->others ? state->others : sink->out;
     for (size_t i = 0; i < document->num_changes; ++i) {
         const struct check_change *change = &document->changes[i];
-        fprintf(out, "changed %s (%s)", document->file, check_change_names[change->kind]);
-        if (*change->element)
-            fprintf(out, " '%s'", change->element);
-        fprintf(out, "%s%s: %s\n", *change->target ? " for " : "", change->target, change->text);
+        bool fails = sink->run->fail_on >> change->kind & 1u;
+        if (fails)
+            progress_clear(sink->run->progress);
+        if (fails || !sink->run->quiet)
+            print_change(fails ? sink->out : others, document, change, fails);
     }
 }
 
@@ -106,23 +142,44 @@ static void print_document(struct sink *sink, const struct check_document *docum
     const struct check_run *run = sink->run;
     if (run->with_times && sink->state)
         rank_document(sink->state, document);
-    if (document->failed)
-        fprintf(sink->out, "FAILED %s (%s)\n", document->file, check_stage_names[document->failed]);
-    else if (run->verbose || (has_warning(document) && !run->quiet))
-        fprintf(sink->out, "passed %s\n", document->file);
-    for (size_t i = 0; i < document->num_messages; ++i)
-        if (document->messages[i].severity == MXG_SEVERITY_ERROR || !run->quiet)
-            fputs(document->messages[i].rendered, sink->out);
-    print_changes(sink->out, document);
+    if (run->is_compared && document->failed && run->verbose
+        && !check_has_change(document, run->fail_on))
+        print_verdict(sink, "known", document, true);
+    else if (!run->is_compared && document->failed)
+        print_verdict(sink, "FAILED", document, !run->quiet);
+    else if (!document->failed
+             && (run->verbose || (has_warning(document) && !run->quiet && !run->is_compared)))
+        print_verdict(sink, "passed", document, !run->quiet);
+    print_changes(sink, document);
 }
 
-static void print_comparison(FILE *out, const struct check_totals *totals)
+static void print_kinds(FILE *out, const struct check_totals *totals, check_change_set kinds,
+                        const char *before)
 {
-    fputs("since the baseline:", out);
+    for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind) {
+        if (!totals->changes[kind] || !(kinds >> kind & 1u))
+            continue;
+        fprintf(out, "%s%s %" PRIu64, before, check_change_names[kind], totals->changes[kind]);
+        before = ", ";
+    }
+}
+
+/* "since the baseline: 2 documents fail (fails 1, new-errors 2); others: size 4" */
+static void print_comparison(FILE *out, const struct check_totals *totals, check_change_set fail_on)
+{
+    bool has_others = false;
     for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
-        fprintf(out, "%s %s %" PRIu64, kind ? "," : "", check_change_names[kind],
-                totals->changes[kind]);
-    fputs(" (documents)\n", out);
+        has_others = has_others || (totals->changes[kind] && !(fail_on >> kind & 1u));
+    fputs("since the baseline: ", out);
+    if (totals->failing) {
+        fprintf(out, "%" PRIu64 " document%s", totals->failing,
+                totals->failing == 1 ? " fails" : "s fail");
+        print_kinds(out, totals, fail_on, " (");
+        fputs(has_others ? "); " : ")", out);
+    }
+    if (has_others)
+        print_kinds(out, totals, ~fail_on, totals->failing ? "others: " : "");
+    fputs(totals->failing || has_others ? "\n" : "no change\n", out);
 }
 
 /* ---- Summary ---- */
@@ -144,6 +201,8 @@ static void print_failures(FILE *out, const struct check_totals *totals)
         fprintf(out, "%s%s %" PRIu64, separator, check_stage_names[stage], totals->failed[stage]);
         separator = ", ";
     }
+    if (totals->known)
+        fprintf(out, "; known %" PRIu64, totals->known);
     print_count(out, failed ? "), " : ", ", totals->errors, "error");
     print_count(out, ", ", totals->warnings, "warning");
     fputc('\n', out);
@@ -173,6 +232,8 @@ static void print_times(FILE *out, const struct check_totals *totals)
 static void end(struct sink *sink, const struct check_totals *totals)
 {
     struct text_state *state = sink->state;
+    if (state && spool_end(state->others, sink->out))
+        fputs("note: the other changes are lost: no temporary file could be written\n", sink->out);
     if (state && sink->run->with_times) {
         print_top(sink->out, &state->slowest, "slowest documents:", "ms");
         print_top(sink->out, &state->largest, "largest shaders:", "kB");
@@ -193,8 +254,8 @@ static void end(struct sink *sink, const struct check_totals *totals)
         print_count(sink->out, "; ", totals->cached, "document");
     fputs(totals->cached ? " unchanged since last checked\n" : "\n", sink->out);
     if (sink->run->is_compared)
-        print_comparison(sink->out, totals);
+        print_comparison(sink->out, totals, sink->run->fail_on);
     print_failures(sink->out, totals);
 }
 
-const struct sink_kind sink_text = {"text", NULL, begin, print_document, end};
+const struct sink_kind sink_text = {"text", NULL, begin, print_document, print_changes, end};

@@ -7,10 +7,14 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/examine.h"
 #include "check/record_io.h"
+#include "cli/parent.h"
+#include "cli/memory.h"
+#include "compile/compile.h"
 
 #include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 /*
@@ -34,6 +38,26 @@ static void keep_memory(void)
     mallopt(M_TOP_PAD, 256 << 10);
 }
 
+/* The worker's desk, for a handler; NULL: the worker has none yet. */
+static struct desk *desk_of_worker;
+
+static void tell_no_memory(void)
+{
+    if (desk_of_worker)
+        atomic_store(&desk_of_worker->is_out_of_memory, 1);
+}
+
+/* Allocations past the limit fail. Its children, which render and compile, inherit the limit. */
+static void limit_memory(size_t mib)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_DATA, &limit) != 0)
+        return;
+    rlim_t bytes = (rlim_t)mib << 20;
+    limit.rlim_cur = limit.rlim_max < bytes ? limit.rlim_max : bytes;
+    setrlimit(RLIMIT_DATA, &limit);
+}
+
 static bool serve(struct examiner *examiner, int output)
 {
     struct frame task;
@@ -42,6 +66,9 @@ static bool serve(struct examiner *examiner, int output)
         fputs("mxgen: this program is started by 'mxgen check'\n", stderr);
         return false;
     }
+    desk_of_worker = examiner->channel.desk;
+    compile_on_exhaustion(tell_no_memory);
+    memory_on_exhaustion(tell_no_memory);
     while (channel_next(&examiner->channel, &task)) {
         examiner->is_brief = task.note & TASK_BRIEF;
         examiner->errors_only = task.note & TASK_ERRORS_ONLY;
@@ -50,6 +77,7 @@ static bool serve(struct examiner *examiner, int output)
         channel_answer(&examiner->channel, record.data, record.size);
     }
     free(record.data);
+    desk_of_worker = NULL;
     channel_close(&examiner->channel);
     return true;
 }
@@ -62,17 +90,23 @@ int main(int argc, char **argv)
     bool no_compile = false;
     struct examiner examiner = {.cli = &cli};
     int output = take_output();
+    parent_follow();
+    size_t memory_limit = 0;
     keep_memory();
     const struct arg args[] = {
         {"target", 't', ARG_LIST, "T", "a target", &examiner.targets},
         {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &no_compile},
         {"render", 0, ARG_FLAG, NULL, "renders each element", &examiner.render},
+        {"memory-limit", 0, ARG_SIZE, "MIB", "limit of this process", &memory_limit},
     };
     int code;
     if (cli_start(&cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv,
                   &code)) {
         examiner.compile = !no_compile;
         cli.report.colour = false;
+        examiner.memory_limit = memory_limit;
+        if (memory_limit)
+            limit_memory(memory_limit);
         code = serve(&examiner, output) ? EXIT_DONE : EXIT_USAGE;
     }
     examiner_finish(&examiner);

@@ -153,6 +153,7 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     cli->report.quiet = cli->quiet;
     cli->report.verbose = cli->verbose;
     cli->report.max_errors = cli->max_errors;
+    cli->report.max_source_size = cli_max_file_size(cli) << 20;
     if (!parsed)
         return false;
     if (answer_help(cli, command, out_exit))
@@ -215,6 +216,12 @@ bool cli_find_target(const char *name, size_t len, mxg_target *out)
     }
     fputs(" [unknown-target]\n", stderr);
     return false;
+}
+
+size_t cli_max_file_size(const struct cli *cli)
+{
+    enum { DEFAULT_MIB = 256 }; /* of the library */
+    return cli->max_file_size ? cli->max_file_size : DEFAULT_MIB;
 }
 
 /* Includes are relative to the current folder. */

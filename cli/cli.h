@@ -72,6 +72,9 @@ void cli_forward(struct cli *cli, struct arg_list *args);
  */
 mxg_document *cli_load(struct cli *cli, const char *path);
 
+/* The limit of the size of an input file, in MiB. */
+size_t cli_max_file_size(const struct cli *cli);
+
 /* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
 bool cli_find_target(const char *name, size_t len, mxg_target *out);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen explain: prints cause, cure and example of messages. */
+/* mxgen explain: prints cause, cure and example of messages, and the interface of nodes. */
+#include "cli/nodes.h"
 #include "doc/explain.h"
 
 #include <stdlib.h>
@@ -7,23 +8,30 @@
 
 static bool find_kind(const char *id, mxg_diagnostic_kind *out)
 {
-    struct arg_list ids = {0};
     for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
         *out = (mxg_diagnostic_kind){sizeof *out};
         mxg_get_diagnostic_kind(i, out);
-        if (strcmp(out->id, id) == 0) {
-            free(ids.items);
+        if (strcmp(out->id, id) == 0)
             return true;
-        }
-        args_append(&ids, out->id);
     }
-    const char *near = args_closest(id, ids.items, ids.len);
-    fprintf(stderr,
-            near ? "mxgen: there is no message '%s' (did you mean '%s'?)\n"
-                 : "mxgen: there is no message '%s'\n",
-            id, near);
-    free(ids.items);
     return false;
+}
+
+static void report_unknown(const struct cli *cli, const char *word)
+{
+    struct arg_list ids = {0};
+    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
+        mxg_diagnostic_kind kind = {sizeof kind};
+        mxg_get_diagnostic_kind(i, &kind);
+        args_append(&ids, kind.id);
+    }
+    const char *near = args_closest(word, ids.items, ids.len);
+    near = near ? near : nodes_closest(cli->library, word);
+    fprintf(stderr,
+            near ? "mxgen: there is no message and no node '%s' (did you mean '%s'?)\n"
+                 : "mxgen: there is no message and no node '%s'\n",
+            word, near);
+    free(ids.items);
 }
 
 static void write_examples(struct cli *cli, const char *folder)
@@ -38,8 +46,12 @@ static void write_examples(struct cli *cli, const char *folder)
 static bool explain(struct cli *cli, const char *id, const char *folder, bool markdown)
 {
     mxg_diagnostic_kind kind;
-    if (!find_kind(id, &kind))
-        return false;
+    if (!find_kind(id, &kind)) {
+        bool is_node = !folder && nodes_explain(cli->library, id);
+        if (!is_node)
+            report_unknown(cli, id);
+        return is_node;
+    }
     if (folder)
         example_write(cli, &kind, folder);
     else if (markdown)
@@ -61,8 +73,7 @@ int command_explain(const struct command *command, int argc, char **argv)
          "prints Markdown; without an ID, the document of all messages", &markdown},
     };
     int code;
-    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_LIBRARY_IS_INPUT, argc, argv,
-                  &code)) {
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {
         bool found = !(folder && markdown);
         if (!found)
             fputs("mxgen: option '--output' does not apply: --markdown prints\n", stderr);

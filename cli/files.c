@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
 
+#include "cli/temporary.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
@@ -92,6 +94,7 @@ const char *files_write(const char *path, const void *data, size_t size)
         return strerror(ENOMEM);
     snprintf(temporary, room, "%s.%ld.tmp", path, (long)getpid());
     int reason = 0;
+    temporary_note(temporary);
     int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd < 0) {
         reason = errno;
@@ -102,6 +105,7 @@ const char *files_write(const char *path, const void *data, size_t size)
         if (reason)
             unlink(temporary);
     }
+    temporary_forget(temporary);
     free(temporary);
     return reason ? strerror(reason) : NULL;
 }
@@ -117,8 +121,10 @@ static int open_stream(struct files_stream *stream, const char *path)
     if (!stream->path || (!is_direct && !stream->temporary))
         return ENOMEM;
     snprintf(stream->path, room, "%s", path);
-    if (stream->temporary)
+    if (stream->temporary) {
         snprintf(stream->temporary, room, "%s.%ld.tmp", path, (long)getpid());
+        temporary_note(stream->temporary);
+    }
     int flags = is_direct ? O_WRONLY | O_CLOEXEC : O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
     int fd = open(is_direct ? path : stream->temporary, flags, 0666);
     stream->out = fd < 0 ? NULL : fdopen(fd, "w");
@@ -135,6 +141,8 @@ const char *files_begin(struct files_stream *stream, const char *path)
     int reason = open_stream(stream, path);
     if (!reason)
         return NULL;
+    if (stream->temporary)
+        temporary_forget(stream->temporary);
     free(stream->path);
     free(stream->temporary);
     *stream = (struct files_stream){0};
@@ -154,6 +162,7 @@ const char *files_end(struct files_stream *stream, bool keep)
             reason = errno;
         if (!keep || reason)
             unlink(stream->temporary);
+        temporary_forget(stream->temporary);
     }
     free(stream->path);
     free(stream->temporary);
@@ -214,6 +223,12 @@ bool files_is_regular(const char *path)
 {
     struct stat info;
     return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+bool files_is_within(const char *path, size_t size)
+{
+    struct stat info;
+    return !size || (stat(path, &info) == 0 && (uintmax_t)info.st_size <= size);
 }
 
 bool files_is_folder(const char *path)

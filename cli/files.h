@@ -46,6 +46,9 @@ void files_put_make_name(FILE *out, const char *name);
 
 bool files_is_regular(const char *path);
 
+/* True if the file has at most `size` bytes; 0: any number. */
+bool files_is_within(const char *path, size_t size);
+
 bool files_is_folder(const char *path);
 
 /* The part of a path after its last '/'. */

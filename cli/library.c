@@ -5,9 +5,11 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
+#include "cli/nodes.h"
 #include "cli/outputs.h"
 #include "doc/library.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -58,29 +60,34 @@ static void expand(struct cli *cli, const struct library_args *args)
         write_output(cli, args->output, text, size);
 }
 
-static void print_ports(const mxg_library *library, uint32_t nodedef, uint32_t first, uint32_t num)
+/* A word is neither a file nor the name of one. */
+static bool is_word(const char *input)
 {
-    for (uint32_t i = 0; i < num; ++i) {
-        mxg_port port = {sizeof port};
-        if (mxg_library_port(library, nodedef, first + i, &port) == MXG_OK)
-            printf("%s%s:%s", i ? ", " : "", port.name, port.type);
-    }
+    return access(input, F_OK) != 0 && !strpbrk(input, "/.");
 }
 
-/* Prints a line per definition: "ND_mix_float  mix(fg:float, bg:float, mix:float) -> out:float". */
+/* The words among the arguments of `list`; the others are libraries. The caller frees the items. */
+static struct arg_list words_of(const struct cli *cli)
+{
+    struct arg_list words = {0};
+    for (size_t i = 1; i < cli->parser.inputs.len; ++i)
+        if (is_word(cli->parser.inputs.items[i]))
+            args_append(&words, cli->parser.inputs.items[i]);
+    return words;
+}
+
 static void list(struct cli *cli, const struct library_args *args)
 {
     (void)args;
-    for (uint32_t i = 0; i < mxg_library_num_nodedefs(cli->library); ++i) {
-        mxg_nodedef nodedef = {sizeof nodedef};
-        if (mxg_library_nodedef(cli->library, i, &nodedef) != MXG_OK)
-            continue;
-        printf("%s  %s(", nodedef.name, nodedef.node);
-        print_ports(cli->library, i, 0, nodedef.num_inputs);
-        fputs(") -> ", stdout);
-        print_ports(cli->library, i, nodedef.num_inputs, nodedef.num_outputs);
-        puts(nodedef.has_implementation ? "" : "  (no implementation)");
+    struct arg_list words = words_of(cli);
+    if (!nodes_list(cli->library, words.items, words.len) && words.len) {
+        const char *near = nodes_closest(cli->library, words.items[0]);
+        report_error(&cli->report, "unknown-node",
+                     near ? "no node has '%s' in its name (did you mean '%s'?)"
+                          : "no node has '%s' in its name",
+                     words.items[0], near);
     }
+    free(words.items);
 }
 
 static const struct action {
@@ -88,8 +95,9 @@ static const struct action {
     void (*run)(struct cli *cli, const struct library_args *args);
     bool on_builtin;            /* the paths extend the built-in library */
     bool has_output, has_pages; /* takes -o; takes --html, --markdown and --pictures */
+    bool has_words;             /* arguments that are no paths are words */
 } actions[] = {{"pack", pack, .has_output = true},
-               {"list", list},
+               {"list", list, .has_words = true},
                {"expand", expand, .has_output = true},
                {"doc", library_doc, true, true, true}};
 #define NUM_ACTIONS (sizeof actions / sizeof *actions)
@@ -123,13 +131,18 @@ static bool check_options(const struct cli *cli, const struct action *action)
 static bool load(struct cli *cli, const struct action *action)
 {
     const struct arg_list *inputs = &cli->parser.inputs;
+    struct arg_list paths = {0};
+    for (size_t i = 1; i < inputs->len; ++i)
+        if (!action->has_words || !is_word(inputs->items[i]))
+            args_append(&paths, inputs->items[i]);
     mxg_library *builtin = cli->no_builtin_library ? NULL : mxg_library_builtin(cli->context);
-    if (inputs->len == 1 && builtin) {
+    if (paths.len == 0 && builtin) {
         cli->library = builtin;
         return true;
     }
     mxg_status status = mxg_library_load(cli->context, action->on_builtin ? builtin : NULL,
-                                         inputs->items + 1, inputs->len - 1, &cli->library);
+                                         paths.items, paths.len, &cli->library);
+    free(paths.items);
     mxg_library_unref(builtin);
     if (cli->library)
         report_list(&cli->report, mxg_library_diagnostics(cli->library));

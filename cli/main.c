@@ -30,12 +30,15 @@ static const struct command commands[] = {
     {"upgrade", "upgrade FILE... [--in-place | --check | -o FILE]",
      "Writes documents of older versions as version 1.39; comments and includes stay.",
      command_upgrade},
-    {"explain", "explain [ID...] [-o DIR | --markdown]",
-     "Prints cause, cure and example of a message, or a list of all messages.", command_explain},
+    {"explain", "explain [ID|NODE...] [-o DIR | --markdown]",
+     "Prints cause, cure and example of a message, the inputs of a node, or a list of all "
+     "messages.",
+     command_explain},
     {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
      "Renders materials without a display: one picture, or a sheet of several.", command_render},
-    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]",
-     "Packs, lists, expands or documents node libraries.", command_library},
+    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]  |  library list WORD...",
+     "Packs, lists, expands or documents node libraries; finds nodes by a part of their name.",
+     command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)
 
@@ -92,7 +95,7 @@ static int flush(int code)
     return code == EXIT_DONE ? EXIT_FAULT : code;
 }
 
-static bool asks_for_help(const char *word)
+static bool is_help_word(const char *word)
 {
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
 }
@@ -140,7 +143,7 @@ int main(int argc, char **argv)
         fputs("usage: mxgen FILE... --target T; see --help\n", stderr);
         return EXIT_USAGE;
     }
-    if (argc == 2 && asks_for_help(argv[1])) {
+    if (argc == 2 && is_help_word(argv[1])) {
         print_overview();
         return flush(EXIT_DONE);
     }

@@ -4,10 +4,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+static void (*tell_exhaustion)(void);
+
+void memory_on_exhaustion(void (*tell)(void))
+{
+    tell_exhaustion = tell;
+}
+
 static void *require(void *memory)
 {
     if (memory)
         return memory;
+    if (tell_exhaustion)
+        tell_exhaustion();
     fputs("mxgen: out of memory\n", stderr);
     exit(1);
 }

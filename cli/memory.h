@@ -5,6 +5,9 @@
 
 #include <stddef.h>
 
+/* `tell` is called before the program ends because memory is exhausted. */
+void memory_on_exhaustion(void (*tell)(void));
+
 /* Zeroed, and aligned for any object. */
 void *memory_alloc(size_t size);
 /* Like realloc. */

@@ -96,6 +96,8 @@ bool outputs_write(struct outputs *outputs, struct report *report, const char *p
 
 bool outputs_has(const struct outputs *outputs, const char *path)
 {
+    if (!outputs->num_uses)
+        return false;
     char *key = resolve(path);
     const struct name_entry *entry = names_find(&outputs->paths, key);
     free(key);

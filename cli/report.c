@@ -47,7 +47,9 @@ static void load_source(struct report *report, const char *file)
     if (report->source_name && strcmp(report->source_name, file) == 0)
         return;
     size_t size = 0;
-    char *source = files_is_regular(file) ? files_read(file, &size) : NULL;
+    char *source = files_is_regular(file) && files_is_within(file, report->max_source_size)
+                       ? files_read(file, &size)
+                       : NULL;
     report_source(report, file, source, size);
 }
 
@@ -101,10 +103,11 @@ static const char *find_line(struct report *report, uint32_t number, size_t *out
 static void render(struct report *report, const mxg_diagnostics *list, uint32_t index,
                    const mxg_diagnostic *diagnostic)
 {
-    if (diagnostic->file)
+    if (diagnostic->file && diagnostic->line)
         load_source(report, diagnostic->file);
     size_t size = 0, room = report->capacity - report->len;
-    const char *line = diagnostic->file ? find_line(report, diagnostic->line, &size) : NULL;
+    const char *line =
+        diagnostic->file && diagnostic->line ? find_line(report, diagnostic->line, &size) : NULL;
     size_t len = mxg_diagnostics_format_line(list, index, line, size, report->colour,
                                              room ? report->text + report->len : NULL, room);
     if (!reserve(report, len + 2))
@@ -128,10 +131,11 @@ const char *report_render(struct report *report, const mxg_diagnostics *list, ui
     return report->text ? report->text : "";
 }
 
-/* Notes appear with their message; notes about upgrades only with --verbose. */
-static bool is_shown(const struct report *report, const mxg_diagnostic *diagnostic)
+/* Notes appear with their message; a note without one, for example of an upgrade, with --verbose.
+ */
+static bool is_shown(const struct report *report, const mxg_diagnostic *diagnostic, uint32_t index)
 {
-    if (diagnostic->severity == MXG_SEVERITY_NOTE && strcmp(diagnostic->id, "upgraded") == 0)
+    if (diagnostic->severity == MXG_SEVERITY_NOTE && diagnostic->parent == index)
         return report->verbose;
     return diagnostic->severity == MXG_SEVERITY_ERROR || !report->quiet;
 }
@@ -189,13 +193,14 @@ static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 void report_document(struct report *report)
 {
     report->document_errors = 0;
-    report->is_rest_told = false;
+    report->has_cut_note = false;
+    report->is_cause_told = false;
 }
 
 /* True if a message and its notes may be printed; limits the number of errors. */
-static bool admit(struct report *report, const mxg_diagnostic *diagnostic)
+static bool admit(struct report *report, const mxg_diagnostic *diagnostic, uint32_t index)
 {
-    if (!is_shown(report, diagnostic) || !is_new(report, diagnostic))
+    if (!is_shown(report, diagnostic, index) || !is_new(report, diagnostic))
         return false;
     if (diagnostic->severity != MXG_SEVERITY_ERROR || !report->max_errors)
         return true;
@@ -203,36 +208,161 @@ static bool admit(struct report *report, const mxg_diagnostic *diagnostic)
         ++report->document_errors;
         return true;
     }
-    if (!report->is_rest_told)
+    if (!report->has_cut_note)
         fprintf(stderr, "note: more than %zu errors; the rest is not shown\n", report->max_errors);
-    report->is_rest_told = true;
+    report->has_cut_note = true;
     return false;
 }
 
 /* True if the message repeats the hint that more errors exist. */
 static bool is_about_rest(struct report *report, const mxg_diagnostic *diagnostic)
 {
-    bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, is_told = report->is_rest_told;
-    report->is_rest_told = is_told || is_note;
-    return is_note && is_told;
+    bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, was_noted = report->has_cut_note;
+    report->has_cut_note = was_noted || is_note;
+    return is_note && was_noted;
+}
+
+/* True for the first note of a document about consequences, which repeats with its error. */
+static bool is_about_cause(struct report *report, const mxg_diagnostic *diagnostic)
+{
+    bool is_note = strcmp(diagnostic->id, "consequences") == 0, is_told = report->is_cause_told;
+    report->is_cause_told = is_told || is_note;
+    return is_note && !is_told;
+}
+
+/* ---- Repeated warnings ---- */
+
+/*
+ * Exporters repeat a fault throughout a document. The first of equal warnings appears in full, the
+ * others as lines in a note.
+ */
+struct groups {
+    uint32_t *first; /* per message: the index of the first one that is equal; NULL: no memory */
+    uint32_t *next;  /* per message: the next equal one; 0: none */
+    uint32_t *last;  /* per first message: the last equal one */
+};
+
+static uint64_t hash_of_group(const mxg_diagnostic *diagnostic)
+{
+    uint64_t hash = hash_text(0xcbf29ce484222325u, diagnostic->id);
+    hash = hash_text(hash_text(hash, diagnostic->file), diagnostic->message);
+    return hash ? hash : 1;
+}
+
+static bool may_group(const mxg_diagnostic *diagnostic, uint32_t index)
+{
+    return diagnostic->severity == MXG_SEVERITY_WARNING && diagnostic->parent == index;
+}
+
+/* Looks the group of a message up; the first message makes it. */
+static uint32_t find_group(uint64_t *hashes, uint32_t *firsts, size_t capacity, uint64_t hash,
+                           uint32_t index)
+{
+    size_t at = hash & (capacity - 1);
+    while (hashes[at] && hashes[at] != hash)
+        at = (at + 1) & (capacity - 1);
+    if (!hashes[at]) {
+        hashes[at] = hash;
+        firsts[at] = index;
+    }
+    return firsts[at];
+}
+
+static void free_groups(struct groups *groups)
+{
+    free(groups->first);
+    free(groups->next);
+    free(groups->last);
+    *groups = (struct groups){0};
+}
+
+static struct groups make_groups(const mxg_diagnostics *list, uint32_t count)
+{
+    size_t capacity = 64;
+    while (capacity < (size_t)count * 2)
+        capacity *= 2;
+    struct groups groups = {calloc(count + 1u, sizeof *groups.first),
+                            calloc(count + 1u, sizeof *groups.next),
+                            calloc(count + 1u, sizeof *groups.last)};
+    uint64_t *hashes = calloc(capacity, sizeof *hashes);
+    uint32_t *firsts = calloc(capacity, sizeof *firsts);
+    bool has_memory = groups.first && groups.next && groups.last && hashes && firsts;
+    for (uint32_t i = 0; has_memory && i < count; ++i) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        groups.first[i] = groups.last[i] = i;
+        if (!may_group(&diagnostic, i))
+            continue;
+        uint32_t first = find_group(hashes, firsts, capacity, hash_of_group(&diagnostic), i);
+        groups.first[i] = first;
+        if (first != i)
+            groups.next[groups.last[first]] = i;
+        groups.last[first] = i;
+    }
+    free(hashes);
+    free(firsts);
+    if (!has_memory)
+        free_groups(&groups);
+    return groups;
+}
+
+/* "note: and 14 more, in the lines 7, 9, …" for the messages that equal the one at `first`. */
+static void print_rest(struct report *report, const struct groups *groups,
+                       const mxg_diagnostics *list, uint32_t first)
+{
+    enum { MAX_LINES = 8 };
+    uint32_t count = 0, lines = 0, previous = 0;
+    char text[MAX_LINES * 12] = "";
+    for (uint32_t i = groups->next[first]; i; i = groups->next[i]) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        if (!is_new(report, &diagnostic))
+            continue;
+        ++count;
+        bool is_shown = diagnostic.line && diagnostic.line != previous && lines < MAX_LINES;
+        previous = diagnostic.line;
+        if (is_shown) {
+            size_t len = strlen(text);
+            snprintf(text + len, sizeof text - len, "%s%u", lines ? ", " : "",
+                     (unsigned)diagnostic.line);
+        }
+        lines += is_shown;
+    }
+    if (count)
+        fprintf(stderr, "note: and %u more%s%s%s\n", (unsigned)count,
+                lines > 1 ? ", in the lines "
+                : lines   ? ", in line "
+                          : "",
+                text, lines == MAX_LINES && count > lines ? ", …" : "");
 }
 
 static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)
 {
-    uint32_t count = mxg_diagnostics_count(list);
+    uint32_t count = mxg_diagnostics_count(list), open = count;
     bool shown = false; /* the message of the notes was printed */
+    struct groups groups = make_groups(list, count);
     for (uint32_t i = 0; i < count; ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
-        if (diagnostic.parent == i)
-            shown = (!only_errors || diagnostic.severity == MXG_SEVERITY_ERROR)
-                    && admit(report, &diagnostic);
-        if (!shown || !is_shown(report, &diagnostic) || is_about_rest(report, &diagnostic))
+        if (diagnostic.parent == i) {
+            if (open < count)
+                print_rest(report, &groups, list, open);
+            bool is_first = !groups.first || groups.first[i] == i;
+            shown = is_first && (!only_errors || diagnostic.severity == MXG_SEVERITY_ERROR)
+                    && admit(report, &diagnostic, i);
+            open = shown && groups.first ? i : count;
+        }
+        bool is_cause = is_about_cause(report, &diagnostic);
+        if ((!shown && !is_cause) || !is_shown(report, &diagnostic, i)
+            || is_about_rest(report, &diagnostic))
             continue;
         report->len = 0;
         render(report, list, i, &diagnostic);
         fputs(report->text ? report->text : "", stderr);
     }
+    if (open < count)
+        print_rest(report, &groups, list, open);
+    free_groups(&groups);
     report->errors += mxg_diagnostics_errors(list);
 }
 

@@ -16,12 +16,14 @@ struct report {
     uint32_t errors;        /* number of errors, including repeated ones and those past the limit */
     size_t max_errors;      /* limit per document; 0: no limit */
     size_t document_errors; /* errors printed for the current document */
-    bool is_rest_told;      /* the hint that more errors exist was printed */
+    bool has_cut_note;      /* the hint that more errors exist was printed */
+    bool is_cause_told;     /* the note about consequences was printed for the document */
     uint64_t *printed;      /* hash table of printed messages; 0: free */
     size_t num_printed, capacity_printed;
     char *source_name, *source; /* the last file that was read */
     size_t source_size;
-    const char **lines; /* its lines, as far as the report has found them */
+    size_t max_source_size; /* of larger files no lines are shown; 0: no limit */
+    const char **lines;     /* its lines, as far as the report has found them */
     size_t num_lines, capacity_lines;
     char *text; /* text of the current message */
     size_t len, capacity;

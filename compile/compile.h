@@ -9,6 +9,10 @@
 
 #include <mxgen/mxgen.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct compile_message {
     mxg_stage stage;
     mxg_severity severity;
@@ -33,6 +37,9 @@ struct compiled {
 /* Sets glslang up and down; once for the whole process. */
 void compile_begin(void);
 void compile_end(void);
+
+/* `tell` is called when a compiler finds no memory, which ends the program. */
+void compile_on_exhaustion(void (*tell)(void));
 
 /*
  * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there
@@ -64,4 +71,7 @@ bool compile_compute(const char *source, struct compiled *out);
 void compiled_add(struct compiled *compiled, mxg_stage stage, mxg_severity severity, uint32_t line,
                   const char *text, size_t len);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

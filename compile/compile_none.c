@@ -15,6 +15,11 @@ void compile_end(void)
 {
 }
 
+void compile_on_exhaustion(void (*tell)(void))
+{
+    (void)tell;
+}
+
 bool compile_knows_target(const char *target)
 {
     return strcmp(target, "osl") == 0 && oslc_is_installed();

@@ -8,6 +8,19 @@ enum { WIDTH = 100 };
 
 static const char *const severities[] = {"error", "warning", "note"};
 
+/* A message whose words are not known yet: "cannot open '…': …". */
+static void print_message(const char *format)
+{
+    for (; *format; ++format) {
+        if (format[0] == '%' && (format[1] == 's' || format[1] == 'u' || format[1] == 'd')) {
+            fputs("…", stdout);
+            ++format;
+        } else {
+            putchar(*format);
+        }
+    }
+}
+
 static void print_wrapped(const char *text, FILE *out)
 {
     for (size_t column = 0; *text; text += strspn(text, " ")) {
@@ -25,7 +38,9 @@ static void print_wrapped(const char *text, FILE *out)
 
 void explain_kind(const mxg_diagnostic_kind *kind)
 {
-    printf("%s [%s]\n    %s\n\n", severities[kind->severity], kind->id, kind->message);
+    printf("%s [%s]\n    ", severities[kind->severity], kind->id);
+    print_message(kind->message);
+    fputs("\n\n", stdout);
     print_wrapped(kind->cause, stdout);
     fputs("\nWhat to do: ", stdout);
     print_wrapped(kind->cure, stdout);
@@ -60,8 +75,9 @@ void explain_all(void)
     for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
         mxg_get_diagnostic_kind(i, &kind);
-        printf("| [%s](#%s) | %s | `%s` |\n", kind.id, kind.id, severities[kind.severity],
-               kind.message);
+        printf("| [%s](#%s) | %s | `", kind.id, kind.id, severities[kind.severity]);
+        print_message(kind.message);
+        fputs("` |\n", stdout);
     }
     for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
@@ -75,6 +91,8 @@ void explain_list(void)
     for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
         mxg_get_diagnostic_kind(i, &kind);
-        printf("%-32s %-8s %s\n", kind.id, severities[kind.severity], kind.message);
+        printf("%-32s %-8s ", kind.id, severities[kind.severity]);
+        print_message(kind.message);
+        putchar('\n');
     }
 }

@@ -439,9 +439,7 @@ static bool check_values(struct bind *bind)
         uint32_t index;
         if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index)
             && !is_light_value(bind, bind->values[i].path))
-            return fail_as(bind, "no-uniform",
-                           "the shader has no uniform for '%s'; the input is unused or compiled "
-                           "in, or the path is misspelled",
+            return fail_as(bind, "no-uniform", "the shader has no uniform for '%s'",
                            bind->values[i].path);
     }
     return true;

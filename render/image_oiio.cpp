@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image.h"
 
+#include "cli/temporary.h"
+
 #include <OpenImageIO/imageio.h>
 
 #include <cerrno>
@@ -307,12 +309,14 @@ bool image_write(const char *path, const struct image *image, char *reason, size
         std::string name(path);
         size_t base = name.rfind('/') + 1;
         std::string temporary = name.substr(0, base) + ".tmp-" + name.substr(base);
+        temporary_note(temporary.c_str());
         bool good = guard(reason, capacity,
                           [&] { return write_file(temporary, *image, reason, capacity); });
         if (good && std::rename(temporary.c_str(), path) != 0)
             good = fail(reason, capacity, std::strerror(errno));
         if (!good)
             std::remove(temporary.c_str());
+        temporary_forget(temporary.c_str());
         return good;
     });
 }

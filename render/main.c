@@ -5,6 +5,7 @@
 #include "cli/files.h"
 #include "cli/folder.h"
 #include "cli/outputs.h"
+#include "cli/parent.h"
 #include "cli/render_options.h"
 #include "render/applies.h"
 #include "render/bake.h"
@@ -170,7 +171,7 @@ static bool parse(struct job *job)
 
 /* ---- Scene ---- */
 
-static bool tell_parts(struct job *job, unsigned made)
+static bool note_parts(struct job *job, unsigned made)
 {
     static const struct {
         enum mesh_part part;
@@ -204,7 +205,7 @@ static bool make_scene(struct job *job)
         struct studio_fault fault;
         if (studio_open(&painter->studio, aspect, &painter->scene, &made, &fault)) {
             tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
-            return tell_parts(job, made);
+            return note_parts(job, made);
         }
         report_error(&job->cli.report, fault.id, "%s", fault.text);
         return false;
@@ -244,7 +245,7 @@ static bool prepare(struct job *job)
 /* ---- Work ---- */
 
 /* Prints "[3/40] Gold" on a terminal, over the previous line; prints nothing to a pipe. */
-static void tell_progress(const struct job *job, size_t done, size_t count, const char *name)
+static void report_progress(const struct job *job, size_t done, size_t count, const char *name)
 {
     if (job->cli.quiet || count < 2 || !isatty(STDERR_FILENO))
         return;
@@ -282,7 +283,7 @@ static void draw_turntable(struct job *job, const struct subject *subject)
     for (size_t i = 0; good && i < job->options.frames; ++i) {
         struct image picture;
         char *name = frame_name(job->options.output, i);
-        tell_progress(job, i, job->options.frames, name);
+        report_progress(job, i, job->options.frames, name);
         studio_aim(&painter->studio, (double)painter->width / painter->height,
                    360.0 * (double)i / (double)job->options.frames, &painter->scene);
         painting_aim(&painting);
@@ -290,7 +291,7 @@ static void draw_turntable(struct job *job, const struct subject *subject)
         image_finish(&picture);
         free(name);
     }
-    tell_progress(job, job->options.frames, job->options.frames, "");
+    report_progress(job, job->options.frames, job->options.frames, "");
     painting_close(&painting);
 }
 
@@ -396,10 +397,10 @@ static void draw_sheet(struct job *job, const struct items *list)
         return;
     }
     for (size_t i = 0; i < list->len; ++i) {
-        tell_progress(job, i, list->len, list->items[i].name);
+        report_progress(job, i, list->len, list->items[i].name);
         place(job, &sheet, i, &list->items[i]);
     }
-    tell_progress(job, list->len, list->len, "");
+    report_progress(job, list->len, list->len, "");
     if (!job->painter.has_clash
         && !image_write(job->options.output, &sheet.image, reason, sizeof reason))
         report_error(&job->cli.report, "output-failed", "cannot write '%s': %s",
@@ -647,6 +648,7 @@ int main(int argc, char **argv)
     struct arg args[MAX_RENDER_ARGS];
     size_t num_args = render_args(&job.options, args);
     int code;
+    parent_follow();
     if (cli_start(&job.cli, &command, args, num_args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
         job.painter.files = &job.files;

@@ -2,6 +2,7 @@
 #include "render/picture.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- Shaders ---- */
@@ -35,14 +36,106 @@ static bool choose_mesh(struct painting *painting)
     return true;
 }
 
+/*
+ * Prints the textures that the document names and that do not exist, each once, with its place.
+ * Returns their number.
+ */
+static uint32_t tell_textures(struct painter *painter, const struct subject *subject)
+{
+    struct report *report = &painter->cli->report;
+    mxg_result *result = NULL;
+    if (mxg_document_validate(painter->cli->context, subject->document, &result) != MXG_OK
+        && !result)
+        return 0;
+    const mxg_diagnostics *list = mxg_result_diagnostics(result);
+    struct arg_list told = {0};
+    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        bool is_new = strcmp(diagnostic.id, "missing-texture") == 0;
+        for (size_t t = 0; is_new && t < told.len; ++t)
+            is_new = strcmp(told.items[t], diagnostic.message) != 0;
+        if (!is_new)
+            continue;
+        args_append(&told, diagnostic.message);
+        if (painter->told_textures != subject->document)
+            fputs(report_render(report, list, i), stderr);
+    }
+    painter->told_textures = subject->document;
+    uint32_t count = (uint32_t)told.len;
+    free(told.items);
+    mxg_result_destroy(result);
+    return count;
+}
+
+static const char *name_of_path(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* The public input of the same node that the path may mean; NULL: none. */
+static const char *closest_input(const mxg_result *result, const char *path)
+{
+    struct arg_list paths = {0};
+    size_t owner = (size_t)(name_of_path(path) - path);
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        /* a misspelling rarely changes the first letter, but another input often has another one */
+        if (strncmp(variable.path, path, owner + 1) == 0)
+            args_append(&paths, variable.path);
+    }
+    const char *near = args_closest(path, paths.items, paths.len);
+    near = near && strncmp(near, path, owner + 1) == 0 ? near : NULL;
+    free(paths.items);
+    return near;
+}
+
+static const char *advice_on_value(const struct painting *painting)
+{
+    for (size_t i = 0; i < painting->painter->num_values; ++i) {
+        uint32_t index;
+        const char *path = painting->painter->values[i].path;
+        if (!mxg_result_find_variable(painting->result, path, &index))
+            return closest_input(painting->result, path);
+    }
+    return NULL;
+}
+
+static bool fail_for_value(const struct painting *painting, const char *name)
+{
+    const struct bind *bind = painting->bind;
+    const char *near = advice_on_value(painting);
+    report_error(&painting->painter->cli->report, bind->id,
+                 near ? "%s: %s (did you mean '%s'?)"
+                      : "%s: %s; the input is unused or compiled in, or the path is misspelled",
+                 name, bind->reason, near);
+    return false;
+}
+
+static bool is_about_texture(const struct bind *bind)
+{
+    return bind && bind->id && strcmp(bind->id, "missing-texture") == 0;
+}
+
 static bool fail(struct painting *painting, const struct subject *subject)
 {
     const struct bind *bind = painting->bind;
     if (bind && bind->id && strcmp(bind->id, "output-clash") == 0)
         painting->painter->has_clash = true;
+    const char *name = subject->element ? subject->element : subject->path;
+    if (is_about_texture(bind)) {
+        tell_textures(painting->painter, subject);
+        report_error(&painting->painter->cli->report, bind->id,
+                     "%s: %s; '--missing-texture checker' draws a checker in its place", name,
+                     bind->reason);
+        return false;
+    }
+    if (bind && bind->id && strcmp(bind->id, "no-uniform") == 0)
+        return fail_for_value(painting, name);
     report_error(&painting->painter->cli->report, bind && bind->id ? bind->id : "render-failed",
-                 "%s: %s", subject->element ? subject->element : subject->path,
-                 bind ? bind->reason : "out of memory");
+                 "%s: %s", name, bind ? bind->reason : "out of memory");
     return false;
 }
 
@@ -58,9 +151,11 @@ static struct bind bind_of(const struct painting *painting, const struct subject
                          .checker = painter->checker};
 }
 
-static void tell_warning(const struct painting *painting)
+static void tell_warning(const struct painting *painting, const struct subject *subject)
 {
     const struct bind *bind = painting->bind;
+    if (is_about_texture(bind) && bind->reason[0] && tell_textures(painting->painter, subject))
+        return;
     if (bind->reason[0]) /* a checker replaces a texture, or a texture has bad pixels */
         report_warning(&painting->painter->cli->report, bind->id, "%s", bind->reason);
 }
@@ -80,7 +175,7 @@ bool painting_open(struct painter *painter, const struct subject *subject,
     *painting->bind = bind_of(painting, subject);
     if (!render_open(&painting->render, &painter->gpu, painting->bind, width, height))
         return fail(painting, subject);
-    tell_warning(painting);
+    tell_warning(painting, subject);
     return true;
 }
 
@@ -175,7 +270,7 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
                              &painter->trace, out->pixels);
     }
     if (good && painting.bind && out->pixels) {
-        tell_warning(&painting);
+        tell_warning(&painting, subject);
         tell_bad_pixels(painter, painting.result, out);
     }
     if (painting.result && !(good && painting.bind && out->pixels))

@@ -26,7 +26,8 @@ struct painter {
     bool has_clash;        /* a texture is one of the latter: no picture may be written */
     const struct bind_value *values;
     size_t num_values;
-    bool checker; /* replaces missing textures by a checker */
+    bool checker;                      /* replaces missing textures by a checker */
+    const mxg_document *told_textures; /* the last document whose missing textures were printed */
     enum background background;
     double exposure;
     uint32_t width, height;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * GLSL ES 3.00, as WebGL 2 reads it: no initial values of uniforms, no blocks between stages,
- * explicit precision.
+ * GLSL ES 3.00, for WebGL 2: no initial values of uniforms, no blocks between stages, explicit
+ * precision.
  */
 #include "generators/glsl/glsl.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The frame of a GLSL stage: version and precision, uniforms loose or in blocks, what comes into
- * the stage and goes out, main.
+ * The frame of a GLSL stage: version and precision, loose uniforms or blocks, inputs and outputs of
+ * the stage, main.
  */
 #include "generators/glsl/glsl.h"
 
@@ -23,8 +23,10 @@ static void write_header(struct spell *spell)
     spell_text(spell, "\n");
 }
 
-/* "layout(set = 0, binding = 1, std140) ", as far as the target can; nothing where neither is asked
- * for. */
+/*
+ * "layout(set = 0, binding = 1, std140) ", with the parts that the target has; nothing without
+ * parts.
+ */
 static void write_layout(struct spell *spell, uint32_t set, uint32_t binding, bool std140)
 {
     if (!spell_can(spell, CAP_BINDINGS)) {
@@ -64,7 +66,7 @@ static void write_members(struct spell *spell, enum shader_block block)
     }
 }
 
-/* Blocks are declared whole in every stage that reads a member: their layout is shared. */
+/* Every stage that reads a member declares the whole block, because the stages share its layout. */
 static void write_uniform_block(struct spell *spell, enum shader_block block)
 {
     const struct shader_buffer *buffer = &spell->shader->buffers[block];
@@ -78,7 +80,7 @@ static void write_uniform(struct spell *spell, const struct shader_variable *var
 {
     spell_text(spell, "uniform ");
     spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
-    bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->options->neutral_names;
+    bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->shader->rules.neutral_names;
     if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed
         && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
         spell_text(spell, " = ");
@@ -92,7 +94,7 @@ static void write_uniforms(struct spell *spell, enum shader_block block)
 {
     if (!spell_uses_block(spell, block))
         return;
-    if (spell->blocks) {
+    if (spell->shader->rules.blocks) {
         write_uniform_block(spell, block);
         return;
     }
@@ -109,12 +111,13 @@ static void write_light_data(struct spell *spell)
     spell_text(spell, "struct LightData {\n");
     write_members(spell, BLOCK_LIGHT_DATA);
     spell_text(spell, "};\n");
-    if (spell->blocks)
+    if (spell->shader->rules.blocks)
         write_layout(spell, buffer->set, buffer->binding, true);
-    spell_text(spell, spell->blocks ? "uniform LightData_block { LightData u_lightData["
-                                    : "uniform LightData u_lightData[");
+    spell_text(spell, spell->shader->rules.blocks
+                          ? "uniform LightData_block { LightData u_lightData["
+                          : "uniform LightData u_lightData[");
     spell_number(spell, spell->shader->max_lights);
-    spell_text(spell, spell->blocks ? "]; };\n" : "];\n");
+    spell_text(spell, spell->shader->rules.blocks ? "]; };\n" : "];\n");
 }
 
 static void write_textures(struct spell *spell)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Desktop OpenGL: loose uniforms with initial values, as hosts of MaterialX bind them. The portable
- * language is its subset.
+ * Desktop OpenGL: loose uniforms with initial values, as MaterialX hosts bind them. The portable
+ * language is a subset of its language.
  */
 #include "generators/glsl/glsl.h"
 
@@ -9,7 +9,7 @@ static const char *const reserved[] = {
 #include "generators/glsl/reserved.def"
 };
 
-/* GLSL's own round() leaves halves to the implementation. */
+/* round() of GLSL leaves halves to the implementation */
 static const struct lang_form forms[IR_NUM_OPS] = {
     [IR_ROUND] = {"roundEven($0)", LANG_PREC_POSTFIX, false},
 };
@@ -20,7 +20,10 @@ const struct lang_syntax glsl_syntax = {
     .forms = forms,
     .reserved = reserved,
     .num_reserved = sizeof reserved / sizeof *reserved,
-    /* becomes a SPIR-V value; other parameters are variables, copied at every call */
+    /*
+     * a `const` parameter becomes a SPIR-V value; other parameters are variables, which each call
+     * copies
+     */
     .param_in = "const ",
     .param_in_assigned = "",
     .constant = "const ",

@@ -9,7 +9,7 @@ extern const struct lang_syntax glsl_syntax;
 extern const struct target_frame glsl_frame; /* frame.c */
 extern const struct target target_glsl, target_vulkan, target_essl, target_essl310;
 
-/* What every GLSL can do. */
+/* The capabilities of every GLSL version. */
 #define GLSL_CAPS \
     (CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS)
 

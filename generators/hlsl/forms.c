@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* How HLSL writes what depends on types, and the functions that it lacks (helpers). */
+/* The forms of HLSL that depend on types, and the functions that it lacks (helpers). */
 #include "generators/hlsl/hlsl.h"
 
 static const char parts[] = "xyzw";
@@ -46,7 +46,7 @@ static const struct lang_pieces *call_of(struct spell *spell, const char *text)
     return form_of(spell, text, LANG_PREC_POSTFIX);
 }
 
-/* Structs of a tree are of the unit's types, those of the graph of its own. */
+/* The struct of a type: a tree has types of the unit, the graph has types of its own. */
 static void put_type(struct spell *spell, const struct lang_use *use, ir_type_id type,
                      struct text *out)
 {
@@ -85,7 +85,7 @@ static void add_helper(struct spell *spell, const struct lang_use *use, unsigned
 
 /* ---- Operators ---- */
 
-/* Matrices are transposes: hlsl.h. */
+/* Matrices are transposed: hlsl.h. */
 static const struct lang_pieces *product(struct spell *spell, const struct lang_use *use)
 {
     ir_type_id a = use->operands[0], b = use->operands[1];
@@ -146,7 +146,9 @@ static const struct lang_pieces *from_scalar(struct spell *spell, ir_type_id typ
                            : form_of(spell, by_rows[rows_of(type)], LANG_PREC_PRODUCT);
 }
 
-/* The last operand may have more components than are left: HLSL wants these cut off. */
+/*
+ * The last operand may have more components than the vector needs. HLSL requires an explicit cut.
+ */
 static const struct lang_pieces *construct(struct spell *spell, const struct lang_use *use)
 {
     unsigned left = components(use->type), last = use->num_operands - 1;
@@ -196,7 +198,7 @@ static form_writer *const writers[IR_NUM_OPS] = {
     [IR_TEX_SIZE] = texture_size, [IR_CONSTRUCT] = construct,
 };
 
-/* Built-in functions that are helpers for all types. */
+/* The built-in functions that are helpers for all types. */
 static const struct {
     uint8_t helper; /* enum helper */
     const char *call;
@@ -226,7 +228,7 @@ const char *hlsl_maker(void *user_data, const char *type)
     return maker->name;
 }
 
-/* Every component is written. */
+/* Writes every component. */
 bool hlsl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
                       struct text *out)
 {

@@ -3,12 +3,12 @@
  * The frame of an HLSL stage: constant buffers, textures with their samplers, main with its
  * semantics.
  *
- * Registers have the numbers of Vulkan's bindings: b0 to b2 are buffers, and the texture tN and its
- * sampler sN follow, so that a host of either kind binds by one number.
+ * Registers have the numbers of Vulkan's bindings: b0 to b2 are buffers, and each texture tN has
+ * the sampler sN, so that hosts of both APIs bind by one number.
  */
 #include "generators/hlsl/hlsl.h"
 
-/* On request. */
+/* "[[vk::binding(3, 0)]] ", if the option asks for it. */
 static void write_binding(struct spell *spell, uint32_t binding, uint32_t set)
 {
     if (spell->options->vulkan_attributes)
@@ -27,7 +27,7 @@ static void write_register(struct spell *spell, char kind, uint32_t number)
     text_fmt(spell->out, " : register(%c%u)", kind, (unsigned)number);
 }
 
-/* The variable under its own name. */
+/* Writes the variable under its own name. */
 static void write_variable(struct spell *spell, const struct shader_variable *variable)
 {
     spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
@@ -123,7 +123,9 @@ static const char *semantic_from(struct spell *spell, const struct shader_variab
     return text_cstr(&text);
 }
 
-/* Semantics have no case: of properties that differ in nothing else, the later has a number. */
+/*
+ * Semantics ignore case. Of two properties that differ only in case, the later one gets a number.
+ */
 static void write_semantic(struct spell *spell, uint32_t place)
 {
     const struct shader_variable *variable = spell_interface_variable(spell, place);
@@ -137,7 +139,7 @@ static void write_semantic(struct spell *spell, uint32_t place)
         spell_text(spell, semantic);
 }
 
-/* One struct for both stages, whether they read all of it or not, so that they fit together. */
+/* Both stages declare the whole struct, also members that they do not read, so that they match. */
 static void write_vertex_data(struct spell *spell)
 {
     spell_text(spell, "struct VertexData {\n    float4 position : SV_Position;\n");
@@ -159,7 +161,7 @@ static bool reads_vertex_data(const struct spell *spell)
 }
 
 /*
- * Functions may read vertex data, which is a parameter of main otherwise: then main copies between
+ * Functions may read vertex data, which is otherwise a parameter of main. Then main copies between
  * its parameter and a variable at file scope.
  */
 static bool shares_vertex_data(const struct spell *spell)
@@ -172,7 +174,7 @@ static bool shares_vertex_data(const struct spell *spell)
     return shares && reads_vertex_data(spell);
 }
 
-/* Of a function of path tracers. */
+/* The parameters of a function for path tracers. */
 static void write_results(struct spell *spell)
 {
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
@@ -206,7 +208,7 @@ static void declare(struct spell *spell)
 
 /* ---- Main ---- */
 
-/* A parameter of main stands on a line of its own. */
+/* Each parameter of main has its own line. */
 static void begin_parameter(struct spell *spell, bool *is_first)
 {
     spell_text(spell, *is_first ? "\n    " : ",\n    ");

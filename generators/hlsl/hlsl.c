@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The tables of HLSL: words, types, forms (Microsoft's reference of shader model 5.1 and 6). */
+/* The tables of HLSL: words, types, forms (Microsoft's reference for shader model 5.1 and 6). */
 #include "generators/hlsl/hlsl.h"
 
 static const char *const reserved[] = {
@@ -14,7 +14,7 @@ static const struct lang_form forms[IR_NUM_OPS] = {
     CALL(ATAN2, "atan2($0, $1)"),
     CALL(RSQRT, "rsqrt($0)"),
     CALL(FRACT, "frac($0)"),
-    CALL(SIGN, "$T(sign($0))"), /* HLSL's own gives integers */
+    CALL(SIGN, "$T(sign($0))"), /* the function of HLSL returns integers */
     CALL(MIX, "lerp($0, $1, $2)"),
     CALL(FLOAT_TO_INT_BITS, "asint($0)"),
     CALL(FLOAT_TO_UINT_BITS, "asuint($0)"),

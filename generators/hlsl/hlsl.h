@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * High Level Shading Language, for Direct3D and for Vulkan.
+ * High Level Shading Language, for Direct3D and Vulkan.
  *
- * A matrix stands here as its transpose: rows are the columns of the portable language. So M[i] is
- * the same vector in both, constructors take the same values in the same order, and a host puts the
- * same bytes into buffers; M * v is mul(v, M), A * B is mul(B, A).
+ * A matrix in HLSL is the transpose: its rows are the columns of the portable language. So M[i] is
+ * the same vector in both, constructors take the same values in the same order, and a host writes
+ * the same bytes into buffers. M * v is mul(v, M), and A * B is mul(B, A).
  */
 #ifndef MXG_GENERATORS_HLSL_H
 #define MXG_GENERATORS_HLSL_H
@@ -14,7 +14,7 @@
 extern const struct target target_hlsl;
 extern const struct target_frame hlsl_frame; /* frame.c */
 
-/* forms.c: struct target's hooks, and that of struct lang_syntax for literals. */
+/* forms.c: hooks of struct target, and the hook of struct lang_syntax for literals. */
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use);
 const char *hlsl_maker(void *user_data, const char *type);
 bool hlsl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,

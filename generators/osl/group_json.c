@@ -29,7 +29,7 @@ static void put_input(struct reflect *r, const struct network *network,
     json_close(&r->json, '}');
 }
 
-static bool is_said(const struct network_input *input)
+static bool has_source(const struct network_input *input)
 {
     return input->kind != NETWORK_DEFAULT
            && !(input->kind == NETWORK_FILE && !input->file && !input->path);
@@ -47,7 +47,7 @@ static void put_layer(struct reflect *r, const struct network *network,
     json_key(&r->json, "inputs");
     json_open(&r->json, '[');
     for (uint32_t i = 0; i < node->num_inputs; i++)
-        if (node->inputs[i] && is_said(&network->inputs.items[layer->first_input + i]))
+        if (node->inputs[i] && has_source(&network->inputs.items[layer->first_input + i]))
             put_input(r, network, &network->inputs.items[layer->first_input + i],
                       str_text(network->strings, node->inputs[i]));
     json_close(&r->json, ']');
@@ -64,7 +64,7 @@ static void put_end(struct reflect *r, const struct network *network, const stru
     json_open(&r->json, '[');
     for (unsigned i = 0; i < OSL_MAX_ENDS && end->inputs[i].parameter; i++) {
         const struct network_input *input = &network->results[end->inputs[i].result];
-        if (is_said(input))
+        if (has_source(input))
             put_input(r, network, input, end->inputs[i].parameter);
     }
     json_close(&r->json, ']');

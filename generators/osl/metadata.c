@@ -168,7 +168,7 @@ static void write_shared(struct osl *osl, const char *text, unsigned *count)
  * True for a label that repeats the name, such as "Base Color" for base_color: user interfaces
  * derive it from the name. An underscore after a keyword does not count.
  */
-static bool says_name(const char *label, const char *name)
+static bool repeats_name(const char *label, const char *name)
 {
     for (; *label && *name; label++, name++)
         if ((*label == ' ' ? '_' : *label | 0x20) != (*name == '_' ? '_' : *name | 0x20))
@@ -178,7 +178,7 @@ static bool says_name(const char *label, const char *name)
 
 static void write_label(struct spell *spell, const char *name, const char *label, unsigned *count)
 {
-    if (label && !says_name(label, name))
+    if (label && !repeats_name(label, name))
         write_hint(spell, "label", label, count);
 }
 

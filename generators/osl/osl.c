@@ -57,8 +57,8 @@ static const char *shader_name(struct spell *spell)
 {
     if (spell->options->shader_name)
         return spell->options->shader_name;
-    const char *path =
-        str_text(spell->shader->strings, spell->options->neutral_names ? 0 : spell->shader->path);
+    const char *path = str_text(spell->shader->strings,
+                                spell->shader->rules.neutral_names ? 0 : spell->shader->path);
     return *path ? names_unique(&spell->names, path, strlen(path)).text : "neutral";
 }
 

@@ -71,14 +71,14 @@ static void write_missing(const struct spell *spell, const struct shader_variabl
     bool is_number = texture->has_default && value->type < IR_NUM_TYPES;
     unsigned n = is_number ? ir_type_info(value->type)->components : 0;
     for (unsigned i = 0; i < count; i++) {
-        bool is_said = n && (i < n || (n == 1 && i < 3));
+        bool has_channel = n && (i < n || (n == 1 && i < 3));
         union ir_word word = {.f = i == 3 && n < 4 ? 1.0f : 0.0f};
         text_str(out, i ? ", " : "");
-        if (is_said && texture->fallback) {
+        if (has_channel && texture->fallback) {
             write_part_of(spell, texture->fallback - 1, n, n == 1 ? 0 : i, out);
             continue;
         }
-        if (is_said)
+        if (has_channel)
             word = value->w[n == 1 ? 0 : i];
         lang_print_value(spell->style, NULL, IR_TYPE_FLOAT, &word, LANG_PREC_COMMA, out);
     }

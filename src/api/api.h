@@ -4,8 +4,7 @@
  *
  * Every object owns its memory, because any thread may drop the last reference. Work on an object
  * runs inside object_run, which catches a lack of memory (base/mem.h). Afterwards the object is
- * immutable, except for texts that their first use writes, and for a document's cache of node
- * matches.
+ * immutable, except for texts that their first use writes.
  */
 #ifndef MXG_API_API_H
 #define MXG_API_API_H
@@ -160,6 +159,11 @@ bool file_source_read(struct file_source *source, const char *path, const char *
  * stdio_no_memory.
  */
 mxg_resolver stdio_resolver(struct mxg_context *context);
+/*
+ * build_options.texture_fault: with the default resolver a sandbox refuses textures outside,
+ * whether they exist or not. `context` is a struct mxg_context.
+ */
+const char *stdio_texture_fault(void *context, const char *from, const char *file);
 extern const char stdio_no_memory[];
 
 /*
@@ -170,6 +174,8 @@ bool sandbox_admit_file(struct mxg_context *context, const char *file);
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
 /* The reason why a document may not read a file; NULL if it may. */
 const char *sandbox_fault(const struct mxg_context *context, const char *path);
+/* The same for a file that a host reads later, so it may be missing, or a pattern of names. */
+const char *sandbox_texture_fault(const struct mxg_context *context, const char *path);
 void sandbox_finish(struct mxg_context *context);
 
 /*

@@ -85,6 +85,8 @@ static void run_job(void *arg)
 static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_job *job,
                      char *buffer, size_t capacity)
 {
+    if (!buffer)
+        capacity = 0;
     if (capacity)
         *buffer = '\0';
     if (index >= mxg_diagnostics_count(list))

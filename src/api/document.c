@@ -17,7 +17,6 @@ void document_finish(struct mxg_document *document, struct file_source *files)
     struct library *layer = &document->layer;
     struct lang_reader reader = file_source_for_lang(files);
     library_index(layer, &reader, &document->object.diagnostics.list);
-    library_keep_matches(layer, &document->object.arena);
     document_find_renderables(document, &files->scratch);
     document->files.items = files->names.items;
     document->files.len = files->names.len;

@@ -38,6 +38,11 @@ static const char *remember(struct file_source *source, const char *name)
     return vec_last(&source->names);
 }
 
+static bool is_too_large(const struct file_source *source)
+{
+    return source->blob.size > (uint64_t)source->object->context->xml_limits.max_file_mib << 20;
+}
+
 /* With the default resolver, an open file counts towards the context's memory. */
 static bool open_file(struct file_source *source, const char *from, const char *ref,
                       const char **out_reason)
@@ -53,7 +58,7 @@ static bool open_file(struct file_source *source, const char *from, const char *
         mem_fail(&source->object->mem);
     if (source->is_open && !source->blob.name)
         source->blob.name = ref;
-    if (source->is_open && source->digest)
+    if (source->is_open && source->digest && !is_too_large(source))
         source->digest = hash_long(source->digest, source->blob.data, source->blob.size);
     if (!source->is_open)
         *out_reason = reason              ? reason
@@ -100,6 +105,11 @@ static bool read_for_lang(void *user_data, const char *from, const char *ref, co
     struct file_source *source = user_data;
     if (!open_file(source, from, ref, out_reason))
         return false;
+    if (is_too_large(source)) {
+        *out_reason = "it is too large; raise the limit 'max-file-size' if this is intended";
+        close_file(source);
+        return false;
+    }
     *out_name = remember(source, source->blob.name);
     *out_text = arena_strndup(&source->scratch, source->blob.data, source->blob.size);
     *out_len = source->blob.size;
@@ -119,6 +129,12 @@ bool file_source_read(struct file_source *source, const char *path, const char *
     if (!open_file(source, "", path, &reason)) {
         enum diag_id id = source->blob.name ? DIAG_ID_file_unreadable : DIAG_ID_file_missing;
         diag_add(diags, id, (struct diag_place){.file = path}, path, reason);
+        return false;
+    }
+    if (is_too_large(source)) {
+        diag_add(diags, DIAG_ID_file_too_large, (struct diag_place){.file = path}, path,
+                 (unsigned)source->object->context->xml_limits.max_file_mib);
+        close_file(source);
         return false;
     }
     remember(source, source->blob.name);

@@ -116,9 +116,10 @@ const char *folder_list(struct arena *arena, const char *path, const char *suffi
                         struct path_list *out)
 {
     struct folders folders = {0};
-    add_entry(arena, &folders, path);
+    if (add_entry(arena, &folders, path) != ENTRY_FOLDER)
+        return "it is no folder";
     uint32_t first = out->len;
-    assert(folders.items.len <= 1);
+    assert(folders.items.len == 1);
     for (uint32_t i = 0; i < folders.items.len; i++) {
         struct path_list found = {0};
         const char *reason = list_one(arena, folders.items.items[i].path, &found);

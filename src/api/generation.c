@@ -92,6 +92,7 @@ static void set_build_options(struct generation *g)
     const mxg_context *context = g->result->object.context;
     uint32_t caps = g->result->target->caps;
     g->build_options = (struct build_options){
+        .syntax = g->result->target->syntax,
         .interface = (enum build_interface)o[OPTION_interface].number,
         .uniform_globs = o[OPTION_uniform].list.items,
         .num_uniform_globs = o[OPTION_uniform].list.len,
@@ -114,6 +115,8 @@ static void set_build_options(struct generation *g)
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
         .list_user_data = context->resolver.user_data,
+        .texture_fault = stdio_texture_fault,
+        .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
@@ -295,7 +298,7 @@ static bool emit(struct generation *g)
 enum { NODES_PER_NODE = 64, MORE_NODES = 1 << 16 }; /* emission adds far fewer nodes */
 
 /* True if lighting the surface reports nothing, as long as the graph has room. */
-static bool has_nothing_to_tell(const struct generation *g)
+static bool cannot_fail(const struct generation *g)
 {
     const struct ir_graph *graph = &g->result->graph;
     bool has_room = (uint64_t)graph->nodes.len * NODES_PER_NODE + MORE_NODES < graph->max_nodes;
@@ -308,7 +311,7 @@ bool generation_emit(struct generation *g)
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
-    if (g->desc.only_diagnostics && has_nothing_to_tell(g))
+    if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
@@ -381,6 +384,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     out->marks = kept;
     out->text = text_cstr(&source);
     out->size = source.len;
+    source_find_lines(out, &result->object.arena);
     return !is_cancelled(g);
 }
 
@@ -405,9 +409,7 @@ struct spell_options generation_spell_options(const struct generation *g)
         .interface = g->options[OPTION_interface].text,
         .colorspace = g->options[OPTION_colorspace].text,
         .metadata = (int)g->options[OPTION_metadata].number,
-        .uniform_blocks = g->options[OPTION_uniform_blocks].number,
         .vulkan_attributes = g->options[OPTION_hlsl_vulkan].number,
-        .neutral_names = g->options[OPTION_names].number,
         .comments = g->options[OPTION_comments].number,
         .user_data = result,
         .path = origin_path,
@@ -441,6 +443,12 @@ static void run_steps(void *arg)
     run->steps(&run->generation);
 }
 
+bool generation_names_target(const mxg_generate_desc *desc)
+{
+    mxg_generate_desc known;
+    return desc && struct_read(&known, sizeof known, desc) && known.target;
+}
+
 mxg_status generation_run(mxg_context *context, const mxg_document *document,
                           const mxg_generate_desc *desc, void (*steps)(struct generation *),
                           void *user_data, mxg_result **out_result)
@@ -464,6 +472,7 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     arena_init(&g->scratch, &result->object.mem);
     file_source_init(&g->files, &result->object);
     g->reader = file_source_for_lang(&g->files);
+    diag_list_follow(&result->object.diagnostics.list, &document->object.diagnostics.list);
     mxg_status status = object_run(&result->object, run_steps, &run);
     result->files.items = g->files.names.items;
     result->files.len = g->files.names.len;
@@ -503,7 +512,7 @@ mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
 {
     if (out_result)
         *out_result = NULL;
-    if (!desc || !desc->target)
+    if (!generation_names_target(desc))
         return MXG_ERROR_ARGUMENT;
     return generation_run(context, document, desc, generate, NULL, out_result);
 }

@@ -19,7 +19,11 @@ struct stage_source {
     size_t size;
     const struct spell_mark *marks;
     uint32_t num_marks;
+    const uint32_t *lines; /* where each line begins */
+    uint32_t num_lines;
 };
+
+void source_find_lines(struct stage_source *source, struct arena *arena); /* source.c */
 
 struct mxg_result {
     struct object object; /* keeps the document alive */
@@ -60,6 +64,9 @@ struct generation {
     bool cancelled;
     void *user_data; /* for the caller's `steps` */
 };
+
+/* False: there is no description, or it names no target, or it has members of a later version. */
+bool generation_names_target(const mxg_generate_desc *desc);
 
 /*
  * Makes a result with `steps`, which runs with the trap of the result. `desc` may be NULL for steps

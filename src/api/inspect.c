@@ -128,7 +128,7 @@ mxg_status mxg_inspect(mxg_context *context, const mxg_document *document, mxg_v
     if (out_result)
         *out_result = NULL;
     if ((unsigned)view >= sizeof views / sizeof *views
-        || (views[view].generates && (!desc || !desc->target)))
+        || (views[view].generates && !generation_names_target(desc)))
         return MXG_ERROR_ARGUMENT;
     return generation_run(context, document, desc, inspect, (void *)(uintptr_t)&views[view],
                           out_result);

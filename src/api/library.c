@@ -98,7 +98,7 @@ static void read_path(struct load *load, const char *path)
  * Loading a library reports every fault at once. In a document, an implementation reports its
  * faults when a node needs it.
  */
-static void tell_deferred(mxg_library *library)
+static void report_deferred(mxg_library *library)
 {
     const struct diag_list *deferred = library->layer.deferred;
     for (uint32_t i = 0; i < deferred->items.len; i++)
@@ -116,7 +116,7 @@ static void read_paths(void *arg)
         read_path(load, load->paths[i]);
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     library->layer.digest = load->files.digest;
-    tell_deferred(library);
+    report_deferred(library);
     library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
     lang_make_canonical(&library->layer.unit);
 }

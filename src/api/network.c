@@ -32,13 +32,13 @@ static struct shader *new_shader(struct generation *g, const struct network_node
 static bool emit_node(struct generation *g, struct shader *shader, struct network_node *node)
 {
     struct arena *arena = shader->arena;
-    struct diag_list *told = ARENA_NEW(arena, struct diag_list);
+    struct diag_list *ignored = ARENA_NEW(arena, struct diag_list);
     struct closure_point *point = ARENA_NEW(arena, struct closure_point);
     ir_ref *results = ARENA_ARRAY(arena, ir_ref, node->num_outputs);
     struct network_output *outputs = ARENA_ARRAY(arena, struct network_output, node->num_outputs);
     str_id *names = ARENA_ARRAY(arena, str_id, node->num_outputs);
-    diag_list_init(told, arena);
-    struct builder *builder = build_start(&g->document->layer, &g->build_options, shader, told);
+    diag_list_init(ignored, arena);
+    struct builder *builder = build_start(&g->document->layer, &g->build_options, shader, ignored);
     build_network_node(builder, node, results);
     for (uint32_t i = 0; i < node->num_outputs; i++) {
         outputs[i] = (struct network_output){.value = results[i]};

@@ -70,14 +70,43 @@ bool sandbox_admit_file(struct mxg_context *context, const char *file)
     return sandbox_admit_folder(context, folder);
 }
 
+/*
+ * True if the path, or the innermost folder of it that exists, is in a known folder. So the answer
+ * for a path outside does not depend on the files there.
+ */
+static bool is_inside(const struct mxg_context *context, const char *path)
+{
+    char part[PATH_MAX], real[PATH_MAX];
+    struct stat info;
+    size_t len = strlen(path);
+    if (len >= sizeof part)
+        return false;
+    memcpy(part, path, len + 1);
+    while (!realpath(part, real)) {
+        char *slash = strrchr(part, '/');
+        if (lstat(part, &info) == 0) /* a link that leads nowhere, or a folder closed to us */
+            return false;
+        if (slash)
+            slash[slash == part] = '\0';
+        else
+            memcpy(part, ".", 2);
+    }
+    return is_known(context, real);
+}
+
+const char *sandbox_texture_fault(const struct mxg_context *context, const char *path)
+{
+    return context->sandbox && !is_inside(context, path)
+               ? "it is outside the folders that documents may read; see --sandbox"
+               : NULL;
+}
+
 const char *sandbox_fault(const struct mxg_context *context, const char *path)
 {
-    char real[PATH_MAX];
     struct stat info;
-    if (stat(path, &info) != 0)
-        return NULL; /* the attempt to open it gives the reason */
-    if (context->sandbox && (!realpath(path, real) || !is_known(context, real)))
-        return "it is outside the folders that documents may read; see --sandbox";
+    const char *outside = sandbox_texture_fault(context, path);
+    if (outside || stat(path, &info) != 0)
+        return outside; /* NULL: the attempt to open it gives the reason */
     return S_ISREG(info.st_mode) || S_ISDIR(info.st_mode) ? NULL : "it is not a regular file";
 }
 

@@ -13,16 +13,24 @@ const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t 
     return known ? result->stages[stage].text : NULL;
 }
 
+void source_find_lines(struct stage_source *source, struct arena *arena)
+{
+    VEC(uint32_t) lines = {0};
+    const char *at = source->text, *end = at + source->size;
+    while (at && at < end) {
+        vec_push(arena, &lines, (uint32_t)(at - source->text));
+        at = memchr(at, '\n', (size_t)(end - at));
+        at = at ? at + 1 : end;
+    }
+    source->lines = lines.items;
+    source->num_lines = lines.len;
+}
+
 /* The offset where a line (from 1) begins; the end of the source if it has fewer lines. */
 static size_t start_of_line(const struct stage_source *source, uint32_t line)
 {
-    const char *start = source->text, *end = start + source->size;
-    for (uint32_t at = 1; at < line && start < end; at++) {
-        const char *newline = memchr(start, '\n', (size_t)(end - start));
-        start = newline ? newline + 1 : end;
-    }
-    assert(start <= end);
-    return (size_t)(start - source->text);
+    assert(line > 0);
+    return line <= source->num_lines ? source->lines[line - 1] : source->size;
 }
 
 /* The first origin that a line has; 0: none. */
@@ -31,7 +39,8 @@ static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32
     const struct stage_source *source = &result->stages[stage];
     if (line == 0 || !source->text)
         return 0;
-    size_t start = start_of_line(source, line), end = start_of_line(source, line + 1);
+    size_t start = start_of_line(source, line),
+           end = line < UINT32_MAX ? start_of_line(source, line + 1) : source->size;
     assert(start <= end && end <= source->size);
     uint32_t low = 0, high = source->num_marks;
     while (low < high) {
@@ -112,6 +121,8 @@ static size_t write_path(const mxg_result *result, uint32_t origin, char *buffer
 {
     struct names names = {.len = 0};
     size_t len = 0;
+    if (!buffer)
+        capacity = 0;
     if (capacity)
         *buffer = '\0';
     collect_names(result, origin, &names);

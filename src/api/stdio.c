@@ -170,6 +170,17 @@ static size_t list_folder(void *user_data, const char *from, const char *folder,
     return size;
 }
 
+const char *stdio_texture_fault(void *user_data, const char *from, const char *file)
+{
+    struct mxg_context *context = user_data;
+    if (!context->sandbox || context->resolver.open != open_file)
+        return NULL;
+    struct block *name = join(context, from, file);
+    const char *fault = name ? sandbox_texture_fault(context, name->bytes) : stdio_no_memory;
+    release(context, name);
+    return fault;
+}
+
 mxg_resolver stdio_resolver(struct mxg_context *context)
 {
     return (mxg_resolver){.user_data = context,

@@ -8,6 +8,7 @@
 
 struct texture_check {
     const struct document *doc;
+    struct mxg_context *context;
     const mxg_resolver *resolver;
     struct arena *arena;
     struct diag_list *diags;
@@ -17,21 +18,14 @@ struct texture_check {
     size_t size;
 };
 
-enum { FIRST_NAMES = 4096 }; /* bytes; most folders need less */
-
 static void list_folder(struct texture_check *c, const char *from, const char *folder)
 {
     if (c->folder && strcmp(c->from, from) == 0 && strcmp(c->folder, folder) == 0)
         return;
-    size_t capacity = FIRST_NAMES, size;
-    char *names = arena_alloc(c->arena, capacity);
-    while ((size = c->resolver->list_folder(c->resolver->user_data, from, folder, names, capacity))
-           > capacity)
-        names = arena_alloc(c->arena, capacity = size);
     c->from = from;
     c->folder = folder;
-    c->names = names;
-    c->size = size;
+    c->size = names_list(c->arena, c->resolver->list_folder, c->resolver->user_data, from, folder,
+                         &c->names);
 }
 
 static bool has_name(const struct texture_check *c, const char *name, size_t len)
@@ -103,10 +97,13 @@ static void check_texture(struct texture_check *c, elem_id element)
     const char *text = text_cstr(&path), *slash = strrchr(text, '/'),
                *name = slash ? slash + 1 : text;
     struct diag_place place = doc_attr_place(c->doc, element, STR_value);
-    if (!*name || strpbrk(text, "[{") || strstr(text, "://"))
+    const char *from = place.file ? place.file : "",
+               *fault = stdio_texture_fault(c->context, from, text);
+    if (fault)
+        diag_add(c->diags, DIAG_ID_texture_refused, place, text, fault);
+    if (fault || !*name || strpbrk(text, "[{") || strstr(text, "://"))
         return;
-    list_folder(c, place.file ? place.file : "",
-                arena_strndup(c->arena, text, (size_t)(name - text)));
+    list_folder(c, from, arena_strndup(c->arena, text, (size_t)(name - text)));
     if (strstr(name, "<UDIM>"))
         check_tiles(c, text, name, place);
     else if (!strchr(text, '<') && !has_name(c, name, strlen(name)))
@@ -117,6 +114,7 @@ static void check_textures(struct generation *g)
 {
     const struct document *doc = &g->document->layer.doc;
     struct texture_check c = {.doc = doc,
+                              .context = g->result->object.context,
                               .resolver = &g->result->object.context->resolver,
                               .arena = &g->scratch,
                               .diags = &g->result->object.diagnostics.list};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "build/build_priv.h"
+#include "print/print.h"
 
 #include <assert.h>
 #include <stddef.h>
@@ -23,6 +24,36 @@ static const int *find_option(const struct build_options *options, const char *n
     return NULL;
 }
 
+/* The reason why no shader can have this uniform; NULL: it can. Hosts bind uniforms by their name.
+ */
+static const char *uniform_fault(const struct builder *b, const struct lang_global *global)
+{
+    const char *name = build_text(b, global->name);
+    ir_type_id known = shader_uniform_type(global->name);
+    if (known != IR_TYPE_VOID && known != global->type)
+        return "which is a uniform of mxgen with another type";
+    bool is_reserved = strncmp(name, "gl_", 3) == 0 || strcmp(name, "main") == 0
+                       || strstr(name, "__")
+                       || lang_syntax_is_reserved(b->options->syntax, name, strlen(name));
+    return is_reserved ? "which is a word of the target" : NULL;
+}
+
+static ir_ref make_uniform(struct builder *b, struct ir_graph *graph,
+                           const struct lang_global *global)
+{
+    const char *fault = uniform_fault(b, global);
+    if (fault) {
+        diag_add(b->diags, DIAG_ID_uniform_name,
+                 doc_place(build_doc(b), b->called ? b->called : build_doc(b)->root),
+                 build_text(b, global->name), fault);
+        return ir_poison(graph, global->type);
+    }
+    uint32_t variable = shader_private_uniform(b->shader, global->name, global->type,
+                                               (uint16_t)global->array_length);
+    enum ir_op op = global->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM;
+    return ir_build(graph, op, global->type, variable, NULL, 0);
+}
+
 /*
  * Resolves the globals of library functions: uniforms and streams become interface variables,
  * options become constants.
@@ -35,12 +66,7 @@ static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struc
     assert(global->words + global->num_words <= layer->words.len);
     switch ((enum lang_global_kind)global->kind) {
     case LANG_GLOBAL_STREAM: return shader_stream(b->shader, global->name, global->type);
-    case LANG_GLOBAL_UNIFORM: {
-        uint32_t variable = shader_private_uniform(b->shader, global->name, global->type,
-                                                   (uint16_t)global->array_length);
-        enum ir_op op = global->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM;
-        return ir_build(graph, op, global->type, variable, NULL, 0);
-    }
+    case LANG_GLOBAL_UNIFORM: return make_uniform(b, graph, global);
     case LANG_GLOBAL_OPTION: {
         const int *option = find_option(b->options, str_text(unit->strings, global->name));
         if (option)
@@ -85,6 +111,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     diags->trace = build_trace; /* the builder lives as long as the list: the result owns both */
     diags->trace_data = b;
     b->resolved.arena = b->arena;
+    text_init(&b->scratch, b->arena);
     b->apply = build_apply_definition;
     b->globals =
         ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);

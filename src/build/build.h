@@ -9,6 +9,7 @@
 #ifndef MXG_BUILD_BUILD_H
 #define MXG_BUILD_BUILD_H
 
+#include "base/names.h"
 #include "library/library.h"
 #include "shader/network.h"
 
@@ -22,6 +23,7 @@ struct build_options {
     const str_id *targets;
     unsigned num_targets;
     enum build_interface interface;
+    const struct lang_syntax *syntax; /* of the target, whose words no uniform may have as name */
     /* patterns of element paths that become uniforms, or constants */
     const char *const *uniform_globs, *const *constant_globs;
     unsigned num_uniform_globs, num_constant_globs;
@@ -44,9 +46,11 @@ struct build_options {
     bool tiles;                       /* images with tiles are texture arrays */
     const struct lang_reader *reader; /* for photometric files; may be NULL */
     /* Like mxg_resolver.list_folder, to find tiles; may be NULL. */
-    size_t (*list_folder)(void *user_data, const char *from, const char *folder, char *names,
-                          size_t capacity);
+    names_fn *list_folder;
     void *list_user_data;
+    /* The reason why a document may not refer to a texture; NULL: it may. NULL: all are allowed. */
+    const char *(*texture_fault)(void *user_data, const char *from, const char *file);
+    void *texture_user_data;
     int integrator;
     bool (*cancel)(void *user_data);
     void *cancel_user_data;
@@ -100,10 +104,10 @@ bool build_glob_matches(const char *glob, const char *path);
 /*
  * lights.c: fills shader->lights. An item names the node of a light shader, or is the path of a
  * <light> of the document; "=" and the light's number may follow. Without a number, it is the
- * item's position, from 1. "none" is no light. `is_said` is false for the default list, whose
+ * item's position, from 1. "none" is no light. `is_explicit` is false for the default list, whose
  * lights may be absent.
  */
 void build_lights(struct builder *builder, const char *const *items, uint32_t num_items,
-                  bool is_said);
+                  bool is_explicit);
 
 #endif

@@ -55,13 +55,6 @@ struct memo {
     uint32_t function;     /* + 1, after its body is complete */
 };
 
-/* A cached prefix of paths and names that belong to one element. */
-struct build_prefix {
-    elem_id owner;
-    size_t len;
-    struct text text;
-};
-
 struct builder {
     const struct library *lib;
     const struct build_options *options;
@@ -83,14 +76,14 @@ struct builder {
     VEC(struct memo) memos;
     uint32_t *memo_table;
     uint32_t memo_mask;
-    VEC(ir_ref) geomprops;          /* value per geomprop name, in pairs (name, ref) */
-    ir_ref *globals;                /* by id: host data of functions, after the first use */
-    struct build_prefix path, name; /* prefixes of the paths and names of a node's inputs */
-    elem_id called;                 /* the node whose implementation is lowered; 0: none */
-    ir_ref missing_texel;           /* the current node's texel outside all tiles of its image */
-    struct recorder *recorder;      /* network.c; NULL: one shader is built */
-    bool has_colorspace;            /* the library has transforms to the option's colour space */
-    bool has_distance_unit;         /* the library has the option's unit */
+    VEC(ir_ref) geomprops;     /* value per geomprop name, in pairs (name, ref) */
+    ir_ref *globals;           /* by id: host data of functions, after the first use */
+    struct text scratch;       /* for a path or a name */
+    elem_id called;            /* the node whose implementation is lowered; 0: none */
+    ir_ref missing_texel;      /* the current node's texel outside all tiles of its image */
+    struct recorder *recorder; /* network.c; NULL: one shader is built */
+    bool has_colorspace;       /* the library has transforms to the option's colour space */
+    bool has_distance_unit;    /* the library has the option's unit */
     bool cancelled;
 };
 
@@ -258,6 +251,9 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family);
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
 
+/* film.c: a thin film on a BSDF, as inputs of its microfacet leaves. `node` is the film node. */
+ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, elem_id node);
+
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
 
@@ -273,6 +269,8 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
  * no plain values. The results become sources that stand for the layer.
  */
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results);
+/* True after a report: the network has too many layers, and the work ends. */
+bool build_network_is_full(const struct builder *b);
 /* The default of an input in the network's layers; type VOID or 0: it has no number. */
 struct ir_value build_network_default(struct builder *b, const struct port *port);
 

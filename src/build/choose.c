@@ -48,7 +48,7 @@ static const struct implementation *best_of(const struct builder *b, uint32_t no
     return best;
 }
 
-static void tell_deferred(struct builder *b, const struct implementation *impl)
+static void report_deferred(struct builder *b, const struct implementation *impl)
 {
     const struct library *layer = library_of_element(b->lib, impl->element);
     assert(impl->ref + impl->count <= layer->deferred->items.len);
@@ -59,22 +59,49 @@ static void tell_deferred(struct builder *b, const struct implementation *impl)
     }
 }
 
+static void add_target(const struct builder *b, const struct implementation *impl,
+                       struct text *targets)
+{
+    if (impl->target)
+        text_fmt(targets, "%s%s", targets->len ? ", " : "", build_text(b, impl->target));
+}
+
+/* The message names the target only if other targets have an implementation. */
+static void report_missing(struct builder *b, uint32_t nodedef, elem_id node)
+{
+    const struct nodedef *def = library_nodedef(b->lib, nodedef);
+    struct text targets, end;
+    text_init(&targets, b->arena);
+    text_init(&end, b->arena);
+    for (const struct library *layer = b->lib; layer; layer = layer->base)
+        for (uint32_t i = 0; nodedef < layer->base_nodedefs && i < layer->overrides.len; i++)
+            if (layer->impls.items[layer->overrides.items[i]].nodedef == nodedef)
+                add_target(b, &layer->impls.items[layer->overrides.items[i]], &targets);
+    for (uint32_t i = def->first_impl; i != LIBRARY_NONE;) {
+        const struct implementation *impl = library_impl(b->lib, i, NULL);
+        add_target(b, impl, &targets);
+        i = impl->next;
+    }
+    if (targets.len && b->options->num_targets)
+        text_fmt(&end, " for target '%s'; it has implementations for: %s",
+                 build_text(b, b->options->targets[0]), text_cstr(&targets));
+    else
+        text_str(&end, "; add a <nodegraph> or <implementation> with this 'nodedef'");
+    diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node),
+             build_text(b, def->name), text_cstr(&end));
+    diag_add(b->diags, DIAG_ID_defined_here, doc_name_place(&b->lib->doc, def->element),
+             build_text(b, def->name));
+}
+
 const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node)
 {
     const struct implementation *impl = best_of(b, nodedef);
     if (impl && impl->kind == IMPL_BROKEN) {
-        tell_deferred(b, impl);
+        report_deferred(b, impl);
         return NULL;
     }
-    if (!impl) {
-        const struct nodedef *def = library_nodedef(b->lib, nodedef);
-        diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node),
-                 build_text(b, def->name),
-                 b->options->num_targets ? build_text(b, b->options->targets[0]) : "",
-                 "; add a <nodegraph> or <implementation> with this 'nodedef'");
-        diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element),
-                 build_text(b, def->name));
-    }
+    if (!impl)
+        report_missing(b, nodedef, node);
     assert(!impl || impl->nodedef == nodedef);
     return impl;
 }

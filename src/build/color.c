@@ -39,7 +39,7 @@ void build_check_colorspace(struct builder *b)
                         || transform(b, black, DOC_TYPE_color3, hub, space);
     if (!b->has_colorspace)
         diag_add(b->diags, DIAG_ID_bad_option, (struct diag_place){0}, space, "colorspace",
-                 "a linear colour space that the library can convert from lin_rec709");
+                 library_expect_working_space(b->lib, space, b->diags));
 }
 
 void build_check_distance_unit(struct builder *b)

@@ -18,24 +18,24 @@ static const char *name_of(const struct builder *b, elem_id element)
     return build_text(b, doc_element(build_doc(b), element)->name);
 }
 
-/* Reports a cycle as "a -> b -> a", from the frame of the first visit to the current one. */
+/* Reports the cycle from the frame of the first visit to the current one. */
 static void report_cycle(struct builder *b, const struct instance *scope, elem_id node)
 {
-    struct text path;
-    text_init(&path, b->arena);
-    uint32_t first = b->frames.len;
+    uint32_t first = b->frames.len, n = 0;
     while (first > 0
            && !(b->frames.items[first - 1].scope == scope
                 && b->frames.items[first - 1].node.element == node))
         first--;
-    uint32_t shown = 0;
-    for (uint32_t i = first ? first - 1 : 0; i < b->frames.len && shown < 64; i++)
-        if (b->frames.items[i].scope == scope) {
-            text_fmt(&path, "%s -> ", name_of(b, b->frames.items[i].node.element));
-            shown++;
-        }
-    text_str(&path, shown == 64 ? "…" : name_of(b, node));
-    diag_add(b->diags, DIAG_ID_cycle, doc_place(build_doc(b), node), text_cstr(&path));
+    assert(first > 0); /* a busy node has a frame */
+    struct doc_cycle_link *links =
+        ARENA_ARRAY(b->arena, struct doc_cycle_link, b->frames.len - first + 1);
+    for (uint32_t i = first - 1; i < b->frames.len; i++) {
+        const struct frame *frame = &b->frames.items[i];
+        if (frame->scope == scope && frame->phase == PHASE_INPUTS && frame->next)
+            links[n++] = (struct doc_cycle_link){frame->node.element,
+                                                 frame->bindings[frame->next - 1].element};
+    }
+    doc_report_cycle(build_doc(b), links, n, b->diags);
 }
 
 static bool is_recursive(const struct instance *scope, elem_id graph)
@@ -348,7 +348,7 @@ void build_demand(struct builder *b, struct instance *scope, elem_id node)
         if ((steps & 1023) == 1023 && b->options->cancel
             && b->options->cancel(b->options->cancel_user_data))
             b->cancelled = true;
-        if (b->cancelled || b->graph->overflow) {
+        if (b->cancelled || b->graph->overflow || build_network_is_full(b)) {
             b->frames.len = bottom;
             return;
         }

@@ -159,7 +159,7 @@ static ir_ref build_bitangent(const struct call *c)
 }
 
 /* Records the value that hosts bind if the geometry lacks the property. */
-static void tell_default(const struct call *c, uint32_t index)
+static void record_default(const struct call *c, uint32_t index)
 {
     assert(index < c->b->shader->variables.len);
     struct shader_variable *variable = &c->b->shader->variables.items[index];
@@ -179,7 +179,7 @@ static ir_ref geomprop_uniform(const struct call *c, str_id name)
     str_id id = str_intern(c->b->shader->strings, full.data, full.len);
     uint32_t variable = shader_private_uniform(c->b->shader, id, c->type, 0);
     if (c->type == IR_TYPE_BOOL)
-        tell_default(c, variable);
+        record_default(c, variable);
     return ir_build(c->b->graph, c->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, c->type,
                     variable, NULL, 0);
 }
@@ -202,9 +202,9 @@ static ir_ref build_geompropvalue(const struct call *c)
     ir_ref stream = named_stream(c, "geomprop_", name.w[0].u, 0, c->type);
     uint32_t attribute;
     if (ir_get(c->b->graph, stream)->op == IR_STREAM) {
-        tell_default(c, ir_get(c->b->graph, stream)->attr);
+        record_default(c, ir_get(c->b->graph, stream)->attr);
         if (shader_attribute(c->b->shader, ir_get(c->b->graph, stream)->attr, &attribute))
-            tell_default(c, attribute);
+            record_default(c, attribute);
     }
     return stream;
 }
@@ -249,6 +249,12 @@ static ir_ref build_multiply(const struct call *c)
     if (!args[0] || ir_const_is(c->b->graph, args[1], 1.0f))
         return args[0];
     return build_op(c, IR_CLOSURE_SCALE, args, 2);
+}
+
+static ir_ref thin_film(const struct call *c)
+{
+    return build_film(c->b, arg(c, STR_thickness), arg(c, STR_ior), arg(c, STR_base),
+                      c->frame->node.element);
 }
 
 static ir_ref measured_edf(const struct call *c)
@@ -370,6 +376,10 @@ static const struct dynamic_node {
      {{STR_bg, SAME}, {STR_fg, SAME}, {STR_mix, OF(FLOAT)}}},
     {STR_add, build_add, CLOSURES, {{STR_in1, SAME}, {STR_in2, SAME}}},
     {STR_multiply, build_multiply, CLOSURES, {{STR_in1, SAME}, {STR_in2, OF(FLOAT) | OF(VEC3)}}},
+    {STR_thinfilmbsdf,
+     thin_film,
+     OF(BSDF),
+     {{STR_thickness, OF(FLOAT)}, {STR_ior, OF(FLOAT)}, {STR_base, OF(BSDF)}}},
     {STR_measured_edf,
      measured_edf,
      OF(EDF),

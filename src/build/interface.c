@@ -2,38 +2,16 @@
 /* Inputs of the shader's interface: their names, their paths, and which of them become uniforms. */
 #include "build/build_priv.h"
 
-/*
- * Returns to the prefix of the names of an owner's inputs; true if the caller must write the
- * prefix.
- */
-static bool begin_text(struct builder *b, struct build_prefix *prefix, elem_id owner)
-{
-    bool is_known = prefix->text.arena && prefix->owner == owner;
-    assert(!is_known || prefix->len <= prefix->text.len);
-    if (!prefix->text.arena)
-        text_init(&prefix->text, b->arena);
-    prefix->text.len = is_known ? prefix->len : 0;
-    prefix->owner = owner;
-    return !is_known;
-}
-
-static str_id end_text(struct builder *b, struct text *text, str_id name)
-{
-    text_mem(text, build_text(b, name), str_len(b->shader->strings, name));
-    return str_intern(b->shader->strings, text->data, text->len);
-}
-
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element)
 {
-    struct text *path = &b->path.text;
-    elem_id owner = element ? doc_element(build_doc(b), element)->parent : node;
-    if (begin_text(b, &b->path, owner)) {
-        doc_path(build_doc(b), owner, '/', path);
-        if (path->len)
-            text_char(path, '/');
-        b->path.len = path->len;
-    }
-    return end_text(b, path, element ? doc_element(build_doc(b), element)->name : input);
+    struct text *path = &b->scratch;
+    path->len = 0;
+    doc_path(build_doc(b), element ? element : node, '/', path);
+    if (!element && path->len)
+        text_char(path, '/');
+    if (!element)
+        text_str(path, build_text(b, input));
+    return str_intern(b->shader->strings, path->data, path->len);
 }
 
 struct glob_retry { /* the position to retry from, if the text after a star does not match */
@@ -111,13 +89,11 @@ static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {
     if (b->options->short_names && shader_name_is_free(b->shader, input))
         return input;
-    struct text *name = &b->name.text;
-    if (begin_text(b, &b->name, node)) {
-        text_str(name, build_text(b, doc_element(build_doc(b), node)->name));
-        text_char(name, '_');
-        b->name.len = name->len;
-    }
-    return end_text(b, name, input);
+    struct text *name = &b->scratch;
+    name->len = 0;
+    text_fmt(name, "%s_%s", build_text(b, doc_element(build_doc(b), node)->name),
+             build_text(b, input));
+    return str_intern(b->shader->strings, name->data, name->len);
 }
 
 static str_id element_attr(const struct builder *b, elem_id element, str_id name)

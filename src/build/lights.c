@@ -205,7 +205,7 @@ static bool number_of(struct builder *b, const char *item, int64_t next, int32_t
     return !expected;
 }
 
-void build_lights(struct builder *b, const char *const *items, uint32_t num_items, bool is_said)
+void build_lights(struct builder *b, const char *const *items, uint32_t num_items, bool is_explicit)
 {
     for (uint32_t i = 0; i < num_items; i++) {
         const char *name = arena_strndup(b->arena, items[i], strcspn(items[i], "="));
@@ -215,7 +215,7 @@ void build_lights(struct builder *b, const char *const *items, uint32_t num_item
         uint32_t nodedef = find_light(b, name, strlen(name));
         bool is_bound = nodedef != LIBRARY_NONE ? add_defined_light(b, nodedef, type)
                                                 : add_light_element(b, name, type);
-        if (!is_bound && is_said)
+        if (!is_bound && is_explicit)
             diag_add(b->diags, DIAG_ID_unknown_light, nowhere, name,
                      light_hint(b, name, strlen(name)));
     }

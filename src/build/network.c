@@ -19,6 +19,7 @@ struct recorder {
     VEC(uint8_t) output_of; /* by variable of the shader: the output of the layer */
     ir_ref *source_of;      /* by discarded node: the layer's output that stands for it */
     uint32_t num_sources;
+    bool is_full; /* reported: it has too many layers */
 };
 
 void build_record_network(struct builder *b, struct network *network)
@@ -308,12 +309,36 @@ static ir_ref known_source(const struct recorder *r, ir_ref value)
     return value < r->num_sources ? r->source_of[value] : 0;
 }
 
+enum { MAX_LAYERS = 16384 };
+
+/*
+ * A definition by a nodegraph becomes layers at each use, so nested definitions may need more
+ * layers than a document has elements, exponentially more.
+ */
+static bool has_room(struct builder *b, const struct frame *frame)
+{
+    struct recorder *r = b->recorder;
+    if (!r->is_full && r->network->layers.len >= MAX_LAYERS) {
+        r->is_full = true;
+        diag_add(b->diags, DIAG_ID_network_limit, doc_place(build_doc(b), frame->node.element),
+                 MAX_LAYERS);
+    }
+    return !r->is_full;
+}
+
+bool build_network_is_full(const struct builder *b)
+{
+    return b->recorder && b->recorder->is_full;
+}
+
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     struct recorder *r = b->recorder;
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     bool is_new = false;
+    if (!has_room(b, frame))
+        return;
     for (unsigned i = 0; i < def->num_outputs; i++)
         is_new |= !is_plain(b, frame, results[i]) && !known_source(r, results[i]);
     uint32_t layer = r->network->layers.len;

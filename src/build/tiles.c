@@ -8,9 +8,11 @@
  * The geometry property 'udimset' or 'uvtileset' lists the tiles; without it, the existing files
  * do.
  */
+#include "base/names.h"
 #include "build/build_priv.h"
 
 #include <limits.h>
+#include <stdlib.h>
 
 enum { MAX_CELLS = 1000 }; /* cells of the rectangle around the tiles: four digits number no more */
 
@@ -98,18 +100,22 @@ static str_id file_of(struct builder *b, const struct tile_token *token, const c
 
 /* ---- Existing tiles ---- */
 
-static void add_tile(struct builder *b, tile_list *tiles, struct shader_tile tile)
+static int compare_tiles(const void *left, const void *right)
 {
-    uint32_t at = tiles->len;
-    while (at
-           && (tiles->items[at - 1].v > tile.v
-               || (tiles->items[at - 1].v == tile.v && tiles->items[at - 1].u > tile.u)))
-        at--;
-    if (at && tiles->items[at - 1].u == tile.u && tiles->items[at - 1].v == tile.v)
-        return;
-    vec_push(b->arena, tiles, tile);
-    memmove(tiles->items + at + 1, tiles->items + at, (tiles->len - 1 - at) * sizeof tile);
-    tiles->items[at] = tile;
+    const struct shader_tile *a = left, *b = right;
+    return a->v != b->v ? (a->v > b->v) - (a->v < b->v) : (a->u > b->u) - (a->u < b->u);
+}
+
+/* Sorts the tiles by row, and drops repeated ones. */
+static void sort_tiles(tile_list *tiles)
+{
+    uint32_t len = 0;
+    if (tiles->len)
+        qsort(tiles->items, tiles->len, sizeof *tiles->items, compare_tiles);
+    for (uint32_t i = 0; i < tiles->len; i++)
+        if (!len || compare_tiles(&tiles->items[len - 1], &tiles->items[i]) != 0)
+            tiles->items[len++] = tiles->items[i];
+    tiles->len = len;
 }
 
 static void add_listed(struct builder *b, const struct tile_token *token, elem_id property,
@@ -121,10 +127,10 @@ static void add_listed(struct builder *b, const struct tile_token *token, elem_i
         p += strspn(p, ", ");
         const char *end = *p ? read_tile(token, p, &tile) : p;
         if (end && end != p && strchr(", ", *end))
-            add_tile(b, tiles, tile);
+            vec_push(b->arena, tiles, tile);
         else if (*p)
             diag_add(b->diags, DIAG_ID_bad_tile, doc_attr_place(&b->lib->doc, property, STR_value),
-                     p, token->text);
+                     arena_strndup(b->arena, p, strcspn(p, ", ")), token->text);
         p += strcspn(p, ", ");
     }
 }
@@ -152,15 +158,13 @@ static void find_files(struct builder *b, const struct tile_token *token, elem_i
         return;
     const char *folder = arena_strndup(b->arena, file, (size_t)(pattern - file));
     const char *from = doc_place(&b->lib->doc, element).file;
-    char *names = NULL;
-    size_t capacity = 0, size;
-    while ((size = o->list_folder(o->list_user_data, from ? from : "", folder, names, capacity))
-           > capacity)
-        names = arena_alloc(b->arena, capacity = size);
+    const char *names;
+    size_t size =
+        names_list(b->arena, o->list_folder, o->list_user_data, from ? from : "", folder, &names);
     for (size_t at = 0; at < size; at += strlen(names + at) + 1) {
         struct shader_tile tile;
         if (match(token, pattern, names + at, &tile))
-            add_tile(b, tiles, tile);
+            vec_push(b->arena, tiles, tile);
     }
 }
 
@@ -199,6 +203,7 @@ bool build_find_tiles(struct builder *b, elem_id element, struct shader_variable
     find_listed(b, token, &tiles);
     if (!tiles.len)
         find_files(b, token, element, file, &tiles);
+    sort_tiles(&tiles);
     struct diag_place place = doc_attr_place(&b->lib->doc, element, STR_value);
     if (!tiles.len && b->options->list_folder) /* otherwise the host finds them */
         diag_add(b->diags, DIAG_ID_no_tiles, place, file, build_text(b, token->property));

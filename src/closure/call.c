@@ -33,7 +33,8 @@ static ir_ref position(struct shader *shader)
     return stream(shader, STR_positionWorld);
 }
 
-static ir_ref known(struct shader *shader, ir_ref *place, str_id name, ir_ref make(struct shader *))
+static ir_ref made_once(struct shader *shader, ir_ref *place, str_id name,
+                        ir_ref make(struct shader *))
 {
     if (!*place) {
         ir_push_name(shader->graph, name);
@@ -47,10 +48,10 @@ static ir_ref context_value(struct shader *shader, struct closure_point *point, 
                             const ir_ref *light)
 {
     switch (name) {
-    case STR_V: return known(shader, &point->view, name, view);
-    case STR_N: return known(shader, &point->normal, name, normal);
+    case STR_V: return made_once(shader, &point->view, name, view);
+    case STR_N: return made_once(shader, &point->normal, name, normal);
     case STR_xi: return shader_stream(shader, STR_random, IR_TYPE_VEC3);
-    case STR_P: return known(shader, &point->position, name, position);
+    case STR_P: return made_once(shader, &point->position, name, position);
     case STR_sample_index: return ir_build(shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
     default: return name == STR_L && light ? *light : ir_poison(shader->graph, IR_TYPE_VEC3);
     }

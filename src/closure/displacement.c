@@ -113,7 +113,7 @@ static void move_vertices(struct shader *shader, ir_ref point)
  * A path tracer calls this output for each vertex before it moves the mesh, and then computes the
  * normals.
  */
-static void tell_offset(struct shader *shader, ir_ref offset)
+static void output_offset(struct shader *shader, ir_ref offset)
 {
     struct ir_graph *g = shader->graph;
     ir_ref parts[2] = {offset, ir_const_float(g, 0.0f)};
@@ -154,7 +154,7 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
         point->view = view_from(shader, point->position);
     ir_pop_origin(g);
     if (shader->scatters)
-        tell_offset(shader, offset);
+        output_offset(shader, offset);
     else
         move_vertices(shader, point->position);
     return surface ? ir_replace(g, surface, stream(shader, STR_normalWorld), point->normal,

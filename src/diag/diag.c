@@ -38,7 +38,7 @@ const char *diag_severity_text(enum diag_severity severity)
     static const char *const texts[] = {[DIAG_ERROR] = "error",
                                         [DIAG_WARNING] = "warning",
                                         [DIAG_NOTE] = "note",
-                                        [DIAG_REMARK] = "remark",
+                                        [DIAG_REMARK] = "note",
                                         [DIAG_IGNORED] = "ignored"};
     assert((unsigned)severity < sizeof texts / sizeof *texts);
     return texts[severity];
@@ -107,10 +107,78 @@ static void append(struct diag_list *list, enum diag_id id, struct diag_place pl
                            .message = message,
                            .place = place,
                            .parent = list->last});
+    if (id == DIAG_ID_include_missing && !list->cause)
+        list->cause = list->items.len;
     assert(list->last < list->items.len);
     if (!is_note && list->trace)
         list->trace(list->trace_data, list);
 }
+
+/* ---- Consequences ---- */
+
+static bool is_consequence(const struct diag_list *list, enum diag_id id)
+{
+    static const enum diag_id ids[] = {
+        DIAG_ID_unknown_node,      DIAG_ID_unknown_nodedef,
+        DIAG_ID_unknown_type,      DIAG_ID_inherit_missing,
+        DIAG_ID_dangling_nodename, DIAG_ID_implementation_unknown_nodedef,
+        DIAG_ID_unknown_geomprop,  DIAG_ID_dangling_nodegraph,
+        DIAG_ID_unknown_unit,      DIAG_ID_dangling_reference,
+        DIAG_ID_unknown_unittype,  DIAG_ID_nothing_to_render,
+        DIAG_ID_unknown_token,     DIAG_ID_unknown_element,
+    };
+    bool has_cause = list->cause || list->cause_below;
+    for (size_t i = 0; has_cause && i < sizeof ids / sizeof *ids; i++)
+        if (ids[i] == id)
+            return true;
+    return false;
+}
+
+enum { CONSEQUENCES_SIZE = 128 };
+
+/* Adds the note behind the notes of the cause. */
+static void insert_note(struct diag_list *list)
+{
+    uint32_t cause = list->cause - 1, at = cause + 1;
+    while (at < list->items.len && list->items.items[at].parent == cause)
+        at++;
+    list->consequences = arena_alloc(list->arena, CONSEQUENCES_SIZE);
+    struct diag note = {.id = DIAG_ID_consequences,
+                        .severity = DIAG_NOTE,
+                        .message = list->consequences,
+                        .place = list->items.items[cause].place,
+                        .parent = cause};
+    vec_push(list->arena, &list->items, note);
+    memmove(list->items.items + at + 1, list->items.items + at,
+            (list->items.len - 1 - at) * sizeof note);
+    list->items.items[at] = note;
+    for (uint32_t i = at + 1; i < list->items.len; i++)
+        list->items.items[i].parent++; /* they follow the cause, so their parents do, too */
+    list->last += list->last > cause;
+}
+
+static void count_consequence(struct diag_list *list)
+{
+    if (!list->cause)
+        diag_repeat(list, list->cause_below);
+    if (!list->consequences && list->cause)
+        insert_note(list);
+    if (!list->consequences) /* beyond the limit of errors */
+        return;
+    list->num_consequences++;
+    snprintf(list->consequences, CONSEQUENCES_SIZE, catalogue[DIAG_ID_consequences].format,
+             list->num_consequences, list->num_consequences == 1 ? "" : "s",
+             list->num_consequences == 1 ? "it is" : "they are");
+    list->muted_notes = true;
+}
+
+void diag_list_follow(struct diag_list *list, const struct diag_list *document)
+{
+    if (document->cause)
+        list->cause_below = &document->items.items[document->cause - 1];
+}
+
+/* ---- Adding ---- */
 
 /* Counts the diagnostic; false if it is dropped. */
 static bool is_kept(struct diag_list *list, enum diag_severity severity)
@@ -128,7 +196,9 @@ static bool is_kept(struct diag_list *list, enum diag_severity severity)
 void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...)
 {
     enum diag_severity severity = severity_in(list, id);
-    if (is_kept(list, severity)) {
+    if (is_consequence(list, id)) {
+        count_consequence(list);
+    } else if (is_kept(list, severity)) {
         va_list args;
         va_start(args, place);
         append(list, id, place, format_message(list->arena, catalogue[id].format, args));
@@ -142,7 +212,9 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
 
 void diag_repeat(struct diag_list *list, const struct diag *diag)
 {
-    if (is_kept(list, severity_in(list, diag->id)))
+    if (is_consequence(list, diag->id))
+        count_consequence(list);
+    else if (is_kept(list, severity_in(list, diag->id)))
         append(list, diag->id, diag->place,
                arena_strndup(list->arena, diag->message, strlen(diag->message)));
 }

@@ -62,8 +62,18 @@ struct diag_list {
     uint32_t num_errors, num_warnings;
     uint32_t num_guesses; /* number of suggestions so far: diag_guess_begin */
     uint32_t max_errors;  /* the list counts further errors but does not keep them; 0 = unlimited */
-    uint32_t last;        /* index of the last diagnostic that is not a note */
-    bool muted_notes;     /* the last diagnostic was dropped, so its notes are dropped, too */
+    /*
+     * A missing include makes the names of its elements unknown. The list counts such errors
+     * in a note, instead of keeping them.
+     */
+    uint32_t cause; /* 1 + index of the missing include; 0: none */
+    /* the missing include of the list below, which this list repeats before the first consequence
+     */
+    const struct diag *cause_below;
+    uint32_t num_consequences; /* errors that follow from the cause */
+    char *consequences;        /* message of the note; NULL: there is no note yet */
+    uint32_t last;             /* index of the last diagnostic that is not a note */
+    bool muted_notes;          /* the last diagnostic was dropped, so its notes are dropped, too */
 };
 
 void diag_list_init(struct diag_list *list, struct arena *arena);
@@ -73,6 +83,12 @@ void diag_list_init(struct diag_list *list, struct arena *arena);
  * before it and is dropped with it. Copies the name of the file.
  */
 void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...);
+
+/*
+ * Lets the errors of a list be consequences of a missing include in the list of its document, which
+ * outlives it.
+ */
+void diag_list_follow(struct diag_list *list, const struct diag_list *document);
 
 /* Adds a copy of a diagnostic of another list. A note belongs to the diagnostic before it. */
 void diag_repeat(struct diag_list *list, const struct diag *diag);
@@ -115,10 +131,12 @@ void diag_render_line(const struct diag *diag, const char *line, size_t line_len
                       struct text *out);
 
 /*
- * A suggestion " (did you mean 'x'?)" for an unknown word: the candidate with the smallest edit
- * distance, the first of several, or "" if none is close. It lives in the arena of the list. Each
- * list has a limited number of suggestions, so that the report of a document with many errors takes
- * linear time: if diag_guess_begin returns false, the caller skips the candidates.
+ * A suggestion " (did you mean 'x'?)" for an unknown word: the best candidate, the first of
+ * several, or "" if none is close. An alias (aliases.def) is best, then a misspelling, then a name
+ * that begins with the word, then a name with the same words and others. It lives in the arena of
+ * the list. Each list has a limited number of suggestions, so that the report of a document with
+ * many errors takes linear time: if diag_guess_begin returns false, the caller skips the
+ * candidates.
  *
  *     struct diag_guess guess;
  *     if (diag_guess_begin(&guess, diags, word))
@@ -126,10 +144,12 @@ void diag_render_line(const struct diag *diag, const char *line, size_t line_len
  *             diag_guess_add(&guess, name);
  *     diag_add(diags, …, diag_guess_text(&guess));
  */
+enum { DIAG_MAX_ALIASES = 4 }; /* of one word */
 struct diag_guess {
     struct diag_list *list;
     const char *word, *best;
-    size_t len, best_distance;
+    const char *aliases[DIAG_MAX_ALIASES]; /* NULL after the last */
+    size_t len, best_distance, best_score;
     uint64_t places[256]; /* bit set of positions for each byte of the word */
 };
 bool diag_may_guess(const struct diag_list *list);

@@ -131,9 +131,7 @@ void doc_set_attr(struct document *doc, elem_id element, str_id name, str_id val
     if (attr)
         doc->attrs.items[attr - doc->attrs.items].value = value;
     else
-        doc_add_attr(
-            doc, element,
-            (struct attribute){.name = name, .value = value, .column = own(doc, element)->column});
+        doc_add_attr(doc, element, (struct attribute){.name = name, .value = value});
 }
 
 void doc_remove_attr(struct document *doc, elem_id element, str_id name)
@@ -160,6 +158,13 @@ void doc_set_category(struct document *doc, elem_id element, str_id category)
 void doc_set_name(struct document *doc, elem_id element, str_id name)
 {
     own(doc, element)->name = name;
+}
+
+void doc_set_name_place(struct document *doc, elem_id element, uint32_t line, uint32_t column)
+{
+    struct doc_link *link = link_of(doc, element);
+    link->name_line = (uint16_t)(line < UINT16_MAX ? line : UINT16_MAX);
+    link->name_column = (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX);
 }
 
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
@@ -320,6 +325,15 @@ const char *doc_file_name(const struct document *doc, uint16_t file)
     return str_text(doc->strings, doc->files.items[file - doc->first_file]);
 }
 
+/* Code points of a text. */
+static uint32_t width_of(const struct document *doc, str_id text)
+{
+    uint32_t width = 0;
+    for (const char *c = str_text(doc->strings, text); *c; c++)
+        width += (*c & 0xc0) != 0x80;
+    return width;
+}
+
 /* NULL: the element has a line. */
 static const char *kept_path(const struct document *doc, elem_id element)
 {
@@ -342,7 +356,21 @@ struct diag_place doc_place(const struct document *doc, elem_id element)
     return (struct diag_place){.file = doc_file_name(doc, e->file),
                                .path = kept_path(doc, element),
                                .line = e->line,
-                               .column = e->column};
+                               .column = e->column,
+                               .length = 1 + width_of(doc, e->category)};
+}
+
+struct diag_place doc_name_place(const struct document *doc, elem_id element)
+{
+    struct diag_place place = doc_place(doc, element);
+    const struct document *layer = doc_layer(doc, element);
+    uint32_t own = element - layer->first_element;
+    if (own >= layer->links.len || !layer->links.items[own].name_column)
+        return place;
+    place.line += layer->links.items[own].name_line;
+    place.column = layer->links.items[own].name_column;
+    place.length = width_of(doc, doc_element(doc, element)->name);
+    return place;
 }
 
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr)
@@ -352,7 +380,20 @@ struct diag_place doc_attr_place(const struct document *doc, elem_id element, st
     if (found && found->column && place.line) {
         place.line += found->line_delta;
         place.column = found->column;
+        place.length = width_of(doc, found->value);
     }
+    return place;
+}
+
+struct diag_place doc_attr_name_place(const struct document *doc, elem_id element, str_id attr)
+{
+    struct diag_place place = doc_attr_place(doc, element, attr);
+    const struct attribute *found = doc_attr(doc, element, attr);
+    uint32_t width = width_of(doc, attr), before = width + 2; /* name=" */
+    if (!found || found->column <= before || doc_layer(doc, element)->has_loose_attrs)
+        return place;
+    place.column -= before;
+    place.length = width;
     return place;
 }
 
@@ -407,10 +448,24 @@ static void report_duplicate(struct document *doc, elem_id first, elem_id second
 {
     bool equal = are_equal(doc, first, second);
     diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name,
-             doc_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
-    diag_add(diags, DIAG_ID_previous_definition, doc_place(doc, first));
-    if (equal)
-        doc_remove_element(doc, second);
+             doc_name_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
+    diag_add(diags, DIAG_ID_previous_definition, doc_name_place(doc, first));
+    doc_remove_element(doc, second);
+    if (equal || doc_second_of_name(doc, first))
+        return;
+    vec_push(doc->arena, &doc->doubles, (struct doc_double){first, second});
+    table_add(&doc->double_table, doc->arena, hash_pair(first, 0), doc->doubles.len);
+}
+
+elem_id doc_second_of_name(const struct document *doc, elem_id element)
+{
+    doc = doc_layer(doc, element);
+    uint32_t at = hash_pair(element, 0);
+    for (uint32_t found;
+         doc->doubles.len && (found = table_next(&doc->double_table, hash_pair(element, 0), &at));)
+        if (doc->doubles.items[found - 1].first == element)
+            return doc->doubles.items[found - 1].second;
+    return 0;
 }
 
 void doc_index_names(struct document *doc, struct diag_list *diags)

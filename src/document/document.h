@@ -50,6 +50,11 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
  * (strings, filenames, shaders).
  */
 bool doc_value_is_valid(doc_type type, const char *text, size_t len);
+/*
+ * How many numbers the text has, if they are more than the type has; otherwise 0. `out`, which may
+ * be NULL, gets the first ones.
+ */
+unsigned doc_excess_numbers(doc_type type, const char *text, size_t len, struct ir_value *out);
 /* The reason why a value is invalid, as a suffix for a message. */
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
 
@@ -88,10 +93,20 @@ struct doc_place_path {
     const char *path;
 };
 
-/* Links for constant-time insertion and removal while the tree grows. */
+/*
+ * What only a tree in memory needs: links for constant-time insertion and removal while it grows,
+ * and the place of an element's name, for messages.
+ */
 struct doc_link {
     elem_id last_child, previous;
-    uint32_t comments; /* index in `comment_lists`, plus 1; 0 = none */
+    uint32_t comments;    /* index in `comment_lists`, plus 1; 0 = none */
+    uint16_t name_line;   /* from the element's line; saturates */
+    uint16_t name_column; /* of the name's first character; 0: unknown */
+};
+
+/* Two elements of one scope and name. The second is no longer in the tree. */
+struct doc_double {
+    elem_id first, second;
 };
 
 /* The place of a comment relative to its element. */
@@ -121,10 +136,12 @@ struct document {
     elem_id root;
     /* limit of this layer for steps that multiply elements (doc_is_full); 0 = unlimited */
     uint32_t max_elements;
-    bool has_templates;           /* a <template> was added after the last expansion */
-    bool has_attributedefs;       /* an <attributedef> was added somewhere */
-    bool is_global;               /* no element has a namespace (set by doc_qualify_names) */
-    bool keeps_comments;          /* the reader adds the comments of files */
+    bool has_templates;     /* a <template> was added after the last expansion */
+    bool has_attributedefs; /* an <attributedef> was added somewhere */
+    bool is_global;         /* no element has a namespace (set by doc_qualify_names) */
+    bool keeps_comments;    /* the reader adds the comments of files */
+    /* blanks surround some '=', so no place of an attribute's name is known */
+    bool has_loose_attrs;
     VEC(struct element) elements; /* elements of this layer */
     VEC(struct attribute) attrs;
     VEC(str_id) files;          /* names from the user or from includes */
@@ -133,6 +150,9 @@ struct document {
     VEC(struct comment_lists) comment_lists;
     VEC(struct doc_place_path) paths; /* ascending by element: doc_keep_paths */
     struct table names;               /* (parent, name) → element: doc_index_names */
+    /* names that differing elements share, and a table by the first element */
+    VEC(struct doc_double) doubles;
+    struct table double_table;
 };
 
 /* Makes an empty document with a root element <materialx>. */
@@ -159,6 +179,8 @@ void doc_remove_attr(struct document *doc, elem_id element, str_id name);
 /* also updates the kind */
 void doc_set_category(struct document *doc, elem_id element, str_id category);
 void doc_set_name(struct document *doc, elem_id element, str_id name);
+/* The place of the name, in lines from the element's. */
+void doc_set_name_place(struct document *doc, elem_id element, uint32_t line, uint32_t column);
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
                    uint16_t column);
 /*
@@ -207,9 +229,11 @@ elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id eleme
 
 /*
  * Builds the index for doc_child and doc_find. Call it after the tree is complete, and again after
- * additions. With `diags` it reports duplicate names and removes elements that repeat an equal one.
+ * additions. With `diags` it reports duplicate names and removes the second element.
  */
 void doc_index_names(struct document *doc, struct diag_list *diags);
+/* The second element of this one's scope and name, which the index left out; 0: none. */
+elem_id doc_second_of_name(const struct document *doc, elem_id element);
 /* The same for one element that was added, renamed or moved since. */
 void doc_index_element(struct document *doc, elem_id element);
 
@@ -255,9 +279,14 @@ void doc_path(const struct document *doc, elem_id element, char separator, struc
 enum element_kind doc_kind_of(str_id category);
 
 const char *doc_file_name(const struct document *doc, uint16_t file); /* NULL for 0 */
+/* The place of the beginning of the start tag, with the category. */
 struct diag_place doc_place(const struct document *doc, elem_id element);
+/* The place of the element's name, or of the element if the text has no name for it. */
+struct diag_place doc_name_place(const struct document *doc, elem_id element);
 /* The place of an attribute's value, or of the element if the attribute is absent. */
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr);
+/* The place of an attribute's name. */
+struct diag_place doc_attr_name_place(const struct document *doc, elem_id element, str_id attr);
 
 /* template.c: expands the <template> elements of this layer in place (docs/library.md). */
 void doc_expand_templates(struct document *doc, struct diag_list *diags);
@@ -275,6 +304,15 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
  * name of its target.
  */
 void doc_qualify_names(struct document *doc);
+
+/*
+ * paths.c: replaces the backslashes of file names by '/', with a warning for each name: the names
+ * are those of this layer.
+ */
+void doc_fix_paths(struct document *doc, struct diag_list *diags);
+/* The same for one name; `where` is its place. */
+str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place where,
+                    struct diag_list *diags);
 
 /*
  * edit.c: edits of a complete document. The numbers of elements stay.
@@ -310,6 +348,16 @@ void doc_keep_paths(struct document *doc);
  */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
 
+/*
+ * cycle.c: reports a cycle; may change `links`. Each node reads the next one through `port`, the
+ * last one the first.
+ */
+struct doc_cycle_link {
+    elem_id node, port; /* the port has the connection; it may belong to a nodegraph between them */
+};
+void doc_report_cycle(const struct document *doc, struct doc_cycle_link *links, uint32_t n,
+                      struct diag_list *diags);
+
 /* validate.c: checks that need no library: names, attributes, value syntax, structure. */
 void doc_validate(const struct document *doc, struct diag_list *diags);
 /*
@@ -318,6 +366,9 @@ void doc_validate(const struct document *doc, struct diag_list *diags);
  */
 void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags);
 
+/* value.c: reports excess numbers in a value; `suggestion` is the end of the message. */
+void doc_report_excess(const struct document *doc, elem_id element, doc_type type,
+                       const char *suggestion, struct diag_list *diags);
 /* Reports the type of an element if it is unknown or missing. */
 void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags);
 

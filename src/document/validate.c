@@ -66,39 +66,51 @@ static bool is_foreign(const struct validation *v, elem_id element)
     return e->kind == KIND_NODE && e->parent && doc_element(v->doc, e->parent)->kind == KIND_NODE;
 }
 
-/*
- * True for elements of materials before 1.38 that the upgrade did not convert, because the document
- * declares a later version.
- */
-static bool is_outdated(const struct validation *v, elem_id element)
+/* Elements that later versions dropped, and that the document's own version does not upgrade. */
+static const struct outdated {
+    const char *name, *version, *advice;
+} outdated_elements[] = {
+#define OF_MATERIALS ", but the document has a later version; version=\"1.37\" would upgrade it"
+    {"shaderref", "1.37", OF_MATERIALS},
+    {"bindinput", "1.37", OF_MATERIALS},
+    {"bindparam", "1.37", OF_MATERIALS},
+    {"bindtoken", "1.37", OF_MATERIALS},
+    {"materialinherit", "1.37", OF_MATERIALS},
+#undef OF_MATERIALS
+    {"collectionadd", "1.35", "; write includegeom and includecollection on the <collection>"},
+    {"collectionremove", "1.35", "; write excludegeom on the <collection>"},
+};
+
+/* NULL: the element is none of them. */
+static const struct outdated *outdated(const struct validation *v, elem_id element)
 {
-    static const char *const names[] = {"shaderref", "bindinput", "bindparam", "bindtoken",
-                                        "materialinherit"};
-    if (!is_foreign(v, element))
-        return false;
-    const char *category = text_of(v, doc_element(v->doc, element)->category);
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(names[i], category) == 0)
-            return true;
-    return false;
+    const struct element *e = doc_element(v->doc, element);
+    const char *category = e->kind == KIND_NODE ? text_of(v, e->category) : "";
+    for (size_t i = 0; i < sizeof outdated_elements / sizeof *outdated_elements; i++)
+        if (strcmp(outdated_elements[i].name, category) == 0)
+            return &outdated_elements[i];
+    return NULL;
 }
 
-static void check_place(struct validation *v, elem_id element)
+/* false after reporting that the element is not allowed here. */
+static bool check_place(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     const struct element *parent = doc_element(v->doc, e->parent);
     assert(parent->kind < NUM_ELEMENT_KINDS && parent->kind < 64);
     if (rules[e->kind].parents >> parent->kind & 1)
-        return;
-    if (is_outdated(v, element)) {
-        if (!v->is_age_told)
-            diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element),
-                     text_of(v, e->category));
-        v->is_age_told = true;
-        return;
+        return true;
+    const struct outdated *old = outdated(v, element);
+    if (old) {
+        if (!v->has_age_note)
+            diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element), old->name,
+                     old->version, old->advice);
+        v->has_age_note = true;
+        return false;
     }
     diag_add(v->diags, is_foreign(v, element) ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element,
              doc_place(v->doc, element), text_of(v, e->category), text_of(v, parent->category));
+    return false;
 }
 
 static void check_name(struct validation *v, elem_id element)
@@ -108,13 +120,15 @@ static void check_name(struct validation *v, elem_id element)
         diag_add(v->diags, DIAG_ID_name_missing, doc_place(v->doc, element),
                  text_of(v, e->category));
     if (e->name && !doc_is_name(text_of(v, e->name)))
-        diag_add(v->diags, DIAG_ID_bad_name, doc_place(v->doc, element), text_of(v, e->name));
+        diag_add(v->diags, DIAG_ID_bad_name, doc_name_place(v->doc, element), text_of(v, e->name));
 }
 
 static void check_required(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
-    for (size_t i = 0; i < 3 && rules[e->kind].required[i]; i++)
+    /* nodedef-nodename */
+    bool is_node_told = e->kind == KIND_NODEDEF && doc_attr(v->doc, element, STR_nodename);
+    for (size_t i = 0; i < 3 && rules[e->kind].required[i] && !is_node_told; i++)
         if (!doc_attr(v->doc, element, rules[e->kind].required[i]))
             diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
                      text_of(v, e->category), text_of(v, rules[e->kind].required[i]));
@@ -166,11 +180,15 @@ static bool has_value(str_id attr)
 static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr,
                         str_id value)
 {
-    if (value && !doc_value_is_valid(type, text_of(v, value), str_len(v->doc->strings, value)))
-        diag_add(
-            v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr), text_of(v, value),
-            text_of(v, doc_type_name(type)),
-            doc_value_fault(type, text_of(v, value), str_len(v->doc->strings, value), v->arena));
+    size_t len = str_len(v->doc->strings, value);
+    if (value && attr == STR_value && doc_excess_numbers(type, text_of(v, value), len, NULL)) {
+        /* the definition of a node has a suggestion: library_report_excess */
+        if (doc_element(v->doc, doc_element(v->doc, element)->parent)->kind != KIND_NODE)
+            doc_report_excess(v->doc, element, type, "", v->diags);
+    } else if (value && !doc_value_is_valid(type, text_of(v, value), len))
+        diag_add(v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr),
+                 text_of(v, value), text_of(v, doc_type_name(type)),
+                 doc_value_fault(type, text_of(v, value), len, v->arena));
 }
 
 static void check_type_and_values(struct validation *v, elem_id element)
@@ -188,6 +206,15 @@ static void check_type_and_values(struct validation *v, elem_id element)
             check_value(v, element, type, attrs[i].name, attrs[i].value);
 }
 
+/* interfacename-ignored */
+static bool refers_to_itself(const struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element), *owner = doc_element(doc, e->parent);
+    str_id name = doc_attr_value(doc, element, STR_interfacename);
+    return name && e->kind == KIND_INPUT && owner->kind == KIND_NODEGRAPH
+           && !doc_child_of_kind(doc, owner->parent, KIND_INPUT, name);
+}
+
 static void check_bindings(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
@@ -200,7 +227,8 @@ static void check_bindings(struct validation *v, elem_id element)
     if (connections > 1)
         diag_add(v->diags, DIAG_ID_several_connections, doc_place(v->doc, element),
                  text_of(v, e->name));
-    else if (connections && doc_attr_value(v->doc, element, STR_value))
+    else if (connections && doc_attr_value(v->doc, element, STR_value)
+             && !refers_to_itself(v->doc, element))
         diag_add(v->diags, DIAG_ID_value_and_connection, doc_attr_place(v->doc, element, STR_value),
                  text_of(v, e->name));
 }
@@ -218,33 +246,11 @@ static void check_has_output(struct validation *v, elem_id element)
                  text_of(v, e->name));
 }
 
-/* A fast path for most ports: true if place, attributes and connection need no diagnostic. */
-static bool is_port_in_order(const struct document *doc, elem_id element)
-{
-    const struct element *e = doc_element(doc, element);
-    const struct attribute *attrs = doc_attrs(doc, element);
-    bool is_port = e->kind == KIND_INPUT || e->kind == KIND_OUTPUT, has_type = false;
-    unsigned num_connections = 0, num_values = 0;
-    if (!is_port || !(rules[e->kind].parents >> doc_element(doc, e->parent)->kind & 1))
-        return false;
-    for (uint32_t i = 0; i < e->num_attrs; i++) {
-        str_id name = attrs[i].name;
-        has_type |= name == STR_type;
-        num_values += name == STR_value && attrs[i].value;
-        num_connections +=
-            (name == STR_nodename || name == STR_nodegraph || name == STR_interfacename)
-            && attrs[i].value;
-    }
-    return has_type && num_connections + (num_connections ? num_values : 0) <= 1;
-}
-
 static void check_standing(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
-    if (is_port_in_order(v->doc, element))
-        return;
-    check_place(v, element);
-    if (!is_outdated(v, element))
+    bool is_placed = check_place(v, element);
+    if (is_placed)
         check_required(v, element);
     if (e->kind == KIND_INPUT || e->kind == KIND_OUTPUT)
         check_bindings(v, element);
@@ -263,7 +269,8 @@ static void check_element(struct validation *v, elem_id element)
         check_standing(v, element);
     check_name(v, element);
     check_type_and_values(v, element);
-    if (!is_foreign(v, element)) /* its other attributes have no effect */
+    /* the attributes of other elements have no effect */
+    if (!is_foreign(v, element) && !outdated(v, element))
         validate_attributes(v, element);
     validate_geometry(v, element);
     if (doc_element(v->doc, element)->kind == KIND_NODEDEF)

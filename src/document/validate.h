@@ -4,21 +4,14 @@
 
 #include "document/document.h"
 
-enum { VALIDATION_REMEMBERED = 256 };
-
 struct validation {
     const struct document *doc;
     struct diag_list *diags;
     struct arena *arena;
     /* already reported that some elements are older than the document's version */
-    bool is_age_told;
+    bool has_age_note;
     /* per text: an <attributedef> declares it as an attribute; NULL until the first lookup */
     uint8_t *declared;
-    /* kinds of elements that were found to allow an attribute */
-    struct good_attribute {
-        str_id name;
-        uint64_t kinds;
-    } good[VALIDATION_REMEMBERED];
 };
 
 /* validate_attributes.c */

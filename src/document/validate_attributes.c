@@ -11,25 +11,11 @@
 #define ON_GEOMETRY \
     (IN(MATERIALASSIGN) | IN(VISIBILITY) | IN(PROPERTYASSIGN) | IN(PROPERTYSETASSIGN))
 
-static const struct {
-    const char *name;
-    uint64_t kinds;
-} attributes[] = {
-#define ATTRIBUTE(name, kinds) {#name, kinds},
-#define RARE_ATTRIBUTE(name, kinds) {name, kinds},
-#include "document/attributes.def"
-#undef RARE_ATTRIBUTE
-#undef ATTRIBUTE
-};
-
 static const uint64_t kinds_of_word[STR_NUM_WORDS] = {
 #define ATTRIBUTE(name, kinds) [STR_##name] = kinds,
-#define RARE_ATTRIBUTE(name, kinds)
 #include "document/attributes.def"
-#undef RARE_ATTRIBUTE
 #undef ATTRIBUTE
 };
-enum { NUM_ATTRIBUTES = sizeof attributes / sizeof *attributes };
 
 static const char *text_of(const struct validation *v, str_id id)
 {
@@ -58,49 +44,38 @@ static bool is_declared(struct validation *v, str_id name)
 /* Prefers the attributes of this kind of element. */
 static const char *suggest(struct validation *v, enum element_kind kind, str_id name)
 {
-    const char *names[NUM_ATTRIBUTES];
+    const char *names[STR_NUM_WORDS];
     size_t count = 0;
-    for (size_t i = 0; i < NUM_ATTRIBUTES; i++)
-        if (attributes[i].kinds >> kind & 1)
-            names[count++] = attributes[i].name;
+    for (str_id word = 1; word < STR_NUM_WORDS; word++)
+        if (kinds_of_word[word] >> kind & 1)
+            names[count++] = text_of(v, word);
     return diag_suggest(v->diags, text_of(v, name), names, count);
 }
 
-/* false after reporting that the attribute has no meaning here. */
-static bool check_attribute(struct validation *v, elem_id element, str_id name)
+/* Reports an attribute that has no meaning here. */
+static void check_attribute(struct validation *v, elem_id element, str_id name)
 {
     const struct element *e = doc_element(v->doc, element);
     const char *text = text_of(v, name);
-    uint64_t kinds = 0;
-    for (size_t i = 0; i < NUM_ATTRIBUTES && !kinds; i++)
-        kinds = strcmp(attributes[i].name, text) == 0 ? attributes[i].kinds : 0;
+    uint64_t kinds = name < STR_NUM_WORDS ? kinds_of_word[name] : 0;
     /* a prefix marks the attribute of another program */
     if (kinds >> e->kind & 1 || strchr(text, ':') || is_declared(v, name))
-        return true;
-    struct diag_place place = doc_attr_place(v->doc, element, name);
+        return;
+    struct diag_place place = doc_attr_name_place(v->doc, element, name);
     if (kinds)
         diag_add(v->diags, DIAG_ID_misplaced_attribute, place, text, text_of(v, e->category));
-    else
-        diag_add(v->diags, DIAG_ID_unknown_attribute, place, text,
-                 suggest(v, (enum element_kind)e->kind, name));
-    return false;
+    if (kinds)
+        return;
+    const char *suggestion = suggest(v, (enum element_kind)e->kind, name);
+    diag_add(v->diags, DIAG_ID_unknown_attribute, place, text,
+             *suggestion ? suggestion : "; an <attributedef> can declare it");
+    return;
 }
 
-/*
- * Documents repeat the same attributes on the same kinds of elements, so a cache keeps the valid
- * ones.
- */
 void validate_attributes(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     const struct attribute *attrs = doc_attrs(v->doc, element);
-    for (uint32_t i = 0; i < e->num_attrs; i++) {
-        if (attrs[i].name < STR_NUM_WORDS && kinds_of_word[attrs[i].name] >> e->kind & 1)
-            continue;
-        struct good_attribute *good = &v->good[attrs[i].name % VALIDATION_REMEMBERED];
-        if (good->name != attrs[i].name)
-            *good = (struct good_attribute){.name = attrs[i].name};
-        if (!(good->kinds >> e->kind & 1) && check_attribute(v, element, attrs[i].name))
-            good->kinds |= (uint64_t)1 << e->kind;
-    }
+    for (uint32_t i = 0; i < e->num_attrs; i++)
+        check_attribute(v, element, attrs[i].name);
 }

@@ -88,7 +88,8 @@ static void check_inheritance(struct validation *v, elem_id element, elem_id *ma
 enum { NEW, ON_PATH, DONE };
 
 struct path_step {
-    elem_id node, input; /* the current or next input; 0: all done */
+    elem_id node, input; /* the next input; 0: all done */
+    elem_id reading;     /* the current input */
 };
 
 struct walk {
@@ -100,18 +101,15 @@ struct walk {
 static void report_cycle(struct walk *w, elem_id again)
 {
     assert(w->path.len > 0);
-    const struct document *doc = w->v->doc;
-    struct text text;
-    text_init(&text, w->v->arena);
-    uint32_t i = w->path.len - 1;
-    while (w->path.items[i].node != again)
-        i--;
-    for (; i < w->path.len; i++) {
-        text_str(&text, text_of(w->v, doc_element(doc, w->path.items[i].node)->name));
-        text_str(&text, " -> ");
-    }
-    text_str(&text, text_of(w->v, doc_element(doc, again)->name));
-    diag_add(w->v->diags, DIAG_ID_cycle, doc_place(doc, again), text_cstr(&text));
+    uint32_t first = w->path.len - 1;
+    while (w->path.items[first].node != again)
+        first--;
+    uint32_t n = w->path.len - first;
+    struct doc_cycle_link *links = ARENA_ARRAY(w->v->arena, struct doc_cycle_link, n);
+    for (uint32_t i = 0; i < n; i++)
+        links[i] = (struct doc_cycle_link){w->path.items[first + i].node,
+                                           w->path.items[first + i].reading};
+    doc_report_cycle(w->v->doc, links, n, w->v->diags);
 }
 
 static void enter(struct walk *w, elem_id node)
@@ -124,7 +122,8 @@ static void enter(struct walk *w, elem_id node)
     if (*state != NEW)
         return;
     *state = ON_PATH;
-    vec_push(w->v->arena, &w->path, (struct path_step){node, doc_element(doc, node)->first_child});
+    vec_push(w->v->arena, &w->path,
+             (struct path_step){node, doc_element(doc, node)->first_child, 0});
 }
 
 static void check_cycles_from(struct walk *w, elem_id start)
@@ -142,6 +141,7 @@ static void check_cycles_from(struct walk *w, elem_id start)
             continue;
         }
         step->input = doc_element(doc, input)->next;
+        step->reading = input;
         str_id name = doc_attr_value(doc, input, STR_nodename);
         elem_id node =
             name ? doc_child_of_kind(doc, doc_element(doc, step->node)->parent, KIND_NODE, name)

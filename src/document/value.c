@@ -105,6 +105,52 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
            && parse_numbers(type == DOC_TYPE_integer, text, len, out->w, 16) == (int64_t)components;
 }
 
+unsigned doc_excess_numbers(doc_type type, const char *text, size_t len, struct ir_value *out)
+{
+    struct ir_value ignored;
+    unsigned components = doc_type_components(type);
+    if (!components || type == DOC_TYPE_boolean)
+        return 0;
+    out = out ? out : &ignored;
+    out->type = doc_type_ir(type);
+    int64_t count =
+        parse_numbers(type == DOC_TYPE_integer, text, len, out->w, sizeof out->w / sizeof *out->w);
+    return count > components ? (unsigned)count : 0;
+}
+
+/* " (a decimal number has a point: 0.5)" for a float such as "0,5"; otherwise "". */
+static const char *decimal_hint(doc_type type, const char *text, unsigned count,
+                                struct arena *arena)
+{
+    const char *comma = strchr(text, ',');
+    if (type != DOC_TYPE_float || count != 2 || !comma || strpbrk(text, ". \t-"))
+        return "";
+    struct text hint;
+    text_init(&hint, arena);
+    text_fmt(&hint, "; a decimal number has a point: %.*s.%s", (int)(comma - text), text,
+             comma + 1);
+    return text_cstr(&hint);
+}
+
+void doc_report_excess(const struct document *doc, elem_id element, doc_type type,
+                       const char *suggestion, struct diag_list *diags)
+{
+    str_id value = doc_attr_value(doc, element, STR_value);
+    const char *text = str_text(doc->strings, value);
+    unsigned count = doc_excess_numbers(type, text, str_len(doc->strings, value), NULL),
+             used = doc_type_components(type);
+    struct text first;
+    text_init(&first, diags->arena);
+    text_str(&first, "first");
+    if (used > 1)
+        text_fmt(&first, " %u", used);
+    diag_add(diags, DIAG_ID_excess_numbers, doc_attr_place(doc, element, STR_value), text, count,
+             str_text(doc->strings, doc_element(doc, element)->name),
+             str_text(doc->strings, doc_type_name(type)), text_cstr(&first),
+             used > 1 ? "are" : "is",
+             *suggestion ? suggestion : decimal_hint(type, text, count, diags->arena));
+}
+
 bool doc_value_is_valid(doc_type type, const char *text, size_t len)
 {
     struct ir_value value;
@@ -120,25 +166,25 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
 
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena)
 {
-    struct text said;
+    struct text message;
     size_t fault = 0, end;
     bool integer = type == DOC_TYPE_integer || type == DOC_TYPE_integerarray;
-    text_init(&said, arena);
+    text_init(&message, arena);
     if (type == DOC_TYPE_boolean)
         return ": it is 'true' or 'false'";
     int64_t count = find_numbers(integer, text, len, NULL, 0, &fault);
     if (count >= 0) {
-        text_fmt(&said, ": it has %d number%s", (int)count, count == 1 ? "" : "s");
+        text_fmt(&message, ": it has %d number%s", (int)count, count == 1 ? "" : "s");
         if (doc_type_components(type))
-            text_fmt(&said, " instead of %u", doc_type_components(type));
-        return text_cstr(&said);
+            text_fmt(&message, " instead of %u", doc_type_components(type));
+        return text_cstr(&message);
     }
     assert(fault <= len);
     for (end = fault; end < len && text[end] != ',' && !is_space(text[end]);)
         end++;
     if (end == fault)
         return ": a number is missing after a comma";
-    text_fmt(&said, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
+    text_fmt(&message, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
              integer ? "integer" : "number");
-    return text_cstr(&said);
+    return text_cstr(&message);
 }

@@ -49,23 +49,6 @@ static bool may_simplify(enum ir_op op, ir_type_id type)
     return on_vectors && type >= IR_TYPE_VEC2 && type <= IR_TYPE_VEC4;
 }
 
-static bool has_poison(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
-{
-    for (unsigned i = 0; i < num_args; i++)
-        if (ir_get(graph, args[i])->op == IR_POISON)
-            return true;
-    return false;
-}
-
-static uint64_t equal_bit(const ir_ref *args, unsigned num_args)
-{
-    for (unsigned i = 1; i < num_args; i++)
-        for (unsigned k = 0; k < i; k++)
-            if (args[k] == args[i])
-                return IR_EQUAL_BIT;
-    return 0;
-}
-
 /* This check costs about as much as making the node, so only test builds do it. */
 static void assert_well_formed(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
                                uint32_t attr, const ir_ref *args, unsigned num_args)
@@ -87,30 +70,21 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
         return ir_intern(graph, op, type, attr, args, num_args);
     ir_ref own[MAX_FOLD_ARGS]; /* the simplifier adds nodes, and `args` may point into the graph */
     unsigned num_consts = 0, flags = ir_op_info(op)->flags;
-    uint64_t present = 0, wanted = ir_rules[op].any;
+    bool has_poison = false;
     for (unsigned i = 0; i < num_args; i++) {
         own[i] = args[i];
-        const struct ir_node *from = ir_get(graph, own[i]);
-        if (from->op != IR_CONST) {
-            present |= IR_OP_BIT(from->op);
-            continue;
-        }
-        num_consts++;
-        if (wanted >> IR_OP_BITS)
-            present |= ir_constant_bits(graph, from);
+        num_consts += ir_get(graph, own[i])->op == IR_CONST;
+        has_poison |= ir_get(graph, own[i])->op == IR_POISON;
     }
-    if (present & IR_OP_BIT(IR_POISON) && flags & OP_PURE && op != IR_SELECT
-        && has_poison(graph, own, num_args))
+    if (has_poison && flags & OP_PURE && op != IR_SELECT)
         return ir_poison(graph, type);
     ir_ref result = 0;
     if (num_consts == num_args && flags & OP_PURE)
         result = fold(graph, op, type, attr, own, num_args);
     if (!result && (op == IR_MUL || flags & OP_COMMUTES))
         sort_operands(graph, op, own);
-    if (wanted & IR_EQUAL_BIT)
-        present |= equal_bit(own, num_args);
-    if (!result && present & wanted)
-        result = ir_apply_rules(graph, op, type, own, num_args, present);
+    if (!result)
+        result = ir_apply_rules(graph, op, type, own, num_args);
     if (!result && num_consts && (op == IR_ADD || op == IR_SUB || op == IR_DIV))
         result = ir_simplify_by_constant(graph, op, own[0], own[1]);
     if (!result && op == IR_ABS)

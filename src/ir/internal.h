@@ -66,8 +66,6 @@ enum { RULE_LENGTH = 10 };
 
 struct rule {
     const char *name;
-    /* ops and constants among the operands that the rule requires */
-    uint64_t needs;
     /* holds for every input; otherwise for finite values, up to rounding and the sign of 0 */
     bool exact;
     uint8_t pattern[RULE_LENGTH], replacement[RULE_LENGTH]; /* RULE_END ends them */
@@ -76,23 +74,12 @@ struct rule {
 struct rule_list {
     const struct rule *rules;
     unsigned num;
-    uint64_t any; /* the union of `needs` */
 };
 extern const struct rule_list ir_rules[IR_NUM_OPS];
 
-/*
- * A filter for speed, because the rules leave most nodes unchanged. A rule needs each op and
- * constant of its pattern among the operands, or two equal operands if it has none. Sets are bit
- * sets: several ops share a bit, each kind of constant has its own.
- */
-enum { IR_OP_BITS = 32 };
-#define IR_OP_BIT(op) ((uint64_t)1 << ((op) % IR_OP_BITS))
-#define IR_EQUAL_BIT ((uint64_t)1 << 63)
-uint64_t ir_constant_bits(const struct ir_graph *graph, const struct ir_node *node);
-
-/* Applies the first matching rule to an op whose operands have these bits; 0 if none matches. */
+/* Applies the first matching rule to an op; 0 if none matches. */
 ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args,
-                      unsigned num_args, uint64_t present);
+                      unsigned num_args);
 
 /* check.c: NULL, or the reason why the node is invalid. */
 const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type,

@@ -64,7 +64,7 @@ ir_type_id ir_type_vector(ir_type_id scalar, unsigned components); /* VOID if th
 struct ir_member {
     str_id name;
     ir_type_id type;
-    uint16_t reserved; /* 0: a library image holds these bytes, so the record has no padding */
+    uint16_t reserved; /* 0: no record of a library image has padding */
 };
 
 /* A struct (array_length 0) or an array of one type. */

@@ -28,29 +28,16 @@ enum {
 
 enum { FINITE, EXACT };
 
-/* The shift must be in range for ops too: the compiler evaluates it, although nothing uses it. */
-#define CONSTANT_BIT(token) ((uint64_t)1 << ((token) < K ? 0 : IR_OP_BITS + (token)-K))
-#define HEAD(token) ((token) < A ? IR_OP_BIT(token) : (token) >= K ? CONSTANT_BIT(token) : 0)
-static_assert(IR_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice");
-#define HEADS(root, a, b, c, d, e, f, ...) \
-    (HEAD(a) | HEAD(b) | HEAD(c) | HEAD(d) | HEAD(e) | HEAD(f))
-#define NEEDS(...) \
-    (HEADS(__VA_ARGS__, A, A, A, A, A, A) ? HEADS(__VA_ARGS__, A, A, A, A, A, A) : IR_EQUAL_BIT)
-
 #define TOKENS(...) __VA_ARGS__, RULE_END
 #define RULE(name, exactness, pattern, replacement) \
-    {#name, NEEDS pattern, exactness, {TOKENS pattern}, {TOKENS replacement}},
+    {#name, exactness, {TOKENS pattern}, {TOKENS replacement}},
 
 #define RULES(op, ...) static const struct rule rules_of_##op[] = {__VA_ARGS__};
 #include "ir/rules.def"
 #undef RULES
 
-#undef RULE
-#define RULE(name, exactness, pattern, replacement) | (NEEDS pattern)
-
 const struct rule_list ir_rules[IR_NUM_OPS] = {
-#define RULES(op, ...) \
-    [IR_##op] = {rules_of_##op, sizeof rules_of_##op / sizeof *rules_of_##op, 0 __VA_ARGS__},
+#define RULES(op, ...) [IR_##op] = {rules_of_##op, sizeof rules_of_##op / sizeof *rules_of_##op},
 #include "ir/rules.def"
 #undef RULES
 };
@@ -185,29 +172,8 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
     return widen(graph, type, stack[top]);
 }
 
-/* The tokens that a constant may match, by its first component. */
-uint64_t ir_constant_bits(const struct ir_graph *graph, const struct ir_node *node)
-{
-    assert(node->op == IR_CONST && node->attr < graph->words.len);
-    union ir_word w = graph->words.items[node->attr];
-    ir_type_id scalar = ir_type_info(node->type)->scalar;
-    float value = scalar == IR_TYPE_FLOAT ? w.f : scalar == IR_TYPE_INT ? (float)w.i : (float)w.u;
-    uint64_t bits = CONSTANT_BIT(K);
-    if (value == 0.0f)
-        bits |= CONSTANT_BIT(ZERO) | CONSTANT_BIT(FALSE_);
-    else if (value == 1.0f)
-        bits |= CONSTANT_BIT(ONE) | CONSTANT_BIT(IDENTITY) | CONSTANT_BIT(TRUE_);
-    else if (value == 2.0f)
-        bits |= CONSTANT_BIT(TWO);
-    else if (value == 0.5f)
-        bits |= CONSTANT_BIT(HALF);
-    else if (value == -1.0f)
-        bits |= CONSTANT_BIT(MINUS_ONE);
-    return bits;
-}
-
 ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args,
-                      unsigned num_args, uint64_t present)
+                      unsigned num_args)
 {
     const struct rule *rules = ir_rules[op].rules, *end = rules + ir_rules[op].num;
     struct match m = {.graph = graph};
@@ -215,8 +181,7 @@ ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, co
         m.linear = ir_is_linear_mul(ir_type_of(graph, args[0]), ir_type_of(graph, args[1]));
     for (const struct rule *rule = rules; rule < end; rule++) {
         m.exact = rule->exact;
-        if ((rule->needs & ~present) || (graph->exact && !rule->exact)
-            || !match(&m, rule, args, num_args))
+        if ((graph->exact && !rule->exact) || !match(&m, rule, args, num_args))
             continue;
         ir_ref result = replace(graph, rule, type, m.bound);
         if (result)

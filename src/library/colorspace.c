@@ -73,12 +73,12 @@ uint32_t library_color_transform(const struct library *lib, const char *from, co
 
 const char *const library_color_hub = "lin_rec709";
 
-/* "lin_rec709, srgb_texture, …": the spaces that the library can convert to the hub. */
+/* "; expected one of: lin_rec709, …": the spaces that the library can convert to the hub. */
 static const char *known_spaces(const struct library *lib, struct arena *arena)
 {
     struct text out;
     text_init(&out, arena);
-    text_str(&out, library_color_hub);
+    text_fmt(&out, "; expected one of: %s", library_color_hub);
     for (; lib; lib = lib->base)
         for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
             const char *name = str_text(&lib->strings, lib->nodedefs.items[i].node);
@@ -88,6 +88,36 @@ static const char *known_spaces(const struct library *lib, struct arena *arena)
                 text_fmt(&out, ", %.*s", (int)(to - name), name);
         }
     return text_cstr(&out);
+}
+
+const char *library_expect_working_space(const struct library *lib, const char *space,
+                                         struct diag_list *diags)
+{
+    struct text names;
+    struct diag_guess guess;
+    text_init(&names, diags->arena);
+    text_fmt(&names, "one of: none, %s", library_color_hub);
+    bool may_guess = diag_guess_begin(&guess, diags, space);
+    if (may_guess)
+        diag_guess_add(&guess, library_color_hub);
+    size_t len = strlen(library_color_hub);
+    for (; lib; lib = lib->base)
+        for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
+            const char *name = str_text(&lib->strings, lib->nodedefs.items[i].node);
+            bool again = i > 0 && lib->nodedefs.items[i - 1].node == lib->nodedefs.items[i].node,
+                 is_from_hub = strncmp(name, library_color_hub, len) == 0
+                               && strncmp(name + len, "_to_", 4) == 0;
+            if (!is_from_hub || again)
+                continue;
+            text_fmt(&names, ", %s", name + len + 4);
+            if (may_guess)
+                diag_guess_add(&guess, name + len + 4);
+        }
+    if (guess.best) {
+        text_init(&names, diags->arena);
+        text_fmt(&names, "%s, perhaps", guess.best);
+    }
+    return text_cstr(&names);
 }
 
 static const char *suggest_space(const char *space, struct diag_list *diags)
@@ -104,6 +134,7 @@ static const char *suggest_space(const char *space, struct diag_list *diags)
 void library_report_space(const struct library *lib, const char *space, struct diag_place place,
                           struct diag_list *diags)
 {
-    diag_add(diags, DIAG_ID_unknown_colorspace, place, space, suggest_space(space, diags),
-             known_spaces(lib, diags->arena));
+    const char *suggestion = suggest_space(space, diags);
+    diag_add(diags, DIAG_ID_unknown_colorspace, place, space,
+             *suggestion ? suggestion : known_spaces(lib, diags->arena));
 }

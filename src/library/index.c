@@ -61,13 +61,12 @@ static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
     }
     uint32_t num_members = lib->unit.members.len - first;
     ir_type_id type = IR_TYPE_VOID;
-    if (num_members > 0 && num_members <= UINT16_MAX)
+    if (num_members && num_members <= UINT16_MAX)
         type = lang_add_type(&lib->unit, (struct ir_user_type){.name = name,
                                                                .num_members = (uint16_t)num_members,
                                                                .first_member = first});
-    if (num_members > 0 && type == IR_TYPE_VOID)
-        diag_add(ix->diags, DIAG_ID_lang_limit, doc_place(&lib->doc, element),
-                 "there are too many structs, or this one is too large");
+    if (num_members && !type)
+        diag_add(ix->diags, DIAG_ID_lang_limit, doc_place(&lib->doc, element), "it is too large");
     return type;
 }
 
@@ -574,6 +573,9 @@ static void add_implementation(struct indexer *ix, elem_id element)
                  text_of(lib, nodedef));
         return;
     }
+    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
+                           ix->diags))
+        return;
     if (!library_nodedef(lib, impl.nodedef)->num_outputs)
         return; /* reported as no-output or unknown-type */
     str_id graph = attr(ix, element, STR_nodegraph);
@@ -610,11 +612,12 @@ static void add_functional_graph(struct indexer *ix, elem_id element)
                                   .ref = element};
     impl.nodedef = library_nodedef_by_name(lib, name);
     if (impl.nodedef == LIBRARY_NONE) {
-        diag_add(ix->diags, DIAG_ID_unknown_nodedef,
-                 doc_attr_place(&lib->doc, element, STR_nodedef), text_of(lib, name),
-                 library_suggest_nodedef(lib, name, ix->diags));
+        library_report_nodedef(lib, element, name, ix->diags);
         return;
     }
+    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
+                           ix->diags))
+        return;
     add_impl(ix, impl);
 }
 

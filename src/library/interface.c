@@ -27,20 +27,67 @@ uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
     return LIBRARY_NONE;
 }
 
-/* Suggests an interface input of the nodegraph, or of its definition if it has one. */
-static const char *suggest(const struct library *lib, elem_id graph, uint32_t nodedef, str_id name,
-                           struct diag_list *diags)
+enum { MAX_LISTED = 24 }; /* inputs in a note */
+
+/* Calls `add` for the inputs of the nodegraph, or of its definition if it has one. */
+static void for_inputs(const struct library *lib, elem_id graph, uint32_t nodedef,
+                       void (*add)(void *user, const char *name), void *user)
 {
-    struct diag_guess guess;
-    if (!diag_guess_begin(&guess, diags, text_of(lib, name)))
-        return "";
     for (int i = 0; nodedef != LIBRARY_NONE && i < library_nodedef(lib, nodedef)->num_inputs; i++)
-        diag_guess_add(&guess, text_of(lib, library_ports(lib, nodedef, NULL)[i].name));
-    for (elem_id e = graph ? doc_element(&lib->doc, graph)->first_child : 0; e;
-         e = doc_element(&lib->doc, e)->next)
+        add(user, text_of(lib, library_ports(lib, nodedef, NULL)[i].name));
+    for (elem_id e = graph && nodedef == LIBRARY_NONE ? doc_element(&lib->doc, graph)->first_child
+                                                      : 0;
+         e; e = doc_element(&lib->doc, e)->next)
         if (doc_element(&lib->doc, e)->kind == KIND_INPUT)
-            diag_guess_add(&guess, text_of(lib, doc_element(&lib->doc, e)->name));
-    return diag_guess_text(&guess);
+            add(user, text_of(lib, doc_element(&lib->doc, e)->name));
+}
+
+static void guess(void *user, const char *name)
+{
+    diag_guess_add(user, name);
+}
+
+struct listing {
+    struct text text;
+    unsigned count;
+};
+
+static void list(void *user, const char *name)
+{
+    struct listing *listing = user;
+    if (listing->count < MAX_LISTED)
+        text_fmt(&listing->text, "%s%s", listing->count ? ", " : "", name);
+    else if (listing->count == MAX_LISTED)
+        text_str(&listing->text, ", …");
+    listing->count++;
+}
+
+static void report_dangling(const struct library *lib, elem_id asker, uint32_t nodedef, str_id name,
+                            struct diag_list *diags)
+{
+    elem_id graph = library_graph_around(lib, asker);
+    const char *graph_name = graph ? text_of(lib, doc_element(&lib->doc, graph)->name) : "";
+    struct text who;
+    text_init(&who, diags->arena);
+    if (graph)
+        text_fmt(&who, "the nodegraph '%s'", graph_name);
+    else
+        text_str(&who, "the document");
+    struct diag_guess suggestion;
+    if (diag_guess_begin(&suggestion, diags, text_of(lib, name)))
+        for_inputs(lib, graph, nodedef, guess, &suggestion);
+    diag_add(diags, DIAG_ID_dangling_interfacename,
+             doc_attr_place(&lib->doc, asker, STR_interfacename), text_cstr(&who),
+             text_of(lib, name), diag_guess_text(&suggestion));
+    struct listing inputs = {.count = 0};
+    text_init(&inputs.text, diags->arena);
+    for_inputs(lib, graph, nodedef, list, &inputs);
+    if (graph && inputs.count)
+        diag_add(diags, DIAG_ID_graph_inputs,
+                 doc_place(&lib->doc, nodedef == LIBRARY_NONE
+                                          ? graph
+                                          : library_nodedef(lib, nodedef)->element),
+                 graph_name, text_cstr(&inputs.text));
 }
 
 int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t nodedef,
@@ -56,14 +103,16 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
         index = library_find_input(lib, nodedef, name);
     struct diag_place place = doc_attr_place(&lib->doc, asker, STR_interfacename);
     if (index < 0) {
-        diag_add(diags, DIAG_ID_dangling_interfacename, place, text_of(lib, name),
-                 suggest(lib, library_graph_around(lib, asker), nodedef, name, diags));
+        report_dangling(lib, asker, nodedef, name, diags);
         return -1;
     }
     if (port->type != DOC_TYPE_NONE && ports[index].type != port->type) {
-        diag_add(diags, DIAG_ID_type_mismatch, place, text_of(lib, port->name),
-                 text_of(lib, library_type_name(lib, port->type)),
+        bool is_output = doc_element(&lib->doc, asker)->kind == KIND_OUTPUT;
+        diag_add(diags, DIAG_ID_type_mismatch, place, is_output ? "output" : "input",
+                 text_of(lib, port->name), text_of(lib, library_type_name(lib, port->type)),
                  text_of(lib, library_type_name(lib, ports[index].type)));
+        diag_add(diags, DIAG_ID_connected_here, doc_name_place(&lib->doc, ports[index].element),
+                 text_of(lib, name));
         return -1;
     }
     assert(index < library_nodedef(lib, nodedef)->num_inputs);

@@ -41,6 +41,7 @@ struct nodedef {
     uint32_t first_impl;     /* of the same layer, linked by next; LIBRARY_NONE */
     uint32_t next_same_node; /* next definition of the same node in this layer; LIBRARY_NONE */
     bool is_default_version;
+    uint8_t reserved[3]; /* 0: no record of a library image has padding, which would be garbage */
 };
 
 enum impl_kind {
@@ -62,6 +63,7 @@ struct implementation {
     uint32_t next;   /* next implementation of the same nodedef in this layer */
     elem_id element; /* <implementation> or functional <nodegraph> */
     uint8_t kind;    /* enum impl_kind */
+    uint8_t reserved[3];
 };
 
 /* The functions of a leaf family (docs/library.md); LIBRARY_NONE if absent. */
@@ -136,8 +138,8 @@ struct unit { /* <unit> of a <unitdef> */
 
 struct user_type { /* <typedef> that is not a standard type */
     str_id name, semantic;
-    ir_type_id ir;     /* a struct of the lang unit, or VOID */
-    uint16_t reserved; /* 0: a library image holds these bytes, so the record has no padding */
+    ir_type_id ir; /* a struct of the lang unit, or VOID */
+    uint16_t reserved;
     elem_id element;
 };
 
@@ -161,7 +163,10 @@ struct library {
     VEC(struct implementation) impls;
     VEC(struct family) families;
     VEC(struct verbatim) verbatims;
-    /* nodes of nodegraphs with a nodedef, resolved before use; image layers only */
+    /*
+     * nodes of nodegraphs with a nodedef, resolved before use; image layers only; saves a sixth of
+     * mxgen check (docs/benchmarks.md)
+     */
     VEC(struct graph_node) graph_nodes;
     VEC(struct binding) bindings;
     VEC(struct geomprop) geomprops;
@@ -174,11 +179,6 @@ struct library {
     VEC(uint32_t) element_info;
     /* replaces `element_info` in an image layer whose indices fit in 16 bits */
     const uint16_t *narrow_info;
-    /*
-     * per element of this layer: 1 + its definition, if it matched without a diagnostic; 0:
-     * unknown. NULL: no cache
-     */
-    _Atomic uint32_t *matches;
     /* indices of implementations in this layer for nodedefs of lower layers */
     VEC(uint32_t) overrides;
     struct diag_list *deferred; /* errors of implementations, which appear when a node uses one */
@@ -237,15 +237,9 @@ void library_resolve_graphs(struct library *lib, struct diag_list *diags);
 /* match.c */
 
 /*
- * Switches on the cache of matches for the nodes of the layer, which any thread can use. The tree
- * must be complete.
- */
-void library_keep_matches(struct library *lib, struct arena *arena);
-
-/*
- * The definition of a node element: by its `nodedef` attribute, otherwise by name, version, types
- * and target. LIBRARY_NONE after a diagnostic: unknown node, or each candidate with the reason why
- * it does not match.
+ * The definition of a node element: by its `nodedef` attribute, otherwise by name, version and
+ * types. If none matches, the closest one that gives the node's type, after a diagnostic for each
+ * fault of the node. LIBRARY_NONE after a diagnostic: an unknown node, or one of another type.
  */
 uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags);
 
@@ -269,9 +263,16 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
 struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
                                           struct diag_list *diags);
 
-/* " (did you mean 'x'?)" for the name of a definition. */
-const char *library_suggest_nodedef(const struct library *lib, str_id name,
-                                    struct diag_list *diags);
+/* Reports the unknown name of a definition in the attribute `nodedef` of an element. */
+void library_report_nodedef(const struct library *lib, elem_id element, str_id name,
+                            struct diag_list *diags);
+
+/*
+ * False after reporting that the name of an element stands for two elements. `attr` of `from` has
+ * the reference.
+ */
+bool library_is_unique(const struct library *lib, elem_id element, elem_id from, str_id attr,
+                       struct diag_list *diags);
 
 /*
  * The output of a node element with the name `output`. Without a name, the only output or, with a
@@ -305,6 +306,9 @@ const char *library_canonical_space(const char *space);
 uint32_t library_color_transform(const struct library *lib, const char *from, const char *to,
                                  const char *type);
 extern const char *const library_color_hub; /* the library can convert every space to this one */
+/* The working space that the user may mean by an unknown word, or a list of all. */
+const char *library_expect_working_space(const struct library *lib, const char *space,
+                                         struct diag_list *diags);
 void library_report_space(const struct library *lib, const char *space, struct diag_place place,
                           struct diag_list *diags);
 
@@ -334,6 +338,13 @@ void library_validate(const struct library *lib, struct arena *scratch, struct d
  */
 void library_check_enum(const struct library *lib, const struct port *port, str_id text,
                         struct diag_place place, struct diag_list *diags);
+
+/*
+ * excess.c: reports a value with more numbers than the type of its port has, with the input of the
+ * same definition that the author may mean.
+ */
+void library_report_excess(const struct library *lib, elem_id element, doc_type type,
+                           struct diag_list *diags);
 
 /* image.c */
 

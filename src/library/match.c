@@ -5,7 +5,6 @@
 #include "base/hash.h"
 
 #include <assert.h>
-#include <stdatomic.h>
 
 static const char *text_of(const struct library *lib, str_id id)
 {
@@ -21,222 +20,267 @@ uint32_t library_first_of_node(const struct library *layer, str_id node)
     return LIBRARY_NONE;
 }
 
-enum fit { FIT_EXACT, FIT_EXTRA_INPUTS, FIT_NOT };
+/* ---- Candidates ---- */
 
+/* True if the definition has the type of the node. A type that no one knows has its own message. */
+static bool gives_type(const struct library *lib, const struct nodedef *def,
+                       const struct port *ports, str_id type)
+{
+    doc_type wanted = library_type(lib, type);
+    if (def->num_outputs == 0)
+        return false;
+    if (type == STR_multioutput)
+        return def->num_outputs > 1;
+    return !wanted || (def->num_outputs == 1 && wanted == ports[def->num_inputs].type);
+}
+
+static bool has_version(const struct nodedef *def, str_id wanted)
+{
+    return wanted ? wanted == def->version : !def->version || def->is_default_version;
+}
+
+/* A definition that gives the type of the node. Its faults are the node's. */
 struct candidate {
-    enum fit fit;
-    const char *reason; /* for FIT_NOT: a format with up to two strings */
-    str_id a, b, c;
+    uint32_t nodedef;
+    bool is_of_version, is_default;
+    unsigned wrong_types; /* inputs of another type */
+    unsigned before;      /* inputs of the right type before the first of another type */
+    bool has_unknown;     /* the definition lacks an input of the node */
 };
 
-static struct candidate misfit(const char *reason, str_id a, str_id b, str_id c)
+static bool is_wrong_type(const struct library *lib, elem_id input, const struct port *port)
 {
-    return (struct candidate){FIT_NOT, reason, a, b, c};
+    doc_type type = library_type(lib, doc_attr_value(&lib->doc, input, STR_type));
+    return type && type != port->type;
 }
 
-static struct candidate fit_version(const struct library *lib, const struct nodedef *def,
-                                    elem_id node)
+static struct candidate examine(const struct library *lib, uint32_t id, elem_id node)
 {
-    str_id version = doc_attr_value(&lib->doc, node, STR_version);
-    if (version && version != def->version)
-        return misfit("its version is '%s', but the node requests '%s'", def->version, version, 0);
-    if (!version && def->version && !def->is_default_version)
-        return misfit("version '%s' is not the default; request it with version=\"%s\"",
-                      def->version, def->version, 0);
-    return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
-}
-
-static struct candidate fit_outputs(const struct library *lib, const struct nodedef *def,
-                                    const struct port *ports, elem_id node)
-{
-    str_id type = doc_attr_value(&lib->doc, node, STR_type);
-    if (def->num_outputs == 0)
-        return misfit("it has no output with a valid type", 0, 0, 0);
-    if (!type)
-        return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
-    if (def->num_outputs > 1 && type == STR_multioutput)
-        return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
-    const struct port *out = &ports[def->num_inputs];
-    assert(out->type != DOC_TYPE_NONE);
-    if (def->num_outputs == 1 && library_type(lib, type) == out->type)
-        return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
-    str_id has = def->num_outputs == 1 ? library_type_name(lib, out->type) : STR_multioutput;
-    return misfit("its output is %s, but the node has type %s", has, type, 0);
-}
-
-static struct candidate fit_inputs(const struct library *lib, uint32_t id, const struct port *ports,
-                                   elem_id node)
-{
-    struct candidate result = {FIT_EXACT, NULL, 0, 0, 0};
+    struct candidate c = {.nodedef = id};
+    const struct port *ports = library_ports(lib, id, NULL);
+    c.is_of_version =
+        has_version(library_nodedef(lib, id), doc_attr_value(&lib->doc, node, STR_version));
+    c.is_default = has_version(library_nodedef(lib, id), 0);
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
          child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
-        if (input->kind != KIND_INPUT)
-            continue;
-        int index = library_find_input(lib, id, input->name);
-        const struct port *port = index < 0 ? NULL : &ports[index];
-        str_id type = doc_attr_value(&lib->doc, child, STR_type);
-        if (!port)
-            result =
-                (struct candidate){FIT_EXTRA_INPUTS, "it has no input '%s'", input->name, 0, 0};
-        else if (type && library_type(lib, type) != port->type)
-            return misfit("its input '%s' is %s, but the node gives %s", input->name,
-                          library_type_name(lib, port->type), type);
+        int index = input->kind == KIND_INPUT ? library_find_input(lib, id, input->name) : -1;
+        if (index < 0)
+            c.has_unknown |= input->kind == KIND_INPUT;
+        else if (is_wrong_type(lib, child, &ports[index]))
+            c.wrong_types++;
+        else
+            c.before += c.wrong_types == 0;
     }
-    return result;
+    return c;
 }
 
-static struct candidate fit(const struct library *lib, uint32_t id, elem_id node, bool any_version)
+static bool is_exact(const struct candidate *c)
 {
-    const struct nodedef *def = library_nodedef(lib, id);
-    const struct port *ports = library_ports(lib, id, NULL);
-    struct candidate c = fit_outputs(lib, def, ports, node);
-    if (c.fit == FIT_NOT)
-        return c;
-    struct candidate inputs = fit_inputs(lib, id, ports, node);
-    if (inputs.fit == FIT_NOT || any_version)
-        return inputs;
-    c = fit_version(lib, def, node);
-    return c.fit == FIT_NOT ? c : inputs;
+    return c->nodedef != LIBRARY_NONE && c->is_of_version && !c->wrong_types && !c->has_unknown;
 }
 
-static void report_unknown_inputs(const struct library *lib, uint32_t id, elem_id node,
-                                  struct diag_list *diags)
+/* Of equal candidates the first is best. */
+static bool is_better(const struct candidate *c, const struct candidate *best)
+{
+    if (best->nodedef == LIBRARY_NONE || c->is_of_version != best->is_of_version)
+        return best->nodedef == LIBRARY_NONE || c->is_of_version;
+    if (!c->is_of_version && c->is_default != best->is_default)
+        return c->is_default;
+    if (c->wrong_types != best->wrong_types)
+        return c->wrong_types < best->wrong_types;
+    if (c->wrong_types && c->before != best->before)
+        return c->before > best->before;
+    return !c->has_unknown && best->has_unknown;
+}
+
+/* ---- Reports ---- */
+
+/* Inputs that the definition lacks, or that have another type there. */
+static void report_inputs(const struct library *lib, uint32_t id, elem_id node,
+                          struct diag_list *diags)
 {
     const struct nodedef *def = library_nodedef(lib, id);
     const struct port *ports = library_ports(lib, id, NULL);
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
          child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
-        if (input->kind != KIND_INPUT || library_find_input(lib, id, input->name) >= 0)
+        int index = input->kind == KIND_INPUT ? library_find_input(lib, id, input->name) : -1;
+        if (index >= 0 && is_wrong_type(lib, child, &ports[index]))
+            diag_add(diags, DIAG_ID_input_type, doc_attr_place(&lib->doc, child, STR_type),
+                     text_of(lib, input->name), text_of(lib, def->node),
+                     text_of(lib, library_type_name(lib, ports[index].type)),
+                     text_of(lib, doc_attr_value(&lib->doc, child, STR_type)));
+        if (index >= 0 || input->kind != KIND_INPUT)
             continue;
         struct diag_guess guess;
         bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, input->name));
         for (unsigned i = 0; may_guess && i < def->num_inputs; i++)
             diag_guess_add(&guess, text_of(lib, ports[i].name));
-        diag_add(diags, DIAG_ID_unknown_input, doc_place(&lib->doc, child), text_of(lib, def->node),
-                 text_of(lib, input->name), diag_guess_text(&guess));
+        diag_add(diags, DIAG_ID_unknown_input, doc_name_place(&lib->doc, child),
+                 text_of(lib, def->node), text_of(lib, input->name), diag_guess_text(&guess));
     }
 }
 
-static void report_candidate(const struct library *lib, const struct nodedef *def,
-                             const struct candidate *c, struct diag_list *diags)
-{
-    assert(c->fit == FIT_NOT);
-    const char *args[3] = {text_of(lib, c->a), text_of(lib, c->b), text_of(lib, c->c)};
-    struct text reason;
-    text_init(&reason, diags->arena);
-    unsigned arg = 0;
-    for (const char *p = c->reason; *p; p++) {
-        if (p[0] == '%' && p[1] == 's') {
-            assert(arg < sizeof args / sizeof *args);
-            text_str(&reason, args[arg++]);
-            p++;
-        } else {
-            text_char(&reason, *p);
-        }
-    }
-    diag_add(diags, DIAG_ID_nodedef_candidate, doc_place(&lib->doc, def->element),
-             text_of(lib, def->name), text_cstr(&reason));
-}
-
-struct misfits {
-    uint32_t *items; /* ids of definitions */
-    uint32_t len, cap;
+/* Words without repetition: "float, color3". */
+struct word_list {
+    struct text text;
+    str_id *words;
+    uint32_t len;
 };
 
-/*
- * Collects the definitions of the node's name that do not match: either those with the node's type,
- * or the others.
- */
-static void collect_misfits(const struct library *lib, elem_id node, bool of_type,
-                            struct arena *arena, struct misfits *misfits)
+enum { MAX_WORDS = 64 };
+
+static void add_word(const struct library *lib, struct word_list *list, str_id word)
 {
-    str_id category = doc_element(&lib->doc, node)->category;
-    for (const struct library *layer = lib; layer; layer = layer->base)
-        for (uint32_t own = library_first_of_node(layer, category); own != LIBRARY_NONE;
-             own = layer->nodedefs.items[own].next_same_node) {
-            uint32_t id = layer->base_nodedefs + own;
-            bool gives =
-                fit_outputs(lib, library_nodedef(lib, id), library_ports(lib, id, NULL), node).fit
-                != FIT_NOT;
-            if (gives == of_type && fit(lib, id, node, false).fit == FIT_NOT)
-                vec_push(arena, misfits, id);
-        }
+    for (uint32_t i = 0; i < list->len; i++)
+        if (list->words[i] == word)
+            return;
+    if (!word || list->len == MAX_WORDS)
+        return;
+    list->words[list->len++] = word;
+    text_fmt(&list->text, "%s%s", list->len > 1 ? ", " : "", text_of(lib, word));
 }
 
-enum { MAX_CANDIDATES = 5 }; /* in one report */
-
-/* If some candidates have the node's type, reports only these. */
-static void report_candidates(const struct library *lib, elem_id node, struct diag_list *diags)
+static str_id type_of(const struct library *lib, uint32_t id)
 {
+    const struct nodedef *def = library_nodedef(lib, id);
+    if (def->num_outputs != 1)
+        return def->num_outputs ? STR_multioutput : 0;
+    return library_type_name(lib, library_ports(lib, id, NULL)[def->num_inputs].type);
+}
+
+static str_id version_of(const struct library *lib, uint32_t id)
+{
+    return library_nodedef(lib, id)->version;
+}
+
+/* What the definitions of a node have: their types or versions; LIBRARY_NONE: all of the node. */
+static const char *list_of(const struct library *lib, elem_id node, uint32_t only,
+                           str_id (*get)(const struct library *, uint32_t), struct arena *arena)
+{
+    struct word_list list = {.words = ARENA_ARRAY(arena, str_id, MAX_WORDS)};
+    text_init(&list.text, arena);
     str_id category = doc_element(&lib->doc, node)->category;
-    diag_add(diags, DIAG_ID_no_matching_nodedef, doc_place(&lib->doc, node),
-             text_of(lib, category));
-    struct misfits misfits = {0};
-    collect_misfits(lib, node, true, diags->arena, &misfits);
-    uint32_t of_type = misfits.len;
-    collect_misfits(lib, node, false, diags->arena, &misfits);
-    assert(of_type <= misfits.len);
-    uint32_t shown = of_type ? of_type : misfits.len;
-    shown = shown < MAX_CANDIDATES ? shown : MAX_CANDIDATES;
-    assert(shown <= misfits.len);
-    for (uint32_t i = 0; i < shown; i++) {
-        struct candidate c = fit(lib, misfits.items[i], node, false);
-        report_candidate(lib, library_nodedef(lib, misfits.items[i]), &c, diags);
+    for (const struct library *layer = lib; layer && only == LIBRARY_NONE; layer = layer->base)
+        for (uint32_t own = library_first_of_node(layer, category); own != LIBRARY_NONE;
+             own = layer->nodedefs.items[own].next_same_node)
+            add_word(lib, &list, get(lib, layer->base_nodedefs + own));
+    if (only != LIBRARY_NONE)
+        add_word(lib, &list, get(lib, only));
+    return list.len ? text_cstr(&list.text) : "nothing";
+}
+
+/* `only`: the definition that the node names; LIBRARY_NONE: all definitions of the node. */
+static void report_type(const struct library *lib, elem_id node, uint32_t only,
+                        struct diag_list *diags)
+{
+    const struct document *doc = &lib->doc;
+    struct text who;
+    text_init(&who, diags->arena);
+    if (only == LIBRARY_NONE)
+        text_fmt(&who, "<%s>", text_of(lib, doc_element(doc, node)->category));
+    else
+        text_fmt(&who, "the nodedef '%s'", text_of(lib, library_nodedef(lib, only)->name));
+    diag_add(diags, DIAG_ID_no_matching_nodedef, doc_attr_place(doc, node, STR_type),
+             text_cstr(&who), text_of(lib, doc_attr_value(doc, node, STR_type)),
+             list_of(lib, node, only, type_of, diags->arena));
+}
+
+static void report_version(const struct library *lib, elem_id node, struct diag_list *diags)
+{
+    const struct document *doc = &lib->doc;
+    str_id version = doc_attr_value(doc, node, STR_version);
+    struct text fault;
+    text_init(&fault, diags->arena);
+    if (version)
+        text_fmt(&fault, "version '%s'", text_of(lib, version));
+    else
+        text_str(&fault, "default version");
+    diag_add(diags, DIAG_ID_unknown_nodedef_version, doc_attr_place(doc, node, STR_version),
+             text_of(lib, doc_element(doc, node)->category), text_cstr(&fault),
+             list_of(lib, node, LIBRARY_NONE, version_of, diags->arena));
+}
+
+/* Nodes of MaterialX 1.38 that 1.39 does not have, and their successors. */
+static const char *const removed_nodes[][2] = {
+    {"swizzle", "<extract>, <separate3>, <combine3> or <convert>"},
+    {"arrayappend", "an array value"},
+    {"compare", "<ifgreater>"},
+    {"switchf", "<switch>"},
+    {"thin_film_brdf", "the thin-film inputs of <dielectric_bsdf> or <conductor_bsdf>"},
+    {"thin_film_bsdf", "the thin-film inputs of <dielectric_bsdf> or <conductor_bsdf>"},
+};
+
+static const char *advice_on_removed(const char *name, struct arena *arena)
+{
+    for (size_t i = 0; i < sizeof removed_nodes / sizeof *removed_nodes; i++) {
+        if (strcmp(name, removed_nodes[i][0]) != 0)
+            continue;
+        struct text text;
+        text_init(&text, arena);
+        text_fmt(&text, "; MaterialX 1.39 has %s in its place", removed_nodes[i][1]);
+        return text_cstr(&text);
     }
-    if (shown < misfits.len)
-        diag_add(diags, DIAG_ID_more_candidates, doc_place(&lib->doc, node), misfits.len - shown,
-                 text_of(lib, category));
+    return "";
+}
+
+/* One advice is enough. */
+static const char *advice(const char *suggestion)
+{
+    return *suggestion ? suggestion : "; no loaded library defines it; '--library' adds a library";
 }
 
 static void report_unknown_node(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     const char *name = text_of(lib, doc_element(&lib->doc, node)->category);
+    const char *removed = advice_on_removed(name, diags->arena);
     struct diag_guess guess;
-    bool may_guess = diag_guess_begin(&guess, diags, name);
+    bool may_guess = !*removed && diag_guess_begin(&guess, diags, name);
     for (const struct library *layer = may_guess ? lib : NULL; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->nodedefs.len; i++)
             if (library_first_of_node(layer, layer->nodedefs.items[i].node) == i)
                 diag_guess_add(&guess, text_of(lib, layer->nodedefs.items[i].node));
     diag_add(diags, DIAG_ID_unknown_node, doc_place(&lib->doc, node), name,
-             diag_guess_text(&guess));
+             *removed ? removed : advice(may_guess ? diag_guess_text(&guess) : ""));
 }
 
-const char *library_suggest_nodedef(const struct library *lib, str_id name, struct diag_list *diags)
+/* Guesses among the definitions of one node, or of all nodes (0). */
+static const char *guess_nodedef(const struct library *lib, str_id name, str_id node,
+                                 struct diag_list *diags)
 {
     struct diag_guess guess;
     bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, name));
     for (const struct library *layer = may_guess ? lib : NULL; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->nodedefs.len; i++)
-            diag_guess_add(&guess, text_of(lib, layer->nodedefs.items[i].name));
+            if (!node || layer->nodedefs.items[i].node == node)
+                diag_guess_add(&guess, text_of(lib, layer->nodedefs.items[i].name));
     return diag_guess_text(&guess);
 }
 
-/* ---- Cache ---- */
-
-void library_keep_matches(struct library *lib, struct arena *arena)
+void library_report_nodedef(const struct library *lib, elem_id element, str_id name,
+                            struct diag_list *diags)
 {
-    assert(lib->element_info.len == lib->doc.elements.len);
-    lib->matches = arena_zalloc(
-        arena, mem_array_size(arena->mem, lib->doc.elements.len, sizeof *lib->matches));
+    const struct element *e = doc_element(&lib->doc, element);
+    const char *suggestion =
+        e->kind == KIND_NODE ? guess_nodedef(lib, name, e->category, diags) : "";
+    if (!*suggestion)
+        suggestion = guess_nodedef(lib, name, 0, diags);
+    diag_add(diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, element, STR_nodedef),
+             text_of(lib, name), advice(suggestion));
 }
 
-static _Atomic uint32_t *match_of(const struct library *lib, elem_id node)
+/* Ends a search: the faults of the best candidate are the node's. */
+static uint32_t settle(const struct library *lib, elem_id node, const struct candidate *best,
+                       struct diag_list *diags)
 {
-    assert(node < lib->doc.first_element + lib->doc.elements.len);
-    return lib->matches && node >= lib->doc.first_element
-               ? &lib->matches[node - lib->doc.first_element]
-               : NULL;
-}
-
-/* Threads may race: all compute the same value. */
-static void keep(const struct library *lib, elem_id node, uint32_t nodedef)
-{
-    assert(nodedef < library_num_nodedefs(lib));
-    _Atomic uint32_t *match = match_of(lib, node);
-    if (match)
-        atomic_store_explicit(match, nodedef + 1, memory_order_relaxed);
+    if (!best->is_of_version)
+        report_version(lib, node, diags);
+    str_id type = doc_attr_value(&lib->doc, node, STR_type);
+    if (type && !library_type(lib, type))
+        doc_report_type(&lib->doc, node, diags);
+    report_inputs(lib, best->nodedef, node, diags);
+    return best->nodedef;
 }
 
 static uint32_t match_explicit(const struct library *lib, elem_id node, str_id name,
@@ -244,8 +288,7 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
 {
     uint32_t id = library_nodedef_by_name(lib, name);
     if (id == LIBRARY_NONE) {
-        diag_add(diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, node, STR_nodedef),
-                 text_of(lib, name), library_suggest_nodedef(lib, name, diags));
+        library_report_nodedef(lib, node, name, diags);
         return LIBRARY_NONE;
     }
     const struct nodedef *def = library_nodedef(lib, id);
@@ -254,52 +297,45 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
     if (def->node != category)
         diag_add(diags, DIAG_ID_nodedef_of_other_node, doc_attr_place(&lib->doc, node, STR_nodedef),
                  text_of(lib, name), text_of(lib, def->node), text_of(lib, category));
-    struct candidate c = fit(lib, id, node, true);
-    if (c.fit == FIT_NOT) {
-        report_candidates(lib, node, diags);
+    if (!library_is_unique(lib, def->element, node, STR_nodedef, diags))
+        return LIBRARY_NONE;
+    if (!gives_type(lib, def, library_ports(lib, id, NULL),
+                    doc_attr_value(&lib->doc, node, STR_type))) {
+        report_type(lib, node, id, diags);
         return LIBRARY_NONE;
     }
-    if (c.fit == FIT_EXTRA_INPUTS)
-        report_unknown_inputs(lib, id, node, diags);
-    else if (def->node == category)
-        keep(lib, node, id);
-    return id;
-}
-
-static uint32_t find_match(const struct library *lib, elem_id node, struct diag_list *diags)
-{
-    str_id explicit_name = doc_attr_value(&lib->doc, node, STR_nodedef);
-    if (explicit_name)
-        return match_explicit(lib, node, explicit_name, diags);
-    str_id category = doc_element(&lib->doc, node)->category;
-    uint32_t with_extra = LIBRARY_NONE;
-    bool known = false;
-    for (const struct library *layer = lib; layer; layer = layer->base)
-        for (uint32_t own = library_first_of_node(layer, category); own != LIBRARY_NONE;
-             own = layer->nodedefs.items[own].next_same_node) {
-            known = true;
-            struct candidate c = fit(lib, layer->base_nodedefs + own, node, false);
-            if (c.fit == FIT_EXACT) {
-                keep(lib, node, layer->base_nodedefs + own);
-                return layer->base_nodedefs + own;
-            }
-            if (c.fit == FIT_EXTRA_INPUTS && with_extra == LIBRARY_NONE)
-                with_extra = layer->base_nodedefs + own;
-        }
-    assert(with_extra == LIBRARY_NONE || known);
-    if (with_extra != LIBRARY_NONE)
-        report_unknown_inputs(lib, with_extra, node, diags);
-    else if (known)
-        report_candidates(lib, node, diags);
-    else
-        report_unknown_node(lib, node, diags);
-    return with_extra;
+    struct candidate c = examine(lib, id, node);
+    c.is_of_version = true; /* the name includes the version */
+    return settle(lib, node, &c, diags);
 }
 
 uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
 {
-    _Atomic uint32_t *match = match_of(lib, node);
-    uint32_t known = match ? atomic_load_explicit(match, memory_order_relaxed) : 0;
-    assert(known <= library_num_nodedefs(lib));
-    return known ? known - 1 : find_match(lib, node, diags);
+    str_id explicit_name = doc_attr_value(&lib->doc, node, STR_nodedef),
+           type = doc_attr_value(&lib->doc, node, STR_type),
+           category = doc_element(&lib->doc, node)->category;
+    if (explicit_name)
+        return match_explicit(lib, node, explicit_name, diags);
+    struct candidate best = {.nodedef = LIBRARY_NONE};
+    bool known = false;
+    for (const struct library *layer = lib; layer && !is_exact(&best); layer = layer->base)
+        for (uint32_t own = library_first_of_node(layer, category);
+             own != LIBRARY_NONE && !is_exact(&best);
+             own = layer->nodedefs.items[own].next_same_node) {
+            uint32_t id = layer->base_nodedefs + own;
+            known = true;
+            if (!gives_type(lib, &layer->nodedefs.items[own], library_ports(lib, id, NULL), type))
+                continue;
+            struct candidate c = examine(lib, id, node);
+            if (is_better(&c, &best))
+                best = c;
+        }
+    assert(best.nodedef == LIBRARY_NONE || known);
+    if (best.nodedef != LIBRARY_NONE)
+        return settle(lib, node, &best, diags);
+    if (known)
+        report_type(lib, node, LIBRARY_NONE, diags);
+    else
+        report_unknown_node(lib, node, diags);
+    return LIBRARY_NONE;
 }

@@ -33,6 +33,19 @@ static elem_id find_named(const struct library *lib, elem_id scope, str_id name,
     return doc_child(&lib->doc, scope, name);
 }
 
+bool library_is_unique(const struct library *lib, elem_id element, elem_id from, str_id attr,
+                       struct diag_list *diags)
+{
+    elem_id second = doc_second_of_name(&lib->doc, element);
+    if (!second)
+        return true;
+    const char *name = text_of(lib, doc_element(&lib->doc, element)->name);
+    diag_add(diags, DIAG_ID_ambiguous_name, doc_attr_place(&lib->doc, from, attr), name);
+    diag_add(diags, DIAG_ID_defined_here, doc_name_place(&lib->doc, element), name);
+    diag_add(diags, DIAG_ID_defined_here, doc_name_place(&lib->doc, second), name);
+    return false;
+}
+
 static elem_id root_of(const struct library *lib, elem_id element)
 {
     return library_of_element(lib, element)->doc.root;
@@ -102,6 +115,41 @@ static int assume_output(const struct port *outputs, unsigned num_outputs, doc_t
     return 0;
 }
 
+/* The end of the message that an output is missing: a suggestion, or the outputs that exist. */
+struct missing_output {
+    struct diag_guess guess;
+    bool may_guess;
+    struct text names;
+    unsigned count;
+};
+
+static void begin_missing(struct missing_output *m, const char *name, struct diag_list *diags)
+{
+    *m = (struct missing_output){.may_guess = false};
+    m->may_guess = diag_guess_begin(&m->guess, diags, name);
+    text_init(&m->names, diags->arena);
+}
+
+static void add_existing(struct missing_output *m, const char *name)
+{
+    enum { MAX_LISTED = 16 };
+    if (m->may_guess)
+        diag_guess_add(&m->guess, name);
+    if (m->count < MAX_LISTED)
+        text_fmt(&m->names, "%s'%s'", m->count ? ", " : "; it has ", name);
+    else if (m->count == MAX_LISTED)
+        text_str(&m->names, ", …");
+    m->count++;
+}
+
+static const char *end_missing(struct missing_output *m)
+{
+    const char *suggestion = diag_guess_text(&m->guess);
+    if (!m->count)
+        return "; it has none";
+    return *suggestion ? suggestion : text_cstr(&m->names);
+}
+
 int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output,
                            doc_type type, struct diag_list *diags)
 {
@@ -119,12 +167,12 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
     if (!output && def->num_outputs > 1)
         report_assumed(lib, port, name, outputs[index].name, diags);
     if (index < 0) {
-        struct diag_guess guess;
-        bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, output));
-        for (unsigned i = 0; may_guess && i < def->num_outputs; i++)
-            diag_guess_add(&guess, text_of(lib, outputs[i].name));
+        struct missing_output missing;
+        begin_missing(&missing, text_of(lib, output), diags);
+        for (unsigned i = 0; i < def->num_outputs; i++)
+            add_existing(&missing, text_of(lib, outputs[i].name));
         diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output), name,
-                 text_of(lib, output), diag_guess_text(&guess));
+                 text_of(lib, output), end_missing(&missing));
     }
     return index;
 }
@@ -133,7 +181,7 @@ static str_id output_type(const struct library *lib, elem_id node, int output,
                           struct diag_list *diags)
 {
     str_id type = doc_attr_value(&lib->doc, node, STR_type);
-    if (type && type != STR_multioutput)
+    if (library_type(lib, type) && type != STR_multioutput)
         return type;
     uint32_t id = library_match(lib, node, diags);
     if (id == LIBRARY_NONE)
@@ -167,18 +215,22 @@ static void report_type(const struct library *lib, elem_id port, doc_type want, 
                         elem_id at, struct diag_list *diags)
 {
     str_id wanted = library_type_name(lib, want);
-    diag_add(diags, DIAG_ID_type_mismatch, connection_place(&lib->doc, port),
-             text_of(lib, doc_element(&lib->doc, port)->name), text_of(lib, wanted),
-             text_of(lib, have));
-    diag_add(diags, DIAG_ID_connected_here, doc_place(&lib->doc, at),
+    bool is_output = doc_element(&lib->doc, port)->kind == KIND_OUTPUT;
+    /* of an output, the type is wrong more often than the source */
+    diag_add(diags, DIAG_ID_type_mismatch,
+             is_output ? doc_attr_place(&lib->doc, port, STR_type)
+                       : connection_place(&lib->doc, port),
+             is_output ? "output" : "input", text_of(lib, doc_element(&lib->doc, port)->name),
+             text_of(lib, wanted), text_of(lib, have));
+    diag_add(diags, DIAG_ID_connected_here, doc_name_place(&lib->doc, at),
              text_of(lib, doc_element(&lib->doc, at)->name));
     if (is_convertible(lib, have, wanted, diags->arena))
         diag_add(diags, DIAG_ID_convert_between, doc_place(&lib->doc, port), text_of(lib, wanted),
                  text_of(lib, have));
 }
 
-static struct binding bind_node(const struct library *lib, elem_id asker, elem_id port,
-                                elem_id node, doc_type type, struct diag_list *diags)
+static struct binding bind_node(const struct library *lib, elem_id port, elem_id node,
+                                doc_type type, struct diag_list *diags)
 {
     int output = library_resolve_output(lib, port, node,
                                         doc_attr_value(&lib->doc, port, STR_output), type, diags);
@@ -186,11 +238,27 @@ static struct binding bind_node(const struct library *lib, elem_id asker, elem_i
     if (!have)
         return bind_error;
     if (type != DOC_TYPE_NONE && library_type(lib, have) != type) {
-        report_type(lib, asker, type, have, node, diags);
+        report_type(lib, port, type, have, node, diags);
         return bind_error;
     }
     return (struct binding){
         .kind = BIND_NODE, .output = (uint8_t)output, .ref = node, .element = port};
+}
+
+/* Reports that a nodegraph has no output `name`. */
+static void report_output(const struct library *lib, elem_id port, elem_id graph, str_id name,
+                          struct diag_list *diags)
+{
+    struct missing_output missing;
+    begin_missing(&missing, text_of(lib, name), diags);
+    elem_id e = doc_element(&lib->doc, graph)->first_child;
+    for (unsigned searched = 0; e && searched < MAX_SEARCHED;
+         e = doc_element(&lib->doc, e)->next, searched++)
+        if (doc_element(&lib->doc, e)->kind == KIND_OUTPUT)
+            add_existing(&missing, text_of(lib, doc_element(&lib->doc, e)->name));
+    diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output),
+             text_of(lib, doc_element(&lib->doc, graph)->name), text_of(lib, name),
+             end_missing(&missing));
 }
 
 /* The <output> of a nodegraph that `port` selects with its `output` attribute, or by its type. */
@@ -201,10 +269,8 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
     if (name) {
         elem_id output = doc_child_of_kind(&lib->doc, graph, KIND_OUTPUT, name);
         if (!output)
-            diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output),
-                     text_of(lib, doc_element(&lib->doc, graph)->name), text_of(lib, name),
-                     suggest_child(lib, graph, KIND_OUTPUT, name, diags));
-        return output;
+            report_output(lib, port, graph, name, diags);
+        return output && library_is_unique(lib, output, port, STR_output, diags) ? output : 0;
     }
     const char *graph_name = text_of(lib, doc_element(&lib->doc, graph)->name);
     elem_id first = 0, fitting = 0;
@@ -220,7 +286,8 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
     }
     elem_id assumed = fitting ? fitting : first;
     if (count == 0)
-        diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port), graph_name, "out", "");
+        diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port), graph_name, "out",
+                 "; it has none");
     if (count > 1)
         report_assumed(lib, port, graph_name, doc_element(&lib->doc, assumed)->name, diags);
     assert(!assumed == (count == 0));
@@ -228,51 +295,54 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
 }
 
 /* The connection attributes of a port. */
-struct said {
+struct port_source {
     str_id node, graph, interface, output;
     bool has_value;
 };
 
-static struct said read_port(const struct document *doc, elem_id port)
+static struct port_source read_port(const struct document *doc, elem_id port)
 {
-    struct said said = {0};
+    struct port_source source = {0};
     const struct attribute *attrs = doc_attrs(doc, port);
     for (uint32_t i = 0; i < doc_element(doc, port)->num_attrs; i++) {
         str_id value = attrs[i].value;
         switch (attrs[i].name) {
-        case STR_nodename: said.node = value; break;
-        case STR_nodegraph: said.graph = value; break;
-        case STR_interfacename: said.interface = value; break;
-        case STR_output: said.output = value; break;
-        case STR_value: said.has_value = true; break;
+        case STR_nodename: source.node = value; break;
+        case STR_nodegraph: source.graph = value; break;
+        case STR_interfacename: source.interface = value; break;
+        case STR_output: source.output = value; break;
+        case STR_value: source.has_value = true; break;
         default: break;
         }
     }
-    return said;
+    return source;
 }
 
 /* For a port with a nodename or nodegraph: the output of the nodegraph, or 0 with *out. */
-static elem_id follow_name(const struct library *lib, elem_id asker, elem_id port, elem_id scope,
-                           const struct said *said, doc_type type, struct binding *out,
+static elem_id follow_name(const struct library *lib, elem_id port, elem_id scope,
+                           const struct port_source *source, doc_type type, struct binding *out,
                            struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
-    elem_id target = said->node ? find_named(lib, scope, said->node, port) : 0;
-    if (!target && said->graph && !(target = find_named(lib, scope, said->graph, port)))
-        target = find_named(lib, root_of(lib, port), said->graph, port);
+    elem_id target = source->node ? find_named(lib, scope, source->node, port) : 0;
+    if (!target && source->graph && !(target = find_named(lib, scope, source->graph, port)))
+        target = find_named(lib, root_of(lib, port), source->graph, port);
+    str_id attr = source->node ? STR_nodename : STR_nodegraph;
+    if (target && !library_is_unique(lib, target, port, attr, diags))
+        return 0;
     if (target && doc_element(doc, target)->kind == KIND_NODE) {
-        *out = bind_node(lib, asker, port, target, type, diags);
+        *out = bind_node(lib, port, target, type, diags);
         return 0;
     }
     if (target && doc_element(doc, target)->kind == KIND_NODEGRAPH)
         return graph_output(lib, port, target, type, diags);
-    str_id missing = said->node ? said->node : said->graph;
-    diag_add(diags, said->node ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
-             doc_attr_place(doc, port, said->node ? STR_nodename : STR_nodegraph),
+    str_id missing = source->node ? source->node : source->graph;
+    diag_add(diags, source->node ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
+             doc_attr_place(doc, port, source->node ? STR_nodename : STR_nodegraph),
              text_of(lib, missing),
-             suggest_child(lib, scope, said->node ? KIND_NODE : KIND_NODEGRAPH, missing, diags));
-    if (said->node)
-        report_elsewhere(lib, root_of(lib, port), scope, said->node, diags);
+             suggest_child(lib, scope, source->node ? KIND_NODE : KIND_NODEGRAPH, missing, diags));
+    if (source->node)
+        report_elsewhere(lib, root_of(lib, port), scope, source->node, diags);
     return 0;
 }
 
@@ -286,12 +356,12 @@ static elem_id follow_output(const struct library *lib, elem_id port, str_id out
         diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output),
                  "the document", text_of(lib, output),
                  suggest_child(lib, root, KIND_OUTPUT, output, diags));
-    return target;
+    return target && library_is_unique(lib, target, port, STR_output, diags) ? target : 0;
 }
 
 /* The next port of the chain, or 0 with *out at its end. */
-static elem_id follow(const struct library *lib, elem_id asker, elem_id port, doc_type type,
-                      struct binding *out, struct diag_list *diags)
+static elem_id follow(const struct library *lib, elem_id port, doc_type type, struct binding *out,
+                      struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
     const struct element *element = doc_element(doc, port);
@@ -303,21 +373,32 @@ static elem_id follow(const struct library *lib, elem_id asker, elem_id port, do
      */
     elem_id scope =
         element->kind == KIND_OUTPUT || !owner->parent ? element->parent : owner->parent;
-    struct said said = read_port(doc, port);
+    struct port_source source = read_port(doc, port);
     *out = bind_error;
-    if (said.node || said.graph)
-        return follow_name(lib, asker, port, scope, &said, type, out, diags);
-    if (said.interface) {
+    if (source.node || source.graph)
+        return follow_name(lib, port, scope, &source, type, out, diags);
+    if (source.interface) {
         const struct element *graph = doc_element(doc, scope);
-        elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, said.interface);
-        if (input && !(graph->kind == KIND_NODEGRAPH && doc_attr(doc, scope, STR_nodedef)))
-            return input;
-        *out = (struct binding){.kind = BIND_INTERFACE, .ref = said.interface, .element = port};
+        elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, source.interface);
+        bool is_plain = graph->kind != KIND_NODEGRAPH || !doc_attr(doc, scope, STR_nodedef);
+        if (input && is_plain) {
+            return library_is_unique(lib, input, port, STR_interfacename, diags) ? input : 0;
+        }
+        if (owner->kind == KIND_NODEGRAPH && element->kind == KIND_INPUT && is_plain) {
+            /* exporters of USD write it; in MaterialX it refers to the input itself */
+            diag_add(diags, DIAG_ID_interfacename_ignored,
+                     doc_attr_name_place(doc, port, STR_interfacename),
+                     text_of(lib, element->name));
+            *out = (struct binding){.kind = source.has_value ? BIND_VALUE : BIND_DEFAULT,
+                                    .element = port};
+            return 0;
+        }
+        *out = (struct binding){.kind = BIND_INTERFACE, .ref = source.interface, .element = port};
         return 0;
     }
-    if (said.output && element->kind == KIND_INPUT)
-        return follow_output(lib, port, said.output, diags);
-    *out = (struct binding){.kind = said.has_value ? BIND_VALUE : BIND_DEFAULT, .element = port};
+    if (source.output && element->kind == KIND_INPUT)
+        return follow_output(lib, port, source.output, diags);
+    *out = (struct binding){.kind = source.has_value ? BIND_VALUE : BIND_DEFAULT, .element = port};
     return 0;
 }
 
@@ -328,11 +409,11 @@ struct binding library_resolve_connection(const struct library *lib, elem_id por
     elem_id asker = port;
     /* Outputs and interface inputs may chain; a longer chain is a cycle. */
     for (uint32_t steps = 0; port && steps < 10000; steps++) {
-        elem_id next = follow(lib, asker, port, type, &result, diags);
+        elem_id next = follow(lib, port, type, &result, diags);
         if (next && type != DOC_TYPE_NONE) {
             str_id have = doc_attr_value(&lib->doc, next, STR_type);
             if (have && library_type(lib, have) != type) {
-                report_type(lib, asker, type, have, next, diags);
+                report_type(lib, port, type, have, next, diags);
                 return bind_error;
             }
         }
@@ -342,6 +423,17 @@ struct binding library_resolve_connection(const struct library *lib, elem_id por
         diag_add(diags, DIAG_ID_cycle, doc_place(&lib->doc, asker),
                  text_of(lib, doc_element(&lib->doc, port)->name));
     return result;
+}
+
+/* An input of another type is reported; whether its source exists is another question. */
+static struct binding resolve_input(const struct library *lib, elem_id input, doc_type type,
+                                    struct diag_list *diags)
+{
+    doc_type said = library_type(lib, doc_attr_value(&lib->doc, input, STR_type));
+    bool is_wrong = said && said != type;
+    struct binding b =
+        library_resolve_connection(lib, input, is_wrong ? DOC_TYPE_NONE : type, diags);
+    return is_wrong ? bind_error : b;
 }
 
 struct graph_node library_resolve_node(const struct library *lib, elem_id node,
@@ -365,7 +457,7 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
         if (port < 0)
             continue;
         assert((unsigned)port < def->num_inputs);
-        struct binding b = library_resolve_connection(lib, e, ports[port].type, diags);
+        struct binding b = resolve_input(lib, e, ports[port].type, diags);
         out->bindings.items[result.first_binding + (unsigned)port] = b;
     }
     assert(out->bindings.len == result.first_binding + def->num_inputs);

@@ -25,8 +25,9 @@ static void check_interface(struct validate *v, const struct port *port,
     elem_id graph = library_graph_around(v->lib, binding->element);
     uint32_t nodedef = library_implemented_nodedef(v->lib, graph);
     /* unknown-nodedef */
-    bool is_told = graph && nodedef == LIBRARY_NONE && doc_attr_value(v->doc, graph, STR_nodedef);
-    if (!is_told)
+    bool is_reported =
+        graph && nodedef == LIBRARY_NONE && doc_attr_value(v->doc, graph, STR_nodedef);
+    if (!is_reported)
         library_resolve_interface(v->lib, binding->element, nodedef, binding, port, v->diags);
 }
 
@@ -116,7 +117,7 @@ static void check_use(struct validate *v)
             element->parent ? (enum element_kind)doc_element(v->doc, element->parent)->kind
                             : KIND_NODE;
         if (!is_used && (parent == KIND_MATERIALX || parent == KIND_NODEGRAPH))
-            diag_add(v->diags, DIAG_ID_unused_node, doc_place(v->doc, e),
+            diag_add(v->diags, DIAG_ID_unused_node, doc_name_place(v->doc, e),
                      text_of(v, element->name));
     }
 }

@@ -69,6 +69,9 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
                  text_of(v, doc_element(v->doc, node)->category), text_of(v, port->name));
     if (!text || binding->element < v->doc->first_element)
         return;
+    if (doc_excess_numbers(port->type, text_of(v, text), str_len(&v->lib->strings, text), NULL)
+        && doc_element(v->doc, doc_element(v->doc, binding->element)->parent)->kind == KIND_NODE)
+        library_report_excess(v->lib, binding->element, port->type, v->diags);
     if (port->type == DOC_TYPE_string)
         library_check_enum(v->lib, port, text, doc_attr_place(v->doc, binding->element, STR_value),
                            v->diags);
@@ -94,19 +97,21 @@ static void check_unit(struct validate *v, elem_id element)
 /* A library without colour transforms knows no spaces, so the check needs at least one. */
 static void check_space(struct validate *v, elem_id element)
 {
-    str_id said = doc_attr_value(v->doc, element, STR_colorspace);
+    str_id attribute = doc_attr_value(v->doc, element, STR_colorspace);
     const char *hub = library_color_hub;
-    if (!said || said == v->known_space
+    if (!attribute || attribute == v->known_space
         || library_color_transform(v->lib, "srgb_texture", hub, "color3") == LIBRARY_NONE)
         return;
-    const char *space = library_canonical_space(text_of(v, said));
+    const char *space = library_canonical_space(text_of(v, attribute));
     bool is_known = strcmp(space, "none") == 0 || strcmp(space, hub) == 0
                     || library_color_transform(v->lib, space, hub, "color3") != LIBRARY_NONE;
-    if (is_known)
-        v->known_space = said;
+    struct diag_place place = doc_attr_place(v->doc, element, STR_colorspace);
+    if (is_known && strcmp(space, text_of(v, attribute)) != 0)
+        diag_add(v->diags, DIAG_ID_colorspace_alias, place, text_of(v, attribute), space);
+    else if (is_known)
+        v->known_space = attribute;
     else
-        library_report_space(v->lib, space, doc_attr_place(v->doc, element, STR_colorspace),
-                             v->diags);
+        library_report_space(v->lib, space, place, v->diags);
 }
 
 static void check_bounds(struct validate *v, elem_id element, str_id low, str_id high)

@@ -50,26 +50,27 @@ static elem_id source_of_dots(struct validate *v, elem_id node)
 static bool gives_uniform(struct validate *v, elem_id node, unsigned output)
 {
     const char *category = text_of(v, doc_element(v->doc, node)->category);
-    struct diag_list unheard; /* discarded: the check of the node itself reports these */
-    diag_list_init(&unheard, v->resolved.arena);
+    struct diag_list ignored; /* discarded: the check of the node itself reports these */
+    diag_list_init(&ignored, v->resolved.arena);
     if (strcmp(category, "constant") == 0 || strcmp(category, "geompropvalueuniform") == 0)
         return true;
-    uint32_t nodedef = library_match(v->lib, node, &unheard);
+    uint32_t nodedef = library_match(v->lib, node, &ignored);
     if (nodedef == LIBRARY_NONE || output >= library_nodedef(v->lib, nodedef)->num_outputs)
         return true; /* unknown */
     const struct port *ports = library_ports(v->lib, nodedef, NULL);
     return ports[library_nodedef(v->lib, nodedef)->num_inputs + output].flags & PORT_UNIFORM;
 }
 
-static bool is_uniform_interface(const struct validate *v, const struct binding *binding)
+/* The input of the definition if it varies; 0: it is uniform, or mxgen reports its absence. */
+static elem_id varying_interface(const struct validate *v, const struct binding *binding)
 {
     elem_id graph = library_graph_around(v->lib, binding->element);
     uint32_t nodedef = graph ? library_implemented_nodedef(v->lib, graph) : LIBRARY_NONE;
     int input = nodedef == LIBRARY_NONE ? -1 : library_find_input(v->lib, nodedef, binding->ref);
     if (input < 0)
-        return true; /* of a compound nodegraph, or reported already */
+        return 0;
     const struct port *port = &library_ports(v->lib, nodedef, NULL)[input];
-    return port->flags & PORT_UNIFORM || is_uniform_type(port->type);
+    return port->flags & PORT_UNIFORM || is_uniform_type(port->type) ? 0 : port->element;
 }
 
 void validate_uniform(struct validate *v, elem_id node, const struct port *port,
@@ -77,25 +78,27 @@ void validate_uniform(struct validate *v, elem_id node, const struct port *port,
 {
     if (!(port->flags & PORT_UNIFORM || is_uniform_type(port->type)))
         return;
-    str_id varies = 0;
-    if (binding->kind == BIND_INTERFACE && !is_uniform_interface(v, binding))
-        varies = binding->ref;
+    elem_id varies = 0;
+    if (binding->kind == BIND_INTERFACE)
+        varies = varying_interface(v, binding);
     if (binding->kind == BIND_NODE && binding->ref >= v->doc->first_element) {
         elem_id source = source_of_dots(v, binding->ref);
         if (source && !gives_uniform(v, source, source == binding->ref ? binding->output : 0))
-            varies = doc_element(v->doc, source)->name;
+            varies = source;
     }
     /* 0 for the output of a nodegraph between them */
     elem_id input = varies ? child_input(v, node, text_of(v, port->name)) : 0;
-    if (input)
-        diag_add(v->diags, DIAG_ID_uniform_connected, doc_place(v->doc, input),
-                 text_of(v, port->name), text_of(v, doc_element(v->doc, node)->category),
-                 text_of(v, varies));
+    if (!input)
+        return;
+    diag_add(v->diags, DIAG_ID_uniform_connected, doc_name_place(v->doc, input),
+             text_of(v, port->name), text_of(v, doc_element(v->doc, node)->category));
+    diag_add(v->diags, DIAG_ID_connected_here, doc_name_place(v->doc, varies),
+             text_of(v, doc_element(v->doc, varies)->name));
 }
 
 /* ---- Declarations ---- */
 
-static void tell(struct validate *v, elem_id element, const char *what)
+static void report(struct validate *v, elem_id element, const char *what)
 {
     const struct element *e = doc_element(v->doc, element);
     diag_add(v->diags, DIAG_ID_bad_definition, doc_place(v->doc, element), text_of(v, e->category),
@@ -120,13 +123,13 @@ static void check_declared_input(struct validate *v, elem_id input)
     bool is_uniform = doc_attr_is_true(v->doc, input, STR_uniform),
          takes_geometry = has(v, input, STR_defaultgeomprop);
     if (is_uniform_type(type) && !is_uniform)
-        tell(v, input, "has a type that cannot vary over a surface; write uniform=\"true\"");
+        report(v, input, "has a type that cannot vary over a surface; write uniform=\"true\"");
     if (takes_geometry && is_uniform)
-        tell(v, input, "is uniform, but its defaultgeomprop varies");
+        report(v, input, "is uniform, but its defaultgeomprop varies");
     else if (takes_geometry && type != DOC_TYPE_vector2 && type != DOC_TYPE_vector3)
-        tell(v, input, "has a defaultgeomprop, which needs the type vector2 or vector3");
+        report(v, input, "has a defaultgeomprop, which needs the type vector2 or vector3");
     else if (takes_geometry && has(v, input, STR_value))
-        tell(v, input, "has a value and a defaultgeomprop; keep one of them");
+        report(v, input, "has a value and a defaultgeomprop; keep one of them");
 }
 
 /* "NodeDef Output Elements" */
@@ -135,12 +138,12 @@ static void check_declared_output(struct validate *v, elem_id nodedef, elem_id o
     str_id name = doc_attr_value(v->doc, output, STR_defaultinput);
     elem_id input = name ? doc_child_of_kind(v->doc, nodedef, KIND_INPUT, name) : 0;
     if (is_connected(v, output))
-        tell(v, output, "belongs to a nodedef and cannot be connected");
+        report(v, output, "belongs to a nodedef and cannot be connected");
     if (input
         && doc_attr_value(v->doc, input, STR_type) != doc_attr_value(v->doc, output, STR_type))
-        tell(v, output, "has a defaultinput of another type");
+        report(v, output, "has a defaultinput of another type");
     else if (name && !input && !has(v, nodedef, STR_inherit))
-        tell(v, output, "has a defaultinput that names no input");
+        report(v, output, "has a defaultinput that names no input");
 }
 
 static void check_nodedef(struct validate *v, elem_id nodedef)
@@ -161,9 +164,9 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
     const struct port *outputs = library_ports(v->lib, id, NULL) + def->num_inputs;
     for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
         if (doc_element(v->doc, e)->kind == KIND_INPUT) {
-            tell(v, e,
-                 "is ignored, because the nodegraph takes its inputs from the nodedef that it "
-                 "implements");
+            report(v, e,
+                   "is ignored, because the nodegraph takes its inputs from the nodedef that it "
+                   "implements");
             break;
         }
     for (unsigned i = 0; i < def->num_outputs; i++) {
@@ -173,10 +176,10 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
             /* a single output may have any name */
             output = doc_element(v->doc, e)->kind == KIND_OUTPUT ? e : 0;
         if (!output)
-            tell(v, graph, "lacks an output of the nodedef that it implements");
+            report(v, graph, "lacks an output of the nodedef that it implements");
         else if (library_type(v->lib, doc_attr_value(v->doc, output, STR_type)) != outputs[i].type)
-            tell(v, output,
-                 "differs in type from the output of the nodedef that its nodegraph implements");
+            report(v, output,
+                   "differs in type from the output of the nodedef that its nodegraph implements");
     }
 }
 
@@ -188,7 +191,7 @@ static void check_graph(struct validate *v, elem_id graph)
     for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
         if (doc_element(v->doc, e)->kind == KIND_OUTPUT && !is_connected(v, e)
             && !has(v, e, STR_value))
-            tell(v, e, "is not connected");
+            report(v, e, "is not connected");
 }
 
 /* "Custom Geometric Properties" */
@@ -199,12 +202,12 @@ static void check_geompropdef(struct validate *v, elem_id element)
          is_standard = has(v, element, STR_geomprop);
     bool is_placed = has(v, element, STR_space) || has(v, element, STR_index);
     if (is_uniform_type(type) && !is_uniform)
-        tell(v, element, "has a type that cannot vary over a surface; write uniform=\"true\"");
+        report(v, element, "has a type that cannot vary over a surface; write uniform=\"true\"");
     if (is_uniform && (is_standard || is_placed))
-        tell(v, element, "is uniform and cannot have a geomprop, space or index");
+        report(v, element, "is uniform and cannot have a geomprop, space or index");
     else if (is_placed && !is_standard)
-        tell(v, element,
-             "has a space or index, which need a standard property; name it with geomprop");
+        report(v, element,
+               "has a space or index, which need a standard property; name it with geomprop");
 }
 
 static void check_unit_scale(struct validate *v, elem_id unit)
@@ -215,7 +218,7 @@ static void check_unit_scale(struct validate *v, elem_id unit)
                      && doc_parse_value(DOC_TYPE_float, text_of(v, text),
                                         str_len(&v->lib->strings, text), NULL, &scale);
     if (text && (!is_number || !(scale.w[0].f > 0.0f)))
-        tell(v, unit, "needs a scale above 0");
+        report(v, unit, "needs a scale above 0");
 }
 
 void validate_declaration(struct validate *v, elem_id element)
@@ -227,16 +230,16 @@ void validate_declaration(struct validate *v, elem_id element)
     case KIND_GEOMPROPDEF: check_geompropdef(v, element); break;
     case KIND_IMPLEMENTATION:
         if (has(v, element, STR_file) && has(v, element, STR_sourcecode))
-            tell(v, element, "has a file and sourcecode; keep one of them");
+            report(v, element, "has a file and sourcecode; keep one of them");
         break;
     case KIND_TYPEDEF:
         if (doc_type_of(e->name))
-            tell(v, element, "has the name of a standard type");
+            report(v, element, "has the name of a standard type");
         break;
     case KIND_UNIT: check_unit_scale(v, element); break;
     case KIND_INPUT:
         if (doc_element(v->doc, e->parent)->kind == KIND_VARIANT && is_connected(v, element))
-            tell(v, element, "belongs to a variant and needs a value, not a connection");
+            report(v, element, "belongs to a variant and needs a value, not a connection");
         break;
     default: break;
     }

@@ -8,8 +8,6 @@
 
 #include <assert.h>
 
-enum { FEW_SLOTS = 32, FEW_LEAVES = 64 };
-
 unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
 {
     const struct lang_function *fn = lang_function(unit, id, NULL);
@@ -139,19 +137,11 @@ static bool evaluate(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *ou
 
 /* The callee's body */
 
-struct few { /* room for the frame of a typical function */
-    uint32_t offsets[FEW_SLOTS + 1];
-    ir_ref leaves[FEW_LEAVES];
-};
-
-static void find_offsets(struct lower *lo, struct lower_frame *frame, struct few *few)
+static void find_offsets(struct lower *lo, struct lower_frame *frame)
 {
     uint32_t num_slots = frame->fn->num_slots;
     const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
-    uint32_t *offsets = num_slots <= FEW_SLOTS
-                            ? few->offsets
-                            : ARENA_ARRAY(lo->graph->arena, uint32_t, num_slots + 1);
-    offsets[0] = 0;
+    uint32_t *offsets = ARENA_ARRAY(lo->graph->arena, uint32_t, num_slots + 1);
     for (uint32_t i = 0; i < num_slots; i++)
         offsets[i + 1] = offsets[i] + lower_leaves(lo, slots[i].type);
     frame->offsets = offsets;
@@ -184,22 +174,17 @@ static void name_parameters(struct lower *lo)
         lower_name_slot(lo, i, IR_NAME_PARAMETER);
 }
 
-static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in,
-                       struct few *few)
+static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in)
 {
-    find_offsets(lo, frame, few);
+    find_offsets(lo, frame);
     const uint32_t *offsets = frame->offsets;
     const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
     frame->num_leaves = offsets[frame->fn->num_slots] + lower_leaves(lo, frame->fn->return_type);
     assert(offsets[frame->fn->num_params] <= offsets[frame->fn->num_slots]);
-    frame->leaves = frame->num_leaves <= FEW_LEAVES
-                        ? few->leaves
-                        : ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
+    frame->leaves = ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
     for (uint32_t i = 0, k = 0; i < frame->fn->num_params; i++)
         for (; k < offsets[i + 1]; k++)
             frame->leaves[k] = slots[i].mode == LANG_OUT ? 0 : *in++;
-    for (uint32_t k = offsets[frame->fn->num_params]; k < frame->num_leaves; k++)
-        frame->leaves[k] = 0;
 }
 
 static void collect_results(const struct lower_frame *frame, ir_ref *out)
@@ -213,18 +198,18 @@ static void collect_results(const struct lower_frame *frame, ir_ref *out)
             *out++ = frame->leaves[k];
 }
 
-enum known { NOTHING_KNOWN, A_NUMBER_KNOWN, A_CHOICE_KNOWN };
+enum constant_kind { NO_CONSTANT, CONSTANT_NUMBER, CONSTANT_CHOICE };
 
 /*
  * The kind of constant in the arguments of a call. Constant strings, flags and options choose code.
  */
-static enum known known_of(const struct lower *lo, const struct lang_unit *layer,
-                           const struct lang_function *fn, const ir_ref *in)
+static enum constant_kind constant_kind(const struct lower *lo, const struct lang_unit *layer,
+                                        const struct lang_function *fn, const ir_ref *in)
 {
-    enum known known = NOTHING_KNOWN;
+    enum constant_kind kind = NO_CONSTANT;
     for (uint32_t i = 0; i < fn->num_globals; i++)
         if (lang_global(lo->unit, ast_globals(layer, fn)[i], NULL)->kind == LANG_GLOBAL_OPTION)
-            return A_CHOICE_KNOWN;
+            return CONSTANT_CHOICE;
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = ast_slot(layer, fn, i);
         uint32_t count = slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
@@ -232,12 +217,12 @@ static enum known known_of(const struct lower *lo, const struct lang_unit *layer
             if (!in[k] || !ir_is_const(lo->graph, in[k]))
                 continue;
             if (slot->type == IR_TYPE_BOOL || slot->type == IR_TYPE_STRING)
-                return A_CHOICE_KNOWN;
-            known = A_NUMBER_KNOWN;
+                return CONSTANT_CHOICE;
+            kind = CONSTANT_NUMBER;
         }
         in += count;
     }
-    return known;
+    return kind;
 }
 
 static bool has_special_texture(const struct lower *lo, const struct lang_unit *layer,
@@ -273,14 +258,14 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer,
         lo->max_graph_nodes = UINT32_MAX;
         return true;
     }
-    enum known known = known_of(lo, layer, fn, in);
-    if (known == A_CHOICE_KNOWN)
+    enum constant_kind kind = constant_kind(lo, layer, fn, in);
+    if (kind == CONSTANT_CHOICE)
         *out_budget = 2 * limit;
-    else if (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED
+    else if (kind == CONSTANT_NUMBER && is_outer && fn->num_nodes <= LOWER_MAX_TRIED
              && lo->max_graph_nodes == UINT32_MAX)
         lo->max_graph_nodes = lo->graph->nodes.len + LOWER_TRIED_NODES;
-    return known == A_CHOICE_KNOWN
-           || (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
+    return kind == CONSTANT_CHOICE
+           || (kind == CONSTANT_NUMBER && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
 }
 
 /*
@@ -294,8 +279,7 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
     if (lo->depth == LOWER_MAX_DEPTH
         || !is_worth_trying(lo, frame.layer, frame.fn, in, &frame.budget))
         return false;
-    struct few few;
-    open_frame(lo, &frame, in, &few);
+    open_frame(lo, &frame, in);
     lo->frame = &frame;
     name_parameters(lo);
     lo->depth++;

@@ -5,90 +5,33 @@
  */
 #include "parse/parse_priv.h"
 #include "tree/ast.h"
+#include "tree/uses.h"
+#include "tree/walk.h"
 
 #include <assert.h>
 
-struct uses {
+struct body { /* the body whose uses are collected */
     struct parser *p;
-    uint32_t num_nodes;
-    uint16_t flags;
-    VEC(uint32_t) callees, globals;
+    struct lang_uses uses;
 };
 
-static bool holds(const uint32_t *ids, uint32_t num, uint32_t id)
+static bool use_node(void *user_data, lang_ref ref, unsigned access)
 {
-    for (uint32_t i = 0; i < num; i++)
-        if (ids[i] == id)
-            return true;
-    return false;
+    struct body *body = user_data;
+    (void)access;
+    lang_uses_add(&body->uses, body->p->unit, tree_node(body->p, ref), body->p->unit->arena);
+    return true;
 }
 
-static void use_op(struct uses *uses, enum ir_op op)
+static void find_uses(struct body *body, struct lang_function *function)
 {
-    if (ir_op_info(op)->flags & OP_DERIVATIVE)
-        uses->flags |= LANG_FN_DERIVATIVE;
-    if (op >= IR_TEX && op <= IR_TEX_FETCH)
-        uses->flags &= (uint16_t)~LANG_FN_PURE;
-}
-
-static void use_node(struct uses *uses, const struct lang_node *node)
-{
-    struct arena *arena = uses->p->unit->arena;
-    switch ((enum lang_kind)node->kind) {
-    case LANG_OP: use_op(uses, (enum ir_op)node->op); break;
-    case LANG_CALL:
-        if (!holds(uses->callees.items, uses->callees.len, node->a))
-            vec_push(arena, &uses->callees, node->a);
-        break;
-    case LANG_GLOBAL:
-        if (!holds(uses->globals.items, uses->globals.len, node->a))
-            vec_push(arena, &uses->globals, node->a);
-        break;
-    case LANG_FOR:
-    case LANG_WHILE:
-    case LANG_DO: uses->flags &= (uint16_t)~LANG_FN_STRAIGHT; break;
-    default: break;
-    }
-}
-
-/* Statements and expressions are at most PARSE_MAX_DEPTH deep each, so recursion is bounded. */
-static void use_tree(struct uses *uses, lang_ref ref)
-{
-    for (; ref; ref = tree_node(uses->p, ref)->next) {
-        const struct lang_node node = *tree_node(uses->p, ref);
-        uses->num_nodes++;
-        use_node(uses, &node);
-        unsigned fields = lang_child_fields[node.kind];
-        const uint32_t refs[3] = {node.a, node.b, node.c};
-        for (unsigned i = 0; i < 3; i++)
-            if (fields >> i & 1)
-                use_tree(uses, refs[i]);
-    }
-}
-
-static void find_uses(struct uses *uses, struct lang_function *function)
-{
-    struct lang_unit *unit = uses->p->unit;
-    uses->callees.len = uses->globals.len = uses->num_nodes = 0;
-    uses->flags = LANG_FN_PURE | LANG_FN_STRAIGHT;
-    use_tree(uses, function->body);
+    struct lang_unit *unit = body->p->unit;
+    lang_uses_init(&body->uses);
+    lang_walk(unit, function->body, LANG_READ, use_node, body);
     for (unsigned i = 0; i < function->num_params; i++)
-        if (unit->slots.items[function->first_slot + i].type == IR_TYPE_STRING)
-            uses->flags |= LANG_FN_STRINGS;
-    for (uint32_t i = 0; i < uses->globals.len; i++) {
-        uint8_t kind = lang_global(unit, uses->globals.items[i], NULL)->kind;
-        if (kind != LANG_GLOBAL_CONST)
-            uses->flags &= (uint16_t)~LANG_FN_PURE;
-    }
-    function->flags |= uses->flags;
-    function->num_nodes = uses->num_nodes;
-    function->first_ref = unit->refs.len;
-    function->num_callees = uses->callees.len;
-    for (uint32_t i = 0; i < uses->callees.len; i++)
-        vec_push(unit->arena, &unit->refs, uses->callees.items[i]);
-    function->num_globals = uses->globals.len;
-    for (uint32_t i = 0; i < uses->globals.len; i++)
-        vec_push(unit->arena, &unit->refs, uses->globals.items[i]);
+        if (ast_slot(unit, function, i)->type == IR_TYPE_STRING)
+            function->flags |= LANG_FN_STRINGS;
+    lang_uses_record(&body->uses, unit, function);
 }
 
 /* Order */
@@ -138,7 +81,7 @@ static bool visit_top(struct order *order)
         bool own = callee < order->num; /* wraps for other files */
         if (!own || order->new_id[callee] != LANG_NONE)
             continue;
-        if (holds(order->stack.items, order->stack.len, callee)) {
+        if (lang_has_id(order->stack.items, order->stack.len, callee)) {
             refuse_recursion(order, callee);
             return false;
         }
@@ -203,33 +146,22 @@ static bool order_functions(struct parser *p, uint32_t first, uint32_t num)
     return true;
 }
 
-/* Adds the flags of callees; callees come first. */
-static void inherit_flags(const struct lang_unit *unit, struct lang_function *function)
-{
-    const uint16_t all_of = LANG_FN_PURE | LANG_FN_STRAIGHT, any_of = LANG_FN_DERIVATIVE;
-    for (uint32_t i = 0; i < function->num_callees; i++) {
-        uint16_t flags = lang_function(unit, ast_callees(unit, function)[i], NULL)->flags;
-        function->flags &= (uint16_t)(flags | ~all_of);
-        function->flags |= flags & any_of;
-    }
-}
-
 bool check_finish_functions(struct parser *p, uint32_t first_function)
 {
     struct lang_unit *unit = p->unit;
     assert(first_function >= unit->base_functions);
     uint32_t first = first_function - unit->base_functions, num = unit->functions.len - first;
-    struct uses uses = {.p = p};
+    struct body body = {.p = p};
     for (uint32_t i = 0; i < num; i++) {
         struct lang_function *function = &unit->functions.items[first + i];
         if (!function->body)
             PARSE_TYPE_ERROR(p, function->place, "'%s' is declared here but nowhere defined",
                              parse_text(p, function->name));
-        find_uses(&uses, function);
+        find_uses(&body, function);
     }
     if (p->num_errors || !order_functions(p, first_function, num))
         return false;
     for (uint32_t i = 0; i < num; i++)
-        inherit_flags(unit, &unit->functions.items[first + i]);
+        lang_inherit_flags(unit, &unit->functions.items[first + i]);
     return true;
 }

@@ -41,7 +41,7 @@ static bool parse_member(struct parser *p, uint32_t first)
                              parse_type_text(p, type));
         for (uint32_t i = first; i < p->unit->members.len; i++)
             if (p->unit->members.items[i].name == name)
-                PARSE_ERROR(p, parse_where_token(p, &at), duplicate_name, parse_text(p, name));
+                PARSE_ERROR(p, parse_where_token(p, &at), redefinition, parse_text(p, name));
         vec_push(p->unit->arena, &p->unit->members, (struct ir_member){.name = name, .type = type});
     } while (parse_accept(p, TOKEN_COMMA));
     return parse_expect(p, TOKEN_SEMICOLON);
@@ -74,7 +74,7 @@ static void declare_struct(struct parser *p, const struct token *at, str_id name
     if (known >= IR_TYPE_FIRST_USER && known < p->first_user_type && same_members(p, known, first))
         p->unit->members.len = first;
     else if (known != IR_TYPE_VOID && (known < IR_TYPE_FIRST_USER || known >= p->first_user_type))
-        PARSE_ERROR(p, parse_where_token(p, at), duplicate_name, parse_text(p, name));
+        PARSE_ERROR(p, parse_where_token(p, at), redefinition, parse_text(p, name));
     else if (num_members == 0 || num_members > MAX_MEMBERS)
         PARSE_ERROR(p, parse_where_token(p, at), lang_limit,
                     parse_say(p, "a struct has 1 to %d members", MAX_MEMBERS));
@@ -132,7 +132,7 @@ static void declare_global(struct parser *p, const struct token *at, struct lang
         bool same = other->kind == global.kind && other->type == global.type
                     && same_value(p, other, layer, &global);
         if (!may_repeat || !same)
-            PARSE_ERROR(p, parse_where_token(p, at), duplicate_name, parse_text(p, global.name));
+            PARSE_ERROR(p, parse_where_token(p, at), redefinition, parse_text(p, global.name));
         return;
     }
     global.file = p->file;
@@ -278,7 +278,7 @@ static void parse_param(struct parser *p)
                          opaque ? parse_type_text(p, type) : "const");
     for (uint32_t i = 0; i < p->locals.len; i++)
         if (name && p->locals.items[i].name == name)
-            PARSE_ERROR(p, parse_where_token(p, &at), duplicate_name, parse_text(p, name));
+            PARSE_ERROR(p, parse_where_token(p, &at), redefinition, parse_text(p, name));
     vec_push(p->unit->arena, &p->unit->slots,
              (struct lang_slot){.name = name, .type = type, .mode = (uint8_t)mode});
     vec_push(p->unit->arena, &p->locals,

@@ -93,7 +93,7 @@ static void check_redeclared(struct parser *p, str_id name, const struct token *
 {
     for (uint32_t i = p->scope; i < p->locals.len; i++)
         if (name && p->locals.items[i].name == name) {
-            PARSE_ERROR(p, parse_where_token(p, at), duplicate_name, parse_text(p, name));
+            PARSE_ERROR(p, parse_where_token(p, at), redefinition, parse_text(p, name));
             if (p->reported)
                 diag_add(p->diags, DIAG_ID_previous_definition,
                          parse_where(p, p->locals.items[i].place, 0));

@@ -14,7 +14,7 @@ struct printer {
     uint32_t *visible;        /* slots in scope, innermost last */
     uint32_t num_visible;
     unsigned indent;
-    bool is_typed; /* the target is asked for forms by type */
+    bool is_typed; /* the target has forms that depend on types */
 };
 
 static void print_expression(struct printer *p, const struct lang_node *node,
@@ -27,8 +27,8 @@ static inline const struct lang_node *node_at(const struct printer *p, lang_ref 
 }
 
 /*
- * Names. Pruning moves declarations into outer scopes, so that names which were apart may meet: the
- * later one changes.
+ * Names. Pruning moves declarations into outer scopes, so names from separate scopes may collide.
+ * The later one then gets another name.
  */
 
 static bool is_same(const char *a, const char *b)
@@ -36,7 +36,7 @@ static bool is_same(const char *a, const char *b)
     return a[0] == b[0] && strcmp(a, b) == 0;
 }
 
-/* Names at file scope that the function uses: of callees, then of globals. */
+/* Takes the names at file scope that the function uses: of callees, then of globals. */
 static uint32_t num_outer(const struct printer *p)
 {
     return p->fn->num_callees + p->fn->num_globals;
@@ -61,7 +61,7 @@ static bool is_taken(const struct printer *p, struct text_word name)
     return lang_syntax_is_reserved(p->style->syntax, name.bytes, name.len);
 }
 
-/* "x_", "x_2", "x_3"… for x; "x_2" at once for x_, since "__" is reserved in GLSL. */
+/* Makes "x_", "x_2", "x_3" from x, and "x_2" from x_, because GLSL reserves "__". */
 static struct text_word variant(struct printer *p, struct text_word name, uint32_t number)
 {
     bool ends_low = name.len && name.bytes[name.len - 1] == '_';
@@ -161,7 +161,7 @@ static void print_member(struct printer *p, const struct lang_node *node)
                                       layer->members.items[user->first_member + node->b].name));
 }
 
-/* A constant beside a vector is written as a vector where the style spreads constants (style.c). */
+/* Writes a constant beside a vector as a vector if the style spreads constants (style.c). */
 static inline void print_operand(struct printer *p, const struct lang_node *operand,
                                  ir_type_id wide, enum lang_precedence least)
 {
@@ -213,7 +213,7 @@ static void print_op(struct printer *p, const struct lang_node *node, enum lang_
     print_formed(p, lang_style_form(p->style, node->op), node, operands, least);
 }
 
-/* May the expression be written twice? */
+/* True if the text may repeat the expression. */
 static bool is_named(const struct printer *p, const struct lang_node *node)
 {
     while (node->kind == LANG_OP && node->op == IR_MEMBER)
@@ -223,7 +223,7 @@ static bool is_named(const struct printer *p, const struct lang_node *node)
     return node->kind == LANG_VAR || is_number;
 }
 
-/* The target's own form for the operands' types; NULL: it has none. */
+/* The target's own form for the types of the operands; NULL: it has none. */
 static const struct lang_pieces *typed_form(struct printer *p, enum ir_op op, uint32_t attr,
                                             ir_type_id type,
                                             const struct lang_node *const *operands,
@@ -245,7 +245,7 @@ static bool print_typed(struct printer *p, const struct lang_node *node, enum la
     lang_ref refs[AST_MAX_OPERANDS];
     const struct lang_node *operands[AST_MAX_OPERANDS];
     unsigned n = ast_list(p->layer, node->a, refs, AST_MAX_OPERANDS);
-    if (n > AST_MAX_OPERANDS) /* an array or struct, which has no form by type */
+    if (n > AST_MAX_OPERANDS) /* arrays and structs have no form that depends on types */
         return false;
     for (unsigned i = 0; i < n; i++)
         operands[i] = node_at(p, refs[i]);
@@ -321,7 +321,7 @@ static bool is_int_one(const struct printer *p, lang_ref ref)
            && ast_words(p->layer, node)->i == 1;
 }
 
-/* x = x + y, where the target has a + of its own for the types. */
+/* Writes x = x + y if the target has its own + for these types. */
 static bool print_typed_assignment(struct printer *p, const struct lang_node *node)
 {
     if (!p->is_typed || node->op == IR_NUM_OPS)
@@ -350,10 +350,10 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
         node->op == IR_NUM_OPS ? NULL : lang_style_form(p->style, node->op);
     assert(!form || !form->infix || form->num == 2);
     text_char(p->out, ' ');
-    if (form && form->infix) /* the operator is what stands between "$0 " and " $1" */
+    if (form && form->infix) /* the operator is the text between "$0 " and " $1" */
         text_mem(p->out, form->text + 3, form->pieces[1].before.len - 2);
     text_mem(p->out, "= ", 2);
-    if (form && !form->infix) { /* no such operator there: x = f(x, y) */
+    if (form && !form->infix) { /* the form is no infix operator: x = f(x, y) */
         print_form(p, form, node_at(p, node->a)->type,
                    (const struct lang_node *[]){node_at(p, node->a), node_at(p, node->b)});
         return;
@@ -361,7 +361,7 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
     print_expression(p, node_at(p, node->b), LANG_PREC_ASSIGN);
 }
 
-/* A statement without indentation, ';' and newline: also the head of a `for`. */
+/* Writes a statement without indentation, ';' and newline, also in the head of a `for`. */
 static void print_simple(struct printer *p, const struct lang_node *node)
 {
     switch (node->kind) {
@@ -388,8 +388,8 @@ static void print_statements(struct printer *p, lang_ref first)
 }
 
 /*
- * What stands between braces, in a scope of its own. `body` is a block or a single statement; NULL
- * is empty.
+ * Writes the statements between braces in their own scope. `body` is a block or a single statement;
+ * NULL: it is empty.
  */
 static void print_body(struct printer *p, const struct lang_node *body)
 {
@@ -414,8 +414,8 @@ static lang_ref only_statement(const struct printer *p, lang_ref body)
 }
 
 /*
- * One line needs no braces; what is compound keeps them, which also settles where an `else`
- * belongs.
+ * A single plain statement needs no braces. Compound statements keep them, which also decides the
+ * `if` of an `else`.
  */
 static bool needs_braces(const struct printer *p, lang_ref body)
 {
@@ -426,7 +426,7 @@ static bool needs_braces(const struct printer *p, lang_ref body)
 }
 
 /*
- * The end of a head like "if (x)" and what it governs. Leaves the line open behind the closing
+ * Writes the end of a head like "if (x)", and its body. The line stays open after the closing
  * brace.
  */
 static void print_governed(struct printer *p, lang_ref body, bool braces)
@@ -445,7 +445,7 @@ static lang_ref else_if(const struct printer *p, const struct lang_node *node)
     return only && node_at(p, only)->kind == LANG_IF ? only : 0;
 }
 
-/* All branches of a chain have braces where one needs them. */
+/* If one branch of a chain needs braces, all have them. */
 static bool chain_needs_braces(const struct printer *p, const struct lang_node *node)
 {
     for (;;) {
@@ -534,8 +534,8 @@ static void print_do(struct printer *p, const struct lang_node *node)
 }
 
 /*
- * "{ float made[2] = {a, b}; x = made; }": braces initialise a variable, but they are no value that
- * could be assigned.
+ * Writes "{ float made[2] = {a, b}; x = made; }". In these languages, braces initialise a variable,
+ * but are no value for an assignment.
  */
 static bool print_array_assignment(struct printer *p, const struct lang_node *node)
 {
@@ -604,7 +604,7 @@ static const char *param_prefix(const struct lang_syntax *syntax, const struct l
     return slot->assigned ? syntax->param_in_assigned : syntax->param_in;
 }
 
-/* A parameter that is copied has the slot's name and "_in" behind it. */
+/* A copied parameter has the name of its slot with the suffix "_in". */
 static bool is_copied(const struct printer *p, const struct lang_slot *param)
 {
     return p->style->syntax->copies_params && param->assigned && param->mode == LANG_IN;

@@ -18,8 +18,8 @@ const char *print_maker(const struct lang_names *names, const struct lang_unit *
                         ir_type_id type);
 
 /*
- * A type in two parts, which stand around a variable's name: without the lengths of arrays, and
- * these.
+ * The text of a type before and after the name of a variable: the lengths of arrays follow the
+ * name.
  */
 /* The name of a built-in type. */
 static inline void print_type_name(const struct lang_style *style, const struct lang_names *names,
@@ -35,13 +35,13 @@ void print_base_type(const struct lang_style *style, const struct lang_names *na
                      const struct lang_unit *unit, ir_type_id type, struct text *out);
 void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out);
 
-/* The beginning of an array constructor: "float[3](" or "{". */
+/* The start of an array constructor: "float[3](" or "{". */
 void print_open_array(const struct lang_style *style, const struct lang_names *names,
                       const struct lang_unit *unit, ir_type_id type, struct text *out);
 
 /*
- * texts.c: writes the text that an image has of the function; false: there is none, or it names
- * things that are called otherwise here.
+ * texts.c: writes the text of a function from its image. false: the image has none, or the text
+ * contains a name that differs here.
  */
 bool print_from_image(const struct lang_style *style, const struct lang_names *names,
                       const struct lang_unit *unit, uint32_t id, struct text *out);

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * A syntax made ready for printing: what would be looked up and taken apart again for each word is
- * looked up once.
- */
+/* Prepares a syntax for printing: looks up the rows of its bases and parses its forms once. */
 #include "print/print.h"
 
 #include <assert.h>
@@ -18,7 +15,7 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
     }
 }
 
-/* Precedence an operand needs, by what stands around it in the form. */
+/* The precedence that an operand needs, by the characters around it in the form. */
 static enum lang_precedence operand_precedence(const struct lang_form *form, unsigned index,
                                                char before, char after)
 {
@@ -35,8 +32,8 @@ static enum lang_precedence operand_precedence(const struct lang_form *form, uns
 }
 
 /*
- * Compilers of some languages would fill a vector when the shader runs. Products have an operation
- * of their own for a scalar.
+ * Compilers of some languages would build the vector at run time. Products have their own operation
+ * for a scalar.
  */
 static bool spreads_constants(const struct lang_syntax *syntax, enum ir_op op)
 {

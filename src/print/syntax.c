@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The portable language's own spelling, which is also GLSL's, and look-ups through a chain of
- * syntax tables.
+ * The spelling of the portable language, which GLSL shares, and look-ups through a chain of syntax
+ * tables.
  */
 #include "print/print.h"
 
@@ -52,7 +52,7 @@ static const struct lang_form forms[IR_NUM_OPS] = {
 };
 // clang-format on
 
-/* Nothing differs from neighbours that are not known. */
+/* Derivatives are 0 without neighbours. */
 static const struct lang_form forms_alone[IR_NUM_OPS] = {
     [IR_DFDX] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
     [IR_DFDY] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
@@ -118,7 +118,7 @@ const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type)
     return ir_type_text(type);
 }
 
-/* A target's list stands for itself: what its base reserves may be free there. */
+/* The list of a target replaces that of its base: a word may be reserved in the base alone. */
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len)
 {
     size_t suffix = strlen(LANG_SAMPLER_SUFFIX);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Most functions of a shader are those of the library as they stand there. Their text in a syntax
- * that several targets share is written once, when the library is packed, and copied from its
- * image, as long as everything that the text names has its own name in the shader.
+ * Most functions of a shader are unchanged functions of the library. The packer of a library writes
+ * their text once, in a syntax that several targets share. Generation copies the text from the
+ * image, if each name in the text is the name in the shader, too.
  */
 #include "print/print_priv.h"
 
 #include <assert.h>
 
-/* Can it be in a shader as it is? */
+/* True if a shader may contain the function unchanged. */
 static bool is_worth_text(const struct lang_function *fn)
 {
     bool is_called = fn->num_nodes > LANG_TINY || !(fn->flags & LANG_FN_STRAIGHT);
@@ -16,8 +16,8 @@ static bool is_worth_text(const struct lang_function *fn)
 }
 
 /*
- * Structs are written by name; those that variables and what is returned are of can be told from
- * the function.
+ * A text may contain the names of structs in the function's slots and return type only, because
+ * has_own_types checks these.
  */
 struct type_watch {
     const struct lang_unit *unit;
@@ -35,15 +35,16 @@ static ir_type_id without_lengths(const struct lang_unit *unit, ir_type_id type)
 static const char *watch_type(void *user_data, ir_type_id type)
 {
     struct type_watch *watch = user_data;
-    bool is_told = without_lengths(watch->unit, watch->fn->return_type) == type;
+    bool is_of_function = without_lengths(watch->unit, watch->fn->return_type) == type;
     for (uint32_t i = 0; i < watch->fn->num_slots; i++)
-        is_told |= without_lengths(watch->unit, ast_slot(watch->unit, watch->fn, i)->type) == type;
-    watch->found_other |= !is_told;
+        is_of_function |=
+            without_lengths(watch->unit, ast_slot(watch->unit, watch->fn, i)->type) == type;
+    watch->found_other |= !is_of_function;
     return NULL;
 }
 
-/* few shaders have longer ones, and the image has room for many shorter */
-enum { MAX_TEXT = 1024 };
+/* few shaders have longer functions, and in the same room the image has many short ones */
+enum { MAX_TEXT = 660 };
 
 void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, struct arena *arena)
 {
@@ -89,7 +90,7 @@ static bool has_own_types(const struct lang_names *names, const struct lang_unit
     return has_own_type(names, unit, fn->return_type);
 }
 
-/* Names of the source are compared by address: they are the pool's. */
+/* Compares names by address: an unchanged name is the string of the pool. */
 static bool has_own_names(const struct lang_names *names, const struct lang_unit *unit,
                           const struct lang_unit *layer, const struct lang_function *fn,
                           uint32_t id)

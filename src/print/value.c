@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Printing what has no control flow: types, values and the declarations at file scope. */
+/* Prints types, values and the declarations at file scope. */
 #include "print/print_priv.h"
 
 #include <assert.h>
@@ -75,12 +75,12 @@ void lang_print_variable(const struct lang_style *style, const struct lang_names
     print_lengths(unit, type, out);
 }
 
-enum { SHORT_FLOAT = 7 }; /* characters of a number that cannot be shortened */
+enum { SHORT_FLOAT = 7 }; /* characters of a number that has no shorter form */
 
 /*
- * A number that folding made may miss a short one by its last bit: 1.0 - 0.8 gives 0.19999999. The
- * short one is written where it has six digits or less and is no whole number, which a bit may keep
- * apart from its neighbours on purpose (0.99999994).
+ * A folded number may differ from a short one in the last bit: 1.0 - 0.8 gives 0.19999999. The
+ * printer writes the short one if it has at most six digits and is not a whole number. A number may
+ * differ from a whole number in one bit on purpose (0.99999994).
  */
 static float shortened(float f)
 {
@@ -118,7 +118,7 @@ static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, unio
     switch (type) {
     case IR_TYPE_BOOL: text_str(out, word.u ? "true" : "false"); break;
     case IR_TYPE_INT:
-        if (word.i == INT32_MIN) /* its digits alone are out of range */
+        if (word.i == INT32_MIN) /* the digits alone are out of range */
             text_str(out, "(-2147483647 - 1)");
         else
             text_i32(out, word.i);
@@ -132,8 +132,7 @@ static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, unio
 }
 
 /*
- * How many scalars a constructor needs to build the value: 1 for a splat or a multiple of the
- * identity.
+ * The number of scalars in a constructor of the value: 1 for a splat or a multiple of the identity.
  */
 static unsigned count_needed(const struct ir_type_info *info, const union ir_word *w)
 {
@@ -147,7 +146,7 @@ static unsigned count_needed(const struct ir_type_info *info, const union ir_wor
     return 1;
 }
 
-/* A literal with a sign binds less tightly than other ones. */
+/* A literal with a sign binds less tightly than one without. */
 static bool has_sign(ir_type_id type, union ir_word word)
 {
     return type == IR_TYPE_FLOAT ? signbit(word.f) && !isnan(word.f)
@@ -183,7 +182,7 @@ void lang_print_value(const struct lang_style *style, const struct strpool *stri
         text_char(out, ')');
 }
 
-/* A value of any type but structs from consecutive words; returns the word behind it. */
+/* Writes a value of any type but structs from consecutive words. Returns the word after it. */
 static const union ir_word *print_words(const struct lang_style *style,
                                         const struct lang_unit *unit, ir_type_id type,
                                         const union ir_word *words, struct text *out)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The shader stands: every call that is left is known. Each portable function now gets the one
- * version that its calls share (specialise/plan.c), and the graph is built anew with calls of it,
- * which lose the arguments that the version does not take. Where the target has it, a texture is
- * read in the type that is wanted of it.
+ * The last pass over the graph, when all remaining calls are known. Each portable function gets the
+ * version that its calls share (specialise/plan.c). The pass builds the graph again with calls of
+ * these versions, without the arguments that a version lacks. If the target has typed textures, a
+ * read of a texture gets the type of its use.
  */
 #include "shader/shader.h"
 #include "specialise/specialise.h"
@@ -12,11 +12,11 @@
 
 struct final_pass {
     struct shader *shader;
-    const uint32_t *planned; /* by call: the number that lang_plan_call gave */
+    const uint32_t *planned; /* by call: the result of lang_plan_call */
     bool typed_textures;
 };
 
-/* The value of each effect, of all stages. */
+/* Visits the value of each effect of all stages. */
 static void for_each_root(struct shader *shader, void (*visit)(void *user_data, ir_ref *root),
                           void *user_data)
 {
@@ -53,7 +53,7 @@ static bool has_operand(const struct lang_unit *layer, const struct lang_functio
     return layer->slots.items[fn->first_slot + param].mode != LANG_OUT;
 }
 
-/* Returns what lang_plan_version is asked for. */
+/* Returns the call's number for lang_plan_version. */
 static uint32_t plan_call(struct shader *shader, ir_ref call)
 {
     const struct ir_graph *graph = shader->graph;
@@ -107,7 +107,7 @@ static ir_ref build_call(const struct final_pass *pass, struct ir_graph *graph, 
     return ir_build(graph, IR_CALL, node->type, ir_add_callee(graph, callee), args, kept);
 }
 
-/* x or xyz of the texture that is read */
+/* True for x or xyz of a texture's value. */
 static bool is_first_part(const struct ir_node *swizzle)
 {
     return swizzle->attr == 0x100 || swizzle->attr == (0x300 | 0x24);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * finish: from what builders asked for to what can be spelled. The pixel stage comes first, since
- * it decides what the vertex stage must hand on.
+ * finish: makes a built shader ready for the speller. The pixel stage comes first, because it
+ * decides which vertex data the vertex stage must write.
  */
 #include "shader/shader.h"
 
@@ -31,7 +31,7 @@ static void complete_loops(struct shader *shader, enum shader_stage_id id)
         mark_read(shader, shader->light_members.items[i], id);
 }
 
-/* What portable functions, which are called and not seen through, read from the host. */
+/* Adds the uniforms and streams that called portable functions read. */
 static void add_globals(struct shader *shader, enum shader_stage_id id)
 {
     const struct lang_reach *reach = &shader->stages[id].reach;
@@ -56,7 +56,7 @@ static void mark_outputs(struct shader *shader, enum shader_stage_id id)
             mark_read(shader, effects->items[i].index, id);
 }
 
-/* Vertex data that a displaced position is made of is written before it. */
+/* Keeps the vertex data that a displaced position reads. */
 static void keep_inputs(struct shader *shader, ir_ref position)
 {
     assert(ir_type_of(shader->graph, position) == IR_TYPE_VEC4);
@@ -87,7 +87,7 @@ static void complete_vertex_stage(struct shader *shader)
         return;
     struct ir_graph *graph = shader->graph;
     ir_ref world = shader_vertex_stream(shader, STR_positionWorld, IR_TYPE_VOID);
-    ir_ref homogeneous = ir_arg(graph, world, 0); /* the stream is this, cut to xyz */
+    ir_ref homogeneous = ir_arg(graph, world, 0); /* the stream is this value without w */
     assert(ir_type_of(graph, homogeneous) == IR_TYPE_VEC4);
     ir_ref matrix = shader_read(
         shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));
@@ -123,8 +123,8 @@ static void finish_vertex_stage(struct shader *shader)
 }
 
 /*
- * Languages without a vertex stage have a shader that moves the point, where there is something to
- * move; vertex data are expressions.
+ * A language without a vertex stage has a separate displacement shader, if the document displaces
+ * the surface. Vertex data are expressions there.
  */
 static void finish_displacement(struct shader *shader)
 {

@@ -13,15 +13,15 @@ static bool is_letter(char c)
     return (unsigned char)((c | 0x20) - 'a') < 26;
 }
 
-/* GLSL 4.50, section 3.7: names with "__" or "gl_" in front are the implementation's. */
+/* GLSL 4.50, section 3.7: the implementation owns names with "__" or with the prefix "gl_". */
 static bool is_reserved_prefix(const char *text, size_t len)
 {
     return len >= 3 && memcmp(text, "gl_", 3) == 0;
 }
 
 /*
- * Compilers refuse names of more than 1,024 characters; a number may come behind this, and the name
- * of a graph before it.
+ * Compilers refuse names of more than 1,024 characters. A name may get a number as suffix, and the
+ * name of a graph as prefix.
  */
 enum { MAX_LENGTH = 240 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The variables through which a shader meets its host, and the streams from the vertex stage to the
- * pixel stage.
+ * The variables between a shader and its host, and the streams from the vertex stage to the pixel
+ * stage.
  *
- * Names at file scope are unique. The table shader->names finds a variable by its name, block
- * apart: two blocks cannot have members of one name, since members are spelled without their block;
- * only vertex data has a scope of its own.
+ * Names at file scope are unique. The table shader->names finds a variable by its name, without its
+ * block: members are written without their block, so two blocks cannot have members of one name.
+ * Only vertex data has its own scope.
  */
 #include "shader/shader.h"
 
@@ -27,7 +27,10 @@ const char *shader_block_name(enum shader_block block)
     return names[block];
 }
 
-/* variables are large: a shading model's are not to be moved while they come */
+/*
+ * room for the variables of a shading model, because variables are large and moving them is
+ * expensive
+ */
 enum { FIRST_VARIABLES = 80 };
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
@@ -42,13 +45,13 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
 
 /* ---- Names ---- */
 
-/* Members of structs and of blocks with an instance name have scopes of their own. */
+/* Members of structs and of blocks with an instance name have their own scopes. */
 static uint32_t name_scope(enum shader_block block)
 {
     return block == BLOCK_LIGHT_DATA || block == BLOCK_VERTEX_DATA ? (uint32_t)block : NUM_BLOCKS;
 }
 
-/* The variable of this name and scope, + 1; 0: there is none. */
+/* 1 + index of the variable of this name and scope; 0: there is none. */
 static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
 {
     uint32_t hash = hash_pair(name, scope);
@@ -61,7 +64,7 @@ static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
     return 0;
 }
 
-/* Names that are taken in a scope; the language is known by the time of the first variable. */
+/* The names of a scope. The language is known before the first variable. */
 static struct name_set *names_of(struct shader *shader, uint32_t scope)
 {
     struct name_set *names = &shader->taken[scope];
@@ -105,8 +108,8 @@ uint32_t shader_find_variable(const struct shader *shader, enum shader_block blo
 }
 
 /*
- * The variable with the type that a stage reads, which is the element's for arrays of built-in
- * types.
+ * The variable with the type that a stage reads: for arrays of built-in types, the type of an
+ * element.
  */
 ir_ref shader_read(struct shader *shader, uint32_t variable)
 {
@@ -121,7 +124,7 @@ ir_ref shader_read(struct shader *shader, uint32_t variable)
     return ir_build(shader->graph, op, type, variable, NULL, 0);
 }
 
-/* ---- What is asked for by name ---- */
+/* ---- Variables by name ---- */
 
 static uint32_t find_binding(const struct shader *shader, enum shader_block block, str_id asked,
                              ir_type_id scalar)
@@ -150,7 +153,7 @@ static uint32_t bind(struct shader *shader, const struct shader_variable *variab
     return index;
 }
 
-/* Textures are bound apart from other uniforms. */
+/* Textures have no place among the other uniforms. */
 static enum shader_block uniform_block(ir_type_id type)
 {
     return type == IR_TYPE_SAMPLER ? BLOCK_TEXTURES : BLOCK_PRIVATE_UNIFORMS;
@@ -176,7 +179,7 @@ struct uniform_row {
 };
 
 static const struct uniform_row uniform_rows[] = {
-#define HALF_TURN 2 /* about y: environment maps begin behind the viewer */
+#define HALF_TURN 2 /* around y: an environment map starts behind the viewer */
 #define UNIFORM(name, TYPE, value) {STR_##name, IR_TYPE_##TYPE, value},
 #include "shader/streams.def"
 };
@@ -222,6 +225,12 @@ static struct ir_value default_value(ir_type_id type, float number)
     return value;
 }
 
+ir_type_id shader_uniform_type(str_id name)
+{
+    const struct uniform_row *row = find_uniform(name);
+    return row ? row->type : IR_TYPE_VOID;
+}
+
 uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type,
                                 uint16_t array_length)
 {
@@ -260,7 +269,7 @@ uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type
 enum stream_space { SPACE_OBJECT, SPACE_POINT, SPACE_VECTOR, SPACE_NORMAL, SPACE_BITANGENT };
 
 struct stream_row {
-    str_id name; /* 0: of a family, which shares `attribute` with its attributes */
+    str_id name; /* 0: a family, which shares `attribute` with its attributes */
     ir_type_id type;
     const char *attribute;
     uint8_t space; /* enum stream_space */
@@ -272,7 +281,7 @@ static const struct stream_row stream_rows[] = {
 #include "shader/streams.def"
 };
 
-/* *out_suffix: what follows a family's name. */
+/* *out_suffix receives the part after the name of the family. */
 static const struct stream_row *find_stream(const struct shader *shader, str_id name,
                                             const char **out_suffix)
 {
@@ -293,7 +302,7 @@ static const struct stream_row *find_stream(const struct shader *shader, str_id 
     return NULL;
 }
 
-/* What the stream is in transit: attributes and vertex data cannot be booleans. */
+/* The type of a stream between stages: attributes and vertex data cannot be booleans. */
 static ir_type_id carried_type(const struct stream_row *row, ir_type_id wanted)
 {
     if (row->type != IR_TYPE_VOID)
@@ -378,7 +387,7 @@ static ir_ref xyz(struct ir_graph *graph, ir_ref v)
     return ir_swizzle(graph, v, (uint8_t[]){0, 1, 2}, 3);
 }
 
-/* Streams that others are made of have the same suffix: "normalWorld" for "bitangentWorld". */
+/* The source streams of a stream have its suffix: "normalWorld" for "bitangentWorld". */
 static ir_ref vertex_expression(struct shader *shader, const struct stream_row *row,
                                 const char *suffix, ir_type_id type)
 {
@@ -402,7 +411,7 @@ static ir_ref vertex_expression(struct shader *shader, const struct stream_row *
     }
 }
 
-/* The carried value as the type that was asked for. */
+/* Converts the carried value to the requested type. */
 static ir_ref as_wanted(struct ir_graph *graph, ir_ref value, ir_type_id wanted)
 {
     ir_type_id type = ir_type_of(graph, value);
@@ -445,7 +454,7 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
         variable.flat = is_flat(carried);
         variable.semantic = stream_semantic(shader, row, suffix);
         index = bind(shader, &variable);
-        ir_push_name(shader->graph, name); /* of the vertex stage's locals */
+        ir_push_name(shader->graph, name); /* a local of the vertex stage */
         ir_ref value = vertex_expression(shader, row, suffix, carried);
         ir_pop_origin(shader->graph);
         shader_effect(shader, STAGE_VERTEX,

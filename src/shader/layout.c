@@ -8,12 +8,12 @@
 #include <assert.h>
 
 /*
- * Bindings of blocks are the same in every shader, so that hosts can share set layouts; textures
+ * The bindings of blocks are equal in all shaders, so that hosts can share set layouts. Textures
  * follow.
  */
 enum { BINDING_PRIVATE, BINDING_PUBLIC, BINDING_LIGHTS, BINDING_FIRST_TEXTURE };
 
-enum { STD140_ROUND = 16 }; /* arrays, matrix columns and structs are aligned to vec4 */
+enum { STD140_ROUND = 16 }; /* alignment of arrays, matrix columns and structs: a vec4 */
 
 static uint32_t round_up(uint32_t n, uint32_t to)
 {
@@ -21,8 +21,8 @@ static uint32_t round_up(uint32_t n, uint32_t to)
 }
 
 /*
- * Rules 1 to 3: scalars by their size, vectors of 2 and 4 by theirs, vectors of 3 like 4. Matrices
- * are arrays of columns.
+ * Rules 1 to 3: the alignment of a scalar is its size. Vectors of 2 and 4 align to their sizes,
+ * vectors of 3 like vectors of 4. Matrices are arrays of columns.
  */
 uint32_t std140_align(ir_type_id type, bool array)
 {
@@ -42,8 +42,7 @@ uint32_t std140_size(ir_type_id type, uint16_t array_length)
 }
 
 /*
- * Blocks are gathered first, so that the sort by rank within them moves only the few private
- * variables.
+ * Gathers the blocks first, so that the sort by rank moves private variables only, which are few.
  */
 static void order_interface(struct shader *shader)
 {
@@ -99,7 +98,7 @@ static void place_in_buffer(struct shader_buffer *buffer, enum shader_packing pa
     buffer->size = variable->offset + variable->size;
 }
 
-/* How many locations a vertex attribute or a member of vertex data takes. */
+/* The number of locations that a vertex attribute or a member of vertex data takes. */
 static uint32_t num_locations(ir_type_id type)
 {
     assert(ir_type_info(type)->columns > 0);
@@ -111,13 +110,14 @@ static void finish_buffers(struct shader *shader)
     for (int block = 0; block < NUM_BLOCKS; block++)
         shader->buffers[block].size = round_up(shader->buffers[block].size, STD140_ROUND);
     struct shader_buffer *lights = &shader->buffers[BLOCK_LIGHT_DATA];
-    lights->stride = lights->size; /* rule 9: a struct's size is a multiple of vec4's */
+    lights->stride = lights->size; /* rule 9: the size of a struct is a multiple of a vec4 */
     lights->size *= shader->max_lights;
 }
 
 /*
- * Long vectors first and matrices last: in this order std140 and constant buffers agree on each
- * offset. Members of a struct have no packoffset, and glslang takes the size of HLSL's from std140.
+ * Long vectors come first and matrices last: std140 and constant buffers then agree on each offset.
+ * Members of a struct have no packoffset, and glslang takes the size of structs in HLSL from
+ * std140.
  */
 static void rank_light_members(struct shader *shader)
 {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Which nodes become locals: measures them, operands first, and keeps expressions to about a line.
+ * Chooses the nodes that become locals. Measures nodes, operands first, and limits an expression to
+ * about one line.
  */
 #include "shader/schedule.h"
 
 #include <assert.h>
 
 /*
- * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a
- * block's member takes an access chain and a load, a local a variable, a store and a load per use.
+ * The limits of an expression, and costs in SPIR-V instructions without an optimiser: a read of a
+ * block's member takes an access chain and a load, a local takes a variable, a store, and a load
+ * per use.
  */
 /*
- * Characters. A name counts as any other, however long it is: shaders that differ in names alone
- * have the same statements.
+ * Characters. All names count alike, so that shaders that differ only in names have the same
+ * statements.
  */
 enum {
     GOOD_CHARS = 110,
@@ -22,7 +24,7 @@ enum {
     MAX_CLOSURE_CHARS = 64,
     NAME_CHARS = 10
 };
-/* an access and a load each time, or once, a store, and a load each time */
+/* each use takes an access and a load; a copy takes both once, a store, and a load per use */
 enum { MIN_USES_OF_COPY = 5 };
 enum {
     COST_OPERATOR = 1,
@@ -48,8 +50,7 @@ static uint16_t clamp16(uint32_t n)
 }
 
 /*
- * Nodes that never become locals for their own sake: names, and small constants. Fills cost and
- * chars.
+ * Sets cost and length of the nodes that are never locals of their own: names and small constants.
  */
 static bool is_source(const struct scheduler *s, struct plan *plan)
 {
@@ -91,11 +92,11 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
 }
 
 /*
- * What an operation adds to its operands: cost, characters, and characters for each of them. Calls
- * have names of any length.
+ * The part of an operation in its expression: cost, characters, and characters per operand. All
+ * calls count alike.
  */
 static const struct {
-    uint8_t cost, chars, chars_each, unused; /* of a size that is an address's scale */
+    uint8_t cost, chars, chars_each, unused; /* elements of a size that an address can scale */
 } measures[IR_NUM_OPS] = {
 #define OP(ID, text, arity, rule, flags, doc) \
     [IR_##ID] = {(flags)&OP_BUILTIN ? COST_BUILTIN : COST_OPERATOR, \
@@ -135,7 +136,7 @@ static bool may_let(const struct scheduler *s, const struct plan *plan)
     return plan->flags & PLAN_STATEMENT || (type != IR_TYPE_VOID && !is_opaque);
 }
 
-/* From here on it is read by its name, which its origin gives. */
+/* The name stands for the node from here on; its origin gives the name. */
 static void let(struct plan *plan)
 {
     plan->flags |= PLAN_LET;
@@ -143,7 +144,7 @@ static void let(struct plan *plan)
     plan->chars = NAME_CHARS + 2;
 }
 
-/* The longest operand that may become a local for the sake of a line's length; NULL: none. */
+/* The longest operand that may become a local to shorten the line; NULL: there is none. */
 static struct plan *longest_operand(const struct scheduler *s, const struct plan *plan)
 {
     struct plan *longest = NULL;
@@ -159,8 +160,8 @@ static struct plan *longest_operand(const struct scheduler *s, const struct plan
 }
 
 /*
- * Sums the operands up; the longest of them become locals until the whole is no longer than a line.
- * Where hardly anything would remain without them, the line may be longer.
+ * Sums up the operands. The longest ones become locals until the expression fits in a line. The
+ * line may be longer if little of it would remain.
  */
 static void measure(const struct scheduler *s, struct plan *plan)
 {
@@ -185,7 +186,7 @@ static void measure(const struct scheduler *s, struct plan *plan)
     }
 }
 
-/* Operators on what is at hand are cheaper repeated than stored. */
+/* An operator on locals and variables costs less to repeat than to store. */
 static bool is_cheap(const struct plan *plan)
 {
     if (!(ir_op_info(plan->op)->flags & OP_OPERATOR) || plan->op == IR_SELECT
@@ -196,7 +197,7 @@ static bool is_cheap(const struct plan *plan)
     return (uint32_t)plan->cost * plan->uses <= (uint32_t)plan->cost + COST_LOCAL + plan->uses;
 }
 
-/* A part of something that has a name. */
+/* True for a part of a local or variable. */
 static bool is_part(struct scheduler *s, const struct plan *plan)
 {
     if (plan->op == IR_RESULT)
@@ -208,7 +209,7 @@ static bool is_part(struct scheduler *s, const struct plan *plan)
     return whole->flags & PLAN_LET || whole->op == IR_RESULT || whole->num_args == 0;
 }
 
-/* May an arm become a local for the sake of let_arms? What has a name already is not copied. */
+/* True if an arm may become a local for let_arms. A local or variable needs no copy. */
 static bool is_little_work(struct scheduler *s, const struct plan *arm)
 {
     return arm->flags & PLAN_LOOP && (arm->num_args > 0 || arm->op == IR_CONTEXT)
@@ -217,8 +218,8 @@ static bool is_little_work(struct scheduler *s, const struct plan *arm)
 }
 
 /*
- * A choice between locals and constants is one operation; between expressions it is a branch. In a
- * loop, what is little work is rather done in vain; elsewhere one line reads better.
+ * A choice between locals and constants is one operation, and a choice between expressions is a
+ * branch. So arms become locals in a loop if they are cheap; elsewhere one line reads better.
  */
 static void let_arms(struct scheduler *s, const struct plan *plan)
 {
@@ -234,7 +235,7 @@ static void let_arms(struct scheduler *s, const struct plan *plan)
             let(arms[i]);
 }
 
-/* Where only variables have parts, what a part is taken of becomes one. */
+/* For targets in which only variables have parts: the operand of a part becomes a local. */
 static void let_wholes(struct scheduler *s, const struct plan *plan)
 {
     uint8_t op = plan->op;
@@ -250,7 +251,7 @@ static void let_wholes(struct scheduler *s, const struct plan *plan)
     }
 }
 
-/* Is the node to have a name? */
+/* True if the node becomes a local. */
 static bool is_wanted(const struct plan *plan)
 {
     unsigned flags = plan->flags;
@@ -261,7 +262,7 @@ static bool is_wanted(const struct plan *plan)
     return (plan->uses > 1 || flags & PLAN_MOVED) && !is_cheap(plan);
 }
 
-/* Operands first. */
+/* Chooses locals, operands first. */
 void choose_locals(struct scheduler *s)
 {
     bool names_wholes = s->shader->rules.names_wholes;

@@ -25,7 +25,7 @@ void names_open_scope(struct name_set *names)
     names->scope++;
 }
 
-/* Index + 1 of the entry of a name, of whatever scope; 0: there is none. */
+/* 1 + index of the entry of a name, in any scope; 0: there is none. */
 static uint32_t find(const struct name_set *names, const char *text, size_t len, uint32_t hash)
 {
     for (uint32_t at = hash, found; (found = table_next(&names->table, hash, &at));) {
@@ -43,7 +43,7 @@ static bool is_over(const struct name_set *names, const struct name_entry *entry
     return entry->scope != 0 && entry->scope != names->scope;
 }
 
-/* The index of a name in the current scope; *out_new: it was free. */
+/* The index of a name in the current scope. *out_new: the name was free. */
 static uint32_t take(struct name_set *names, const char *text, size_t len, bool *out_new)
 {
     uint32_t hash = hash_bytes(text, len), found = find(names, text, len, hash);
@@ -84,7 +84,7 @@ static size_t put_number(char *out, uint32_t number)
 
 enum { LONGEST_SUFFIX = sizeof "_4294967295" };
 
-/* The name with an underscore behind it, and room for a number. */
+/* The name with an underscore as suffix, and room for a number. */
 static char *with_underscore(const struct name_set *names, const char *text, size_t *len)
 {
     assert(*len > 0);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * names: unique identifiers, of interface variables and of everything that a stage declares.
+ * names: unique identifiers for interface variables and all declarations of a stage.
  *
- * There is no global counter: the second "roughness" of a function is "roughness_2", so that a
- * small edit of the input gives a small difference in the output. A word that the language reserves
- * gets an underscore.
+ * There is no global counter: the second "roughness" of a function is "roughness_2", so a small
+ * edit of the input gives a small difference in the output. A reserved word of the language gets an
+ * underscore.
  */
 #ifndef MXG_SHADER_NAMES_H
 #define MXG_SHADER_NAMES_H
@@ -15,11 +15,11 @@
 struct name_entry {
     const char *text;
     uint32_t len;
-    uint32_t scope; /* 0: file scope; else a function, whose names are free again after it */
-    uint32_t next;  /* the number to try for the next of this name */
+    uint32_t scope; /* 0: file scope; otherwise a function, which frees its names at its end */
+    uint32_t next;  /* next number to try for this name */
 };
 
-struct spell_name { /* as it is written */
+struct spell_name { /* in the output */
     const char *text;
     size_t len;
 };
@@ -28,21 +28,24 @@ struct name_set {
     struct arena *arena;
     const struct lang_syntax *syntax; /* NULL: no word is reserved */
     VEC(struct name_entry) entries;
-    struct table table; /* entry + 1 */
-    uint32_t scope;     /* of the function at hand; 0 outside */
+    struct table table; /* 1 + index of the entry */
+    uint32_t scope;     /* of the current function; 0 at file scope */
 };
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax);
-/* Takes the names of the frame that the speller writes around every shader: "main", "vd"… */
+/* Takes the names in the frame of every shader: "main", "vd", … */
 void names_take_frame(struct name_set *names);
-/* A new function: the names of the one before are free again. */
+/* Opens the scope of a new function, which frees the names of the previous one. */
 void names_open_scope(struct name_set *names);
-/* Texts that these two get must live as long as the set. */
-/* `text` as an identifier, with a number behind it if the name is reserved or taken. */
+/* The texts for the next two functions must live as long as the set. */
+/* Makes `text` an identifier, with a number as suffix if the name is taken. */
 struct spell_name names_unique(struct name_set *names, const char *text, size_t len);
-/* Takes a name as it is; false if it is taken already. */
+/* Takes a name unchanged; false if it is taken already. */
 bool names_take(struct name_set *names, const char *text, size_t len);
-/* Would names_unique give an identifier as it is, but for the underscore of reserved words? */
+/*
+ * True if names_unique would return the identifier unchanged, apart from the underscore of a
+ * reserved word.
+ */
 bool names_is_free(const struct name_set *names, const char *text, size_t len);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The reflection as JSON (docs/reflection.md). Fields that say nothing are left out. */
+/* The reflection as JSON (docs/reflection.md). Empty fields are left out. */
 #include "shader/reflect.h"
 
 #include <assert.h>
@@ -10,7 +10,7 @@ void reflect_id(struct reflect *r, const char *key, str_id value)
     json_put_text(&r->json, key, str_text(r->shader->strings, value));
 }
 
-/* JSON has no word for infinities and NaN. */
+/* JSON cannot express infinities and NaN. */
 static void write_scalar(struct text *out, ir_type_id scalar, union ir_word word)
 {
     if (scalar == IR_TYPE_BOOL)

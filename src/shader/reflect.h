@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* reflect.c: what the reflection of a shader and that of a network write alike. */
+/* reflect.c: the functions that the reflections of shaders and networks share. */
 #ifndef MXG_SHADER_REFLECT_H
 #define MXG_SHADER_REFLECT_H
 
@@ -12,9 +12,9 @@ struct reflect {
     const struct shader_reflect_options *options;
 };
 
-/* An item of an object whose value is an interned string of the shader; none for the empty one. */
+/* Writes an item with an interned string of the shader; nothing for the empty string. */
 void reflect_id(struct reflect *r, const char *key, str_id value);
-/* An item of an object with a number, a truth value, or a flat array of them. */
+/* Writes an item with a number, a truth value, or a flat array of these. */
 void reflect_value(struct json *json, const char *key, const struct ir_value *value);
 
 #endif

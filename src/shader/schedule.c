@@ -45,8 +45,8 @@ static void need_verbatim(struct scheduler *s, uint32_t callee)
 }
 
 /*
- * Must all pixels make it together? An IR function counts as soon as derivatives are in it or in
- * its arguments.
+ * True if all pixels must run the call together. A call of an IR function counts if its body or its
+ * arguments have derivatives.
  */
 static bool needs_neighbours(const struct ir_graph *graph, const struct ir_node *call)
 {
@@ -54,7 +54,7 @@ static bool needs_neighbours(const struct ir_graph *graph, const struct ir_node 
                                      : graph->callees.items[call->attr].derivative;
 }
 
-/* What the shader must have for a call; returns flags that follow from it. */
+/* Records the needs of a call; returns the flags that follow from them. */
 static unsigned note_call(struct scheduler *s, ir_ref ref, const struct ir_node *node)
 {
     if (node->op == IR_CALL)
@@ -77,7 +77,7 @@ static void note_variable(const struct scheduler *s, uint32_t index)
         s->shader->variables.items[variable->fallback - 1].stages |= s->stage_bit;
 }
 
-/* The same as note_call for any node. */
+/* Like note_call, for any node. */
 static inline unsigned note_needs(struct scheduler *s, ir_ref ref, const struct ir_node *node)
 {
     switch (node->op) {
@@ -101,7 +101,7 @@ static unsigned locals_below(const struct scheduler *s, const struct ir_node *no
     return flags & PLAN_LOCAL;
 }
 
-/* What the node depends on follows from its operands, which are reached before. */
+/* Records a node after its operands, from which it inherits dependences. */
 static inline void reach_node(struct scheduler *s, ir_ref ref)
 {
     assert(s->reached.len < s->reached.cap);
@@ -121,7 +121,7 @@ static inline void reach_node(struct scheduler *s, ir_ref ref)
     s->reached.items[s->reached.len++] = ref;
 }
 
-/* The walk down from an effect's value; what is reached already is left out. */
+/* Walks down from the value of an effect. Skips reached nodes. */
 static void collect(struct scheduler *s, ir_ref ref)
 {
     const struct ir_node *nodes = s->graph->nodes.items;
@@ -192,7 +192,7 @@ static uint32_t common_region(const struct scheduler *s, uint32_t a, uint32_t b)
     return a;
 }
 
-/* The effect that stands directly in `region` and is, or holds, `effect`. */
+/* The effect in `region` that is `effect` or contains it. */
 static uint32_t lift(const struct scheduler *s, uint32_t effect, uint32_t region)
 {
     for (uint32_t r = s->region_of.items[effect]; r != region; r = s->regions.items[r].parent)
@@ -201,7 +201,7 @@ static uint32_t lift(const struct scheduler *s, uint32_t effect, uint32_t region
     return effect;
 }
 
-/* What one use says of a node; of `effect` only nodes that read a LOCAL want to know. */
+/* Records a use of a node. Only nodes that read a LOCAL need `effect`. */
 static inline void use(const struct scheduler *s, struct plan *plan, uint32_t uses, uint32_t region,
                        uint32_t first)
 {
@@ -217,7 +217,7 @@ static inline void use_local(struct plan *plan, uint32_t effect)
     plan->effect = plan->effect == NO_EFFECT || plan->effect == effect ? effect : MANY_EFFECTS;
 }
 
-/* Out of loops and branches, as far as the node may and should go. */
+/* Moves a node out of loops and branches, as far as possible and useful. */
 static inline void move_out(const struct scheduler *s, struct plan *plan)
 {
     bool neighbours = plan->flags & PLAN_NEIGHBOURS;
@@ -234,17 +234,17 @@ static inline void move_out(const struct scheduler *s, struct plan *plan)
     }
 }
 
-/* Are all operands but the first evaluated only sometimes? */
+/* True if all operands but the first are evaluated conditionally. */
 static inline bool has_arms(const struct plan *plan)
 {
     return plan->op == IR_SELECT || plan->op == IR_LAND || plan->op == IR_LOR;
 }
 
-/* What a node's place says of its operands. That of the absent one stands for nothing. */
+/* Records the uses of a node's operands. The plan of the absent operand has no meaning. */
 static inline void place_operands(const struct scheduler *s, struct plan *plans,
                                   const struct plan *plan)
 {
-    /* a result is another name of its call */
+    /* a RESULT is another name of its call */
     uint32_t uses = plan->op == IR_RESULT ? plan->uses : 1;
     uint32_t region = plan->region, first = plan->first;
     uint8_t in_arm = plan->flags & PLAN_IN_ARM;
@@ -261,7 +261,7 @@ static inline void place_operands(const struct scheduler *s, struct plan *plans,
             use_local(&plans[*arg], plan->effect);
 }
 
-/* Users first: where each node belongs. */
+/* Finds the region of each node, users first. */
 static void find_places(struct scheduler *s, const struct effect_list *effects)
 {
     struct plan *plans = s->plans;
@@ -284,8 +284,8 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
 /* ---- Statements ---- */
 
 /*
- * The nodes that become locals, in the order in which they were reached; they stand before the
- * effects that need them first.
+ * Collects the nodes that become locals, in the order of their discovery. Each stands before the
+ * first effect that needs it.
  */
 static void find_lets(struct scheduler *s)
 {
@@ -301,11 +301,11 @@ static void find_lets(struct scheduler *s)
     }
 }
 
-/* The effects with the LETs in front of those that need them first. */
+/* Writes the effects, with LETs before the first effects that need them. */
 static void write_statements(struct scheduler *s, const struct effect_list *effects,
                              struct effect_list *out)
 {
-    /* per effect: where its LETs begin */
+    /* by effect: the index of its first LET */
     uint32_t *first = ARENA_ARRAY(s->arena, uint32_t, effects->len + 1);
     for (uint32_t i = 0; i < s->lets.len; i++)
         first[plan_of(s, s->lets.items[i])->first + 1]++;
@@ -360,7 +360,7 @@ static void schedule_function(struct scheduler *s, uint32_t function, struct eff
     schedule_effects(s, &effects, out);
 }
 
-/* Schedules functions and what they call, callees first. */
+/* Schedules the called functions, callees first. */
 static void schedule_functions(struct scheduler *s)
 {
     struct caller {
@@ -372,7 +372,7 @@ static void schedule_functions(struct scheduler *s)
     vec_push(s->arena, &stack, (struct caller){.function = {.function = UINT32_MAX}}); /* main */
     for (;;) {
         struct caller *top = &vec_last(&stack);
-        if (s->called.len) { /* just scheduled */
+        if (s->called.len) { /* the top of the stack was scheduled just now */
             memcpy(vec_extend(s->arena, &top->called, s->called.len), s->called.items,
                    s->called.len * sizeof *s->called.items);
             s->called.len = 0;
@@ -412,7 +412,7 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage)
                                                       sizeof(struct plan))),
     };
     vec_reserve(s.arena, &s.reached, shader->graph->nodes.len);
-    s.plans[0] = (struct plan){0}; /* of absent operands */
+    s.plans[0] = (struct plan){0}; /* the plan of absent operands */
     s.is_reached[0] = true;
     s.stage->functions.len = s.stage->verbatim.len = 0;
     schedule_effects(&s, &s.stage->effects, &s.stage->statements);

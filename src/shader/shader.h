@@ -276,6 +276,9 @@ ir_ref shader_read(struct shader *shader, uint32_t variable);
  */
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type);
 
+/* The type of the uniform with a ShaderX name; VOID: there is none of this name. */
+ir_type_id shader_uniform_type(str_id name);
+
 /*
  * The private uniform or texture with a ShaderX name ("u_worldMatrix"). The first use adds it with
  * the type, default and semantic of streams.def; a name outside the table takes the type of the

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * topology: one number for what a shader does, apart from the names of its variables and the values
- * of its uniforms. Shaders of equal topology can share a program.
+ * topology: a hash of a shader without the names of its variables and the values of its uniforms.
+ * Shaders of equal topology can share a program.
  *
- * Nodes, functions and variables are numbered in the order in which the statements meet them, so
- * that nothing depends on how the graph came about. Portable functions of a library stand for
- * themselves by name and size; versions of them are hashed node by node.
+ * Nodes, functions and variables get numbers in the order of the statements, so that the hash does
+ * not depend on the history of the graph. The hash takes a portable function of a library by name
+ * and size, and a version of it node by node.
  */
 #include "base/hash.h"
 #include "shader/shader.h"
+#include "tree/walk.h"
 
 #include <assert.h>
 
@@ -16,10 +17,10 @@ struct hasher {
     const struct shader *shader;
     struct arena *arena;
     uint64_t hash;
-    uint32_t *node_numbers; /* node to its number, from 1; 0: not met */
+    uint32_t *node_numbers; /* by node: its number, from 1; 0: not reached yet */
     uint32_t num_nodes;
-    uint32_t *variable_numbers; /* variable to its place in the interface */
-    /* portable function to its place in the stage's reach; IR functions alike */
+    uint32_t *variable_numbers; /* by variable: 1 + its position in the interface */
+    /* by portable function, and by IR function: 1 + its position in the stage's reach */
     uint32_t *function_numbers;
     uint32_t *graph_function_numbers;
 };
@@ -35,7 +36,7 @@ static void add_text(struct hasher *h, str_id id)
     add(h, hash_stable(HASH_STABLE_SEED, text, str_len(h->shader->strings, id)));
 }
 
-/* Strings by their text: their ids depend on what else there is. */
+/* Adds a string by its text, because ids depend on the other strings. */
 static void add_words(struct hasher *h, ir_type_id type, const union ir_word *words)
 {
     if (type == IR_TYPE_STRING) {
@@ -61,12 +62,15 @@ static void add_variables(struct hasher *h)
 /* ---- Portable functions ---- */
 
 /*
- * What a node says beside its children. Globals are told apart by name: their ids depend on what
- * else was parsed.
+ * Adds the fields of a node of a version. Names tell globals apart: their ids depend on what else
+ * was parsed.
  */
-static void add_tree_node(struct hasher *h, const struct lang_unit *layer,
-                          const struct lang_node *node)
+static bool add_tree_node(void *user_data, lang_ref ref, unsigned access)
 {
+    struct hasher *h = user_data;
+    const struct lang_unit *unit = h->shader->unit;
+    const struct lang_node *node = &unit->nodes.items[ref];
+    (void)access;
     assert(node->kind != LANG_CALL || h->function_numbers[node->a]);
     uint64_t own =
         (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32;
@@ -78,28 +82,10 @@ static void add_tree_node(struct hasher *h, const struct lang_unit *layer,
         own |= node->b;
     add(h, own);
     if (node->kind == LANG_GLOBAL)
-        add_text(h, lang_global(h->shader->unit, node->a, NULL)->name);
+        add_text(h, lang_global(unit, node->a, NULL)->name);
     if (node->kind == LANG_CONST && node->type < IR_NUM_TYPES)
-        add_words(h, node->type, layer->words.items + node->a);
-}
-
-static void add_tree(struct hasher *h, const struct lang_unit *layer, lang_ref root)
-{
-    VEC(lang_ref) stack = {0};
-    vec_push(h->arena, &stack, root);
-    while (stack.len) {
-        const struct lang_node *node = &layer->nodes.items[vec_pop(&stack)];
-        add_tree_node(h, layer, node);
-        uint8_t fields = lang_child_fields[node->kind];
-        if (node->next)
-            vec_push(h->arena, &stack, node->next);
-        if (fields & LANG_CHILD_A && node->a)
-            vec_push(h->arena, &stack, node->a);
-        if (fields & LANG_CHILD_B && node->b)
-            vec_push(h->arena, &stack, node->b);
-        if (fields & LANG_CHILD_C && node->c)
-            vec_push(h->arena, &stack, node->c);
-    }
+        add_words(h, node->type, unit->words.items + node->a);
+    return true;
 }
 
 static void add_portable_functions(struct hasher *h, const struct lang_reach *reach)
@@ -111,7 +97,7 @@ static void add_portable_functions(struct hasher *h, const struct lang_reach *re
         h->function_numbers[reach->functions.items[i]] = i + 1;
         add(h, (uint64_t)fn->return_type << 32 | (uint64_t)fn->num_params << 16 | fn->num_slots);
         if (layer == h->shader->unit && layer->base)
-            add_tree(h, layer, fn->body);
+            lang_walk(layer, fn->body, LANG_READ, add_tree_node, h);
         add_text(h, fn->name);
         add(h, fn->num_nodes);
     }

@@ -31,8 +31,7 @@ static lang_ref evaluate(struct spec *s, const struct lang_node *call, const lan
 static lang_ref note_call(struct spec *s, struct lang_node node, const lang_ref *args,
                           unsigned num_args, bool have_effects)
 {
-    fact few[SPEC_MAX_PARAMS];
-    fact *facts = num_args <= SPEC_MAX_PARAMS ? few : ARENA_ARRAY(s->unit->arena, fact, num_args);
+    fact *facts = ARENA_ARRAY(s->unit->arena, fact, num_args);
     struct chain chain = {0};
     for (unsigned i = 0; i < num_args; i++) {
         const struct lang_node *arg = spec_node(s, args[i]);
@@ -53,9 +52,7 @@ lang_ref spec_call(struct spec *s, struct lang_node node)
     const struct lang_function *fn = lang_function(s->unit, node.a, &layer);
     const struct lang_slot *params = ast_slot(layer, fn, 0);
     uint32_t num_args = fn->num_params, num_effects = s->num_effects, i = 0;
-    lang_ref few[SPEC_MAX_PARAMS];
-    lang_ref *args =
-        num_args <= SPEC_MAX_PARAMS ? few : ARENA_ARRAY(s->unit->arena, lang_ref, num_args);
+    lang_ref *args = ARENA_ARRAY(s->unit->arena, lang_ref, num_args);
     bool has_outputs = false;
     for (lang_ref ref = node.b; ref; ref = ast_node(s->layer, ref)->next, i++) {
         bool is_input = params[i].mode == LANG_IN;

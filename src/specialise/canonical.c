@@ -18,13 +18,9 @@ struct copier {
     const struct lang_unit *made; /* layer of the versions */
     VEC(lang_ref) calls; /* calls of the function; a call comes after the calls in its arguments */
     uint8_t *is_used;    /* by slot */
-    /* open addressing: 1 + a function, for each distinct sequence of slots */
-    struct table runs;
-    uint32_t num_effects; /* number of calls so far that assign to their arguments */
-    bool is_simple;       /* no call has very many arguments, or arguments with effects */
+    struct table runs;   /* 1 + a function, for each distinct sequence of slots */
+    bool is_simple;      /* no call has very many arguments, or arguments with effects */
 };
-
-static lang_ref copy_list(struct copier *c, lang_ref first);
 
 static uint32_t copy_words(struct copier *c, const struct lang_unit *from, uint32_t first,
                            uint32_t count)
@@ -36,16 +32,6 @@ static uint32_t copy_words(struct copier *c, const struct lang_unit *from, uint3
     return at;
 }
 
-static bool has_outputs(const struct copier *c, uint32_t function)
-{
-    const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(c->made, function, &layer);
-    for (uint32_t i = 0; i < fn->num_params; i++)
-        if (ast_slot(layer, fn, i)->mode != LANG_IN)
-            return true;
-    return false;
-}
-
 static uint32_t given_function(const struct copier *c, uint32_t id)
 {
     if (id < c->made->base_functions)
@@ -55,74 +41,34 @@ static uint32_t given_function(const struct copier *c, uint32_t id)
     return c->made->versions.items[id].origin;
 }
 
-static void copy_call(struct copier *c, struct lang_node *node)
+static bool is_simple_call(const struct copier *c, const struct lang_node *call)
 {
-    uint32_t num_effects = c->num_effects;
-    node->b = copy_list(c, node->b);
-    c->is_simple &= c->num_effects == num_effects
-                    && lang_function(c->made, node->a, NULL)->num_params <= SPEC_MAX_PARAMS;
-    c->num_effects += has_outputs(c, node->a);
-    node->a = given_function(c, node->a);
+    uint32_t num_args = 0;
+    for (lang_ref arg = call->b; arg; arg = ast_node(c->to, arg)->next, num_args++)
+        if (lang_has_effects(c->to, arg))
+            return false;
+    return num_args <= SPEC_MAX_PARAMS;
 }
 
-static lang_ref copy_node(struct copier *c, lang_ref ref)
+static lang_ref copy_node(void *user_data, struct lang_node node)
 {
-    if (!ref)
-        return 0;
-    struct lang_node node = *ast_node(c->from, ref);
-    node.next = 0;
+    struct copier *c = user_data;
+    lang_ref copy = c->to->nodes.len;
     switch (node.kind) {
     case LANG_CONST:
         node.a = copy_words(c, c->from, node.a, ir_type_info(node.type)->components);
         node.c = 0;
         break;
     case LANG_VAR: c->is_used[node.a] = true; break;
-    case LANG_OP: node.a = copy_list(c, node.a); break;
-    case LANG_BLOCK:
-        node.a = copy_list(c, node.a);
-        node.b = copy_list(c, node.b);
-        break;
-    case LANG_CALL: copy_call(c, &node); break;
-    case LANG_DECLARE: node.b = copy_node(c, node.b); break;
-    case LANG_ASSIGN:
-        node.a = copy_node(c, node.a);
-        node.b = copy_node(c, node.b);
-        node.c = 0;
-        break;
-    case LANG_EXPR:
-    case LANG_RETURN: node.a = copy_node(c, node.a); break;
-    case LANG_IF:
-        node.a = copy_node(c, node.a);
-        node.b = copy_node(c, node.b);
-        node.c = copy_node(c, node.c);
-        break;
-    case LANG_FOR:
-    case LANG_WHILE:
-    case LANG_DO:
-        node.a = copy_list(c, node.a);
-        node.b = copy_node(c, node.b);
-        node.c = copy_node(c, node.c);
+    case LANG_ASSIGN: node.c = 0; break;
+    case LANG_CALL:
+        node.a = given_function(c, node.a);
+        c->is_simple &= is_simple_call(c, &node);
+        vec_push(c->to->arena, &c->calls, copy);
         break;
     default: break;
     }
-    lang_ref copy = c->to->nodes.len;
     vec_push(c->to->arena, &c->to->nodes, node);
-    if (node.kind == LANG_CALL)
-        vec_push(c->to->arena, &c->calls, copy);
-    return copy;
-}
-
-static lang_ref copy_list(struct copier *c, lang_ref first)
-{
-    lang_ref copy = 0, last = 0;
-    for (lang_ref ref = first; ref; ref = ast_node(c->from, ref)->next) {
-        lang_ref item = copy_node(c, ref);
-        if (last)
-            c->to->nodes.items[last].next = item;
-        else
-            copy = item;
-        last = item;
-    }
     return copy;
 }
 
@@ -184,7 +130,7 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
     c->calls.len = 0;
     c->is_simple = true;
     c->is_used = arena_zalloc(c->to->arena, fn.num_slots);
-    fn.body = copy_node(c, fn.body);
+    fn.body = lang_copy(c->from, fn.body, c->to, copy_node, c);
     fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;
     const uint32_t *callees = ast_callees(c->from, &fn), *globals = ast_globals(c->from, &fn);
     fn.first_ref = copy_refs(c, callees, fn.num_callees, true);

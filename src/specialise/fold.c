@@ -66,7 +66,7 @@ static lang_ref as_result(struct spec *s, const struct lang_node *op, lang_ref r
 
 static lang_ref zero(struct spec *s, const struct lang_node *op, lang_ref dropped)
 {
-    if (spec_has_effects(s, dropped))
+    if (lang_has_effects(s->unit, dropped))
         return 0;
     return spec_constant(s, &(struct ir_value){.type = op->type});
 }
@@ -113,7 +113,7 @@ static lang_ref simplify_logic(struct spec *s, const struct lang_node *op, lang_
     if (is_false_or_true(s, b, neutral))
         return as_result(s, op, a);
     bool decided = is_false_or_true(s, a, !neutral)
-                   || (is_false_or_true(s, b, !neutral) && !spec_has_effects(s, a));
+                   || (is_false_or_true(s, b, !neutral) && !lang_has_effects(s->unit, a));
     return decided
                ? spec_constant(s, &(struct ir_value){.type = IR_TYPE_BOOL, .w = {{.u = !neutral}}})
                : 0;
@@ -121,9 +121,9 @@ static lang_ref simplify_logic(struct spec *s, const struct lang_node *op, lang_
 
 static lang_ref simplify_mix(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {
-    if (is_number(s, args[2], 0) && !spec_has_effects(s, args[1]))
+    if (is_number(s, args[2], 0) && !lang_has_effects(s->unit, args[1]))
         return as_result(s, op, args[0]);
-    if (is_number(s, args[2], 1) && !spec_has_effects(s, args[0]))
+    if (is_number(s, args[2], 1) && !lang_has_effects(s->unit, args[0]))
         return as_result(s, op, args[1]);
     return 0;
 }

@@ -15,45 +15,23 @@ struct inlining {
     const lang_ref *args;          /* NULL: variables stay unchanged */
 };
 
-static lang_ref copy(struct inlining *in, lang_ref ref);
-
-static lang_ref copy_argument(struct inlining *in, uint32_t param)
+static lang_ref copy_node(void *user_data, struct lang_node node)
 {
-    assert(param < AST_MAX_OPERANDS);
-    struct inlining plain = {in->s, in->s->unit, NULL};
-    return copy(&plain, in->args[param]);
-}
-
-static lang_ref copy_constant(struct inlining *in, struct lang_node node)
-{
-    struct ir_value value = ast_value(node.type, ast_words(in->layer, &node));
-    return spec_constant(in->s, &value);
-}
-
-static lang_ref copy(struct inlining *in, lang_ref ref)
-{
-    struct lang_node node = *ast_node(in->layer, ref);
-    if (node.kind == LANG_VAR && in->args)
-        return copy_argument(in, node.a);
-    if (node.kind == LANG_CONST)
-        return copy_constant(in, node);
-    if (node.kind != LANG_OP && node.kind != LANG_CALL)
-        return spec_add(in->s, node);
-    uint32_t *first = node.kind == LANG_OP ? &node.a : &node.b;
+    const struct inlining *in = user_data;
+    struct spec *s = in->s;
     lang_ref operands[AST_MAX_OPERANDS];
-    struct chain chain = {0};
-    unsigned count = 0;
-    for (lang_ref child = *first; child; child = ast_node(in->layer, child)->next, count++) {
-        lang_ref operand = copy(in, child);
-        spec_append(in->s, &chain, operand);
-        if (count < AST_MAX_OPERANDS)
-            operands[count] = operand;
+    if (node.kind == LANG_VAR && in->args) {
+        struct inlining plain = {s, s->unit, NULL};
+        assert(node.a < AST_MAX_OPERANDS);
+        return lang_copy(s->unit, in->args[node.a], s->unit, copy_node, &plain);
     }
-    *first = chain.first;
-    lang_ref folded = node.kind == LANG_OP && node.op != IR_MEMBER && node.op != IR_INDEX
-                          ? spec_fold(in->s, &node, operands, count)
-                          : 0;
-    return folded ? folded : spec_add(in->s, node);
+    if (node.kind == LANG_CONST)
+        return spec_constant_words(s, node.type, ast_words(in->layer, &node));
+    if (node.kind != LANG_OP || node.op == IR_MEMBER || node.op == IR_INDEX)
+        return spec_add(s, node);
+    unsigned count = ast_list(s->unit, node.a, operands, AST_MAX_OPERANDS);
+    lang_ref folded = spec_fold(s, &node, operands, count);
+    return folded ? folded : spec_add(s, node);
 }
 
 /* True for a name, a number, or a part of a name: the code may repeat it. */
@@ -66,25 +44,20 @@ static bool is_trivial(const struct spec *s, lang_ref ref)
     return node->kind == LANG_VAR || node->kind == LANG_CONST || node->kind == LANG_GLOBAL;
 }
 
-/*
- * Counts the uses of parameters; false if the expression calls a function that assigns to its
- * arguments.
- */
-static bool count_uses(const struct lang_unit *layer, const struct spec *s, lang_ref ref,
-                       uint8_t *uses)
+struct use_counter {
+    const struct lang_unit *layer;
+    uint8_t uses[AST_MAX_OPERANDS]; /* by parameter */
+};
+
+/* Ends the walk at an assignment to an argument. */
+static bool count_use(void *user_data, lang_ref ref, unsigned access)
 {
-    const struct lang_node *node = ast_node(layer, ref);
+    struct use_counter *counter = user_data;
+    const struct lang_node *node = ast_node(counter->layer, ref);
     assert(node->kind != LANG_VAR || node->a < AST_MAX_OPERANDS);
     if (node->kind == LANG_VAR)
-        uses[node->a]++;
-    lang_ref child = node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;
-    for (uint32_t i = 0; child; child = ast_node(layer, child)->next, i++) {
-        if (node->kind == LANG_CALL && ast_param_mode(s->unit, node->a, i) != LANG_IN)
-            return false;
-        if (!count_uses(layer, s, child, uses))
-            return false;
-    }
-    return true;
+        counter->uses[node->a]++;
+    return !(access & LANG_WRITE);
 }
 
 lang_ref spec_inline(struct spec *s, const struct lang_node *call)
@@ -95,15 +68,16 @@ lang_ref spec_inline(struct spec *s, const struct lang_node *call)
     if (!returned || fn.num_nodes > MAX_NODES || fn.num_params > AST_MAX_OPERANDS
         || (fn.flags & LANG_FN_EXPRESSION))
         return 0;
-    uint8_t uses[AST_MAX_OPERANDS] = {0};
+    struct use_counter counter = {.layer = layer};
     lang_ref args[AST_MAX_OPERANDS];
-    if (!count_uses(layer, s, returned, uses))
+    if (!lang_walk(layer, returned, LANG_READ, count_use, &counter))
         return 0;
     ast_list(s->unit, call->b, args, AST_MAX_OPERANDS);
     for (uint32_t i = 0; i < fn.num_params; i++)
-        if (ast_slot(layer, &fn, i)->mode != LANG_IN || (uses[i] > 1 && !is_trivial(s, args[i]))
-            || (uses[i] == 0 && spec_has_effects(s, args[i])))
+        if (ast_slot(layer, &fn, i)->mode != LANG_IN
+            || (counter.uses[i] > 1 && !is_trivial(s, args[i]))
+            || (counter.uses[i] == 0 && lang_has_effects(s->unit, args[i])))
             return 0;
     struct inlining in = {s, layer, args};
-    return copy(&in, returned);
+    return lang_copy(layer, returned, s->unit, copy_node, &in);
 }

@@ -46,31 +46,3 @@ bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out)
     *out = ast_value(node->type, ast_words(s->unit, node));
     return true;
 }
-
-static bool calls_with_outputs(const struct spec *s, const struct lang_node *node)
-{
-    if (node->kind != LANG_CALL)
-        return false;
-    const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(s->unit, node->a, &layer);
-    for (uint32_t i = 0; i < fn->num_params; i++)
-        if (ast_slot(layer, fn, i)->mode != LANG_IN)
-            return true;
-    return false;
-}
-
-static lang_ref first_child(const struct lang_node *node)
-{
-    return node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;
-}
-
-bool spec_has_effects(const struct spec *s, lang_ref ref)
-{
-    const struct lang_node *node = ast_node(s->unit, ref);
-    if (calls_with_outputs(s, node))
-        return true;
-    for (lang_ref child = first_child(node); child; child = ast_node(s->unit, child)->next)
-        if (spec_has_effects(s, child))
-            return true;
-    return false;
-}

@@ -46,12 +46,18 @@ static bool is_same(const struct lang_unit *unit, ir_type_id type, fact a, fact 
     return memcmp(words + a, words + b, ir_type_info(type)->components * sizeof *words) == 0;
 }
 
+/* Argument `index` of a call. args NULL: all arguments vary. */
+static fact argument(const fact *args, uint32_t index)
+{
+    return args ? args[index] : FACT_VARIES;
+}
+
 static bool has_keys(const struct lang_unit *unit, const struct variant *variant,
                      const struct lang_slot *params, uint32_t num_params, const fact *args)
 {
     const fact *facts = unit->plan->facts.items + variant->first_fact;
     for (uint32_t i = 0; i < num_params; i++)
-        if (is_key(&params[i]) && !is_same(unit, params[i].type, facts[i], args[i]))
+        if (is_key(&params[i]) && !is_same(unit, params[i].type, facts[i], argument(args, i)))
             return false;
     return true;
 }
@@ -68,31 +74,15 @@ static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t 
     return plan->variants.len;
 }
 
-/* In an open plan: records the only variant of a function. */
-static uint32_t note_anything(struct lang_unit *unit, uint32_t function)
-{
-    struct lang_plan *plan = unit->plan;
-    assert(plan->is_open && function < plan->num_ids);
-    uint32_t num_params = lang_function(unit, function, NULL)->num_params;
-    if (plan->first_variant[function])
-        return plan->first_variant[function] - 1;
-    plan->first_variant[function] = add_variant(unit, function, num_params);
-    struct variant *variant = &vec_last(&plan->variants);
-    variant->keeps_unused = true;
-    for (uint32_t i = 0; i < num_params; i++)
-        plan->facts.items[variant->first_fact + i] = FACT_VARIES;
-    return plan->variants.len - 1;
-}
-
 uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args,
                         bool args_have_effects)
 {
     struct lang_plan *plan = unit->plan;
-    if (plan->is_open)
-        return note_anything(unit, function);
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(unit, function, &layer);
     const struct lang_slot *params = ast_slot(layer, fn, 0);
+    if (plan->is_open)
+        args = NULL;
     uint32_t num_params = fn->num_params, link = plan->first_variant[function], last = 0;
     while (link && !has_keys(unit, &plan->variants.items[link - 1], params, num_params, args)) {
         last = link;
@@ -110,11 +100,11 @@ uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *a
         if (!is_bindable(&params[i]))
             facts[i] = FACT_VARIES;
         else if (facts[i] == FACT_UNSEEN)
-            facts[i] = args[i];
-        else if (!is_same(unit, params[i].type, facts[i], args[i]))
+            facts[i] = argument(args, i);
+        else if (!is_same(unit, params[i].type, facts[i], argument(args, i)))
             facts[i] = FACT_VARIES;
     assert(variant->function == function && index < plan->variants.len);
-    variant->keeps_unused |= args_have_effects;
+    variant->keeps_unused |= plan->is_open || args_have_effects;
     return index;
 }
 
@@ -123,9 +113,7 @@ uint32_t lang_plan_call(struct lang_unit *unit, uint32_t id, const union ir_word
     plan_of(unit);
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(unit, id, &layer);
-    fact few[SPEC_MAX_PARAMS];
-    fact *facts =
-        fn->num_params <= SPEC_MAX_PARAMS ? few : ARENA_ARRAY(unit->arena, fact, fn->num_params);
+    fact *facts = ARENA_ARRAY(unit->arena, fact, fn->num_params);
     for (uint32_t i = 0; i < fn->num_params; i++) {
         bool is_known = args[i] && i < SPEC_MAX_PARAMS;
         uint32_t count = is_known ? ast_type_words(unit, ast_slot(layer, fn, i)->type) : 0;
@@ -140,7 +128,7 @@ uint32_t plan_note_any(struct lang_unit *unit, uint32_t function)
 {
     plan_of(unit);
     unit->plan->is_open = true;
-    return plan_note_call(unit, function, NULL, true);
+    return plan_note_call(unit, function, NULL, false);
 }
 
 uint32_t lang_plan_version(const struct lang_unit *unit, uint32_t call)

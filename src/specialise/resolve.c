@@ -22,10 +22,10 @@ static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t ver
 }
 
 /* True if a wrapper passes every parameter on once, unchanged, and computes nothing else. */
-static bool hands_on(const struct spec *s, const struct lang_unit *layer,
-                     const struct lang_function *wrapper, const struct lang_node *inner)
+static bool passes_through(const struct spec *s, const struct lang_unit *layer,
+                           const struct lang_function *wrapper, const struct lang_node *inner)
 {
-    uint32_t handed = 0, index = 0;
+    uint32_t passed = 0, index = 0;
     uint64_t seen = 0;
     for (lang_ref ref = inner->b; ref; ref = ast_node(layer, ref)->next, index++) {
         const struct lang_node *arg = ast_node(layer, ref);
@@ -36,9 +36,9 @@ static bool hands_on(const struct spec *s, const struct lang_unit *layer,
             || ast_slot(layer, wrapper, arg->a)->mode != ast_param_mode(s->unit, inner->a, index))
             return false;
         seen |= 1ull << arg->a;
-        handed++;
+        passed++;
     }
-    return handed == wrapper->num_params;
+    return passed == wrapper->num_params;
 }
 
 /* Copies a constant of the layer to the generation's unit. */
@@ -81,7 +81,7 @@ static lang_ref skip_wrapper(struct spec *s, const struct lang_node *call)
     const struct lang_node inner = *ast_node(layer, returned);
     if (inner.kind == LANG_CONST && wrapper.num_params == 0)
         return copy_constant(s, layer, &inner);
-    return inner.kind == LANG_CALL && hands_on(s, layer, &wrapper, &inner)
+    return inner.kind == LANG_CALL && passes_through(s, layer, &wrapper, &inner)
                ? call_inner(s, layer, call, inner)
                : 0;
 }

@@ -20,37 +20,26 @@ struct forwarder {
     bool any;
 };
 
-static lang_ref children_of(const struct lang_node *node)
-{
-    return node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;
-}
+struct value { /* an expression that may move */
+    const struct spec *s;
+    unsigned size; /* number of nodes */
+};
 
-/* The number of nodes of an expression; more than MAX_NODES if it reads an assigned variable. */
-static unsigned movable_size(const struct forwarder *f, lang_ref ref)
+/*
+ * Ends the walk over a value that stays: one of too many nodes, with an assigned variable, with
+ * effects, or with derivatives, which stay in code that all pixels run together.
+ */
+static bool may_move(void *user_data, lang_ref ref, unsigned access)
 {
-    const struct lang_node *node = spec_node(f->s, ref);
-    if (node->kind == LANG_VAR)
-        return f->s->slots[node->a].uses & SLOT_WRITTEN ? MAX_NODES + 1 : 1;
-    unsigned size = 1;
-    for (lang_ref child = children_of(node); child && size <= MAX_NODES;
-         child = spec_node(f->s, child)->next)
-        size += movable_size(f, child);
-    return size;
-}
-
-/* True for derivatives: these stay in code that all pixels run together. */
-static bool has_derivative(const struct forwarder *f, lang_ref ref)
-{
-    const struct lang_node *node = spec_node(f->s, ref);
-    if (node->kind == LANG_OP && ir_op_info(node->op)->flags & OP_DERIVATIVE)
-        return true;
-    if (node->kind == LANG_CALL
-        && lang_function(f->s->unit, node->a, NULL)->flags & LANG_FN_DERIVATIVE)
-        return true;
-    for (lang_ref child = children_of(node); child; child = spec_node(f->s, child)->next)
-        if (has_derivative(f, child))
-            return true;
-    return false;
+    struct value *value = user_data;
+    const struct spec *s = value->s;
+    const struct lang_node *node = ast_node(s->unit, ref);
+    bool is_derivative = node->kind == LANG_OP ? ir_op_info(node->op)->flags & OP_DERIVATIVE
+                         : node->kind == LANG_CALL
+                             ? lang_function(s->unit, node->a, NULL)->flags & LANG_FN_DERIVATIVE
+                             : false;
+    bool is_assigned = node->kind == LANG_VAR && s->slots[node->a].uses & SLOT_WRITTEN;
+    return ++value->size <= MAX_NODES && !(access & LANG_WRITE) && !is_assigned && !is_derivative;
 }
 
 static void consider(struct forwarder *f, lang_ref statement)
@@ -61,31 +50,34 @@ static void consider(struct forwarder *f, lang_ref statement)
     if (!node->b || f->reads[slot] != 1 || f->s->slots[slot].uses & SLOT_WRITTEN
         || ast_is_user_type(spec_node(f->s, node->b)->type))
         return;
-    if (!spec_has_effects(f->s, node->b) && movable_size(f, node->b) <= MAX_NODES
-        && !has_derivative(f, node->b))
+    struct value value = {.s = f->s};
+    if (lang_walk(f->s->unit, node->b, LANG_READ, may_move, &value))
         f->declared[slot] = statement;
 }
 
-/* Replaces variables that this list declares by their values. */
-static void replace(struct forwarder *f, lang_ref ref)
+static bool replace_variable(void *user_data, lang_ref ref, unsigned access)
 {
+    struct forwarder *f = user_data;
     struct lang_node *node = spec_node(f->s, ref);
-    if (node->kind == LANG_VAR) {
-        lang_ref declaration = f->declared[node->a];
-        if (!declaration)
-            return;
-        assert(f->reads[node->a] == 1);
-        struct lang_node value = *spec_node(f->s, spec_node(f->s, declaration)->b);
-        f->declared[node->a] = 0;
-        f->s->slots[node->a].uses = 0;
-        spec_node(f->s, declaration)->b = 0; /* marks the declaration as removed */
-        value.next = node->next;
-        *node = value;
-        f->any = true;
-        return;
-    }
-    for (lang_ref child = children_of(node); child; child = spec_node(f->s, child)->next)
-        replace(f, child);
+    (void)access;
+    lang_ref declaration = node->kind == LANG_VAR ? f->declared[node->a] : 0;
+    if (!declaration)
+        return true;
+    assert(f->reads[node->a] == 1);
+    struct lang_node value = *spec_node(f->s, spec_node(f->s, declaration)->b);
+    f->declared[node->a] = 0;
+    f->s->slots[node->a].uses = 0;
+    spec_node(f->s, declaration)->b = 0; /* marks the declaration as removed */
+    value.next = node->next;
+    *node = value;
+    f->any = true;
+    return true;
+}
+
+/* Replaces variables that this list declares by their values. */
+static void replace(struct forwarder *f, lang_ref expression)
+{
+    lang_walk(f->s->unit, expression, LANG_READ, replace_variable, f);
 }
 
 static lang_ref forward_list(struct forwarder *f, lang_ref first);
@@ -101,16 +93,12 @@ static void forward_statement(struct forwarder *f, lang_ref ref)
     struct lang_node node = *spec_node(f->s, ref);
     switch (node.kind) {
     case LANG_DECLARE:
-        if (node.b)
-            replace(f, node.b);
+        replace(f, node.b);
         consider(f, ref);
         break;
     case LANG_ASSIGN: replace(f, node.b); break;
     case LANG_EXPR:
-    case LANG_RETURN:
-        if (node.a)
-            replace(f, node.a);
-        break;
+    case LANG_RETURN: replace(f, node.a); break;
     case LANG_IF:
         replace(f, node.a);
         forward_block(f, node.b);

@@ -3,12 +3,12 @@
  * The partial evaluator. It first collects the arguments of each function, callers before callees,
  * and then makes each variant of a function once (plan.c):
  *
- *   forward  (statement.c, expression.c)  rebuilds the source tree in the generated unit with
- * constants for variables; folds, and skips branches that never run resolve  (resolve.c) redirects
- * calls to versions, or simplifies them backward (sweep.c)                    unlinks statements
- * without a use, counts uses of slots single   (single.c)                   replaces variables with
- * a single read by their values finish   (specialise.c)               renumbers slots and completes
- * the function record
+ *     forward    rebuilds the source tree in the unit of the generation, with constants for
+ *                variables; folds, and skips branches that never run (statement.c, expression.c)
+ *     resolve    redirects calls to versions, or simplifies them (resolve.c)
+ *     backward   unlinks statements without a use, and counts the uses of slots (sweep.c)
+ *     single     replaces variables with a single read by their values (single.c)
+ *     finish     renumbers slots, and completes the function's record (specialise.c)
  *
  * Until the last step, the new tree uses the slots of the source.
  */
@@ -17,6 +17,8 @@
 
 #include "specialise/specialise.h"
 #include "tree/ast.h"
+#include "tree/uses.h"
+#include "tree/walk.h"
 
 enum {
     SPEC_MAX_PARAMS = 64, /* parameters beyond this are never bound or dropped */
@@ -50,7 +52,7 @@ struct lang_plan {
     VEC(struct variant) variants;
     VEC(fact) facts;
     VEC(uint32_t) calls;
-    bool is_open;      /* unseen calls exist, so all arguments vary */
+    bool is_open;      /* unseen calls exist, so all arguments vary and no parameter is dropped */
     struct spec *spec; /* makes all versions and reuses its memory */
 };
 
@@ -88,9 +90,7 @@ struct spec {
     VEC(lang_ref) vars;   /* nodes of the result that name a slot: VAR and DECLARE */
     /* long CONST nodes of the result that stand for a slot */
     VEC(lang_ref) longs;
-    VEC(uint32_t) callees, globals; /* in the result, each once */
-    uint32_t num_nodes;
-    uint16_t flags; /* enum lang_function_flags of the result */
+    struct lang_uses uses; /* in the result */
 };
 
 /* The content of a node of the generated unit. */
@@ -110,8 +110,6 @@ bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out); /* the 
 lang_ref spec_expression(struct spec *s, lang_ref ref);
 /* the target of an assignment or an out argument: keeps its kind */
 lang_ref spec_target(struct spec *s, lang_ref ref);
-/* true if it calls a function that assigns to its arguments */
-bool spec_has_effects(const struct spec *s, lang_ref ref);
 
 /* call.c. Before resolve, a call has 1 + the callee's variant in c. */
 lang_ref spec_call(struct spec *s, struct lang_node call);
@@ -140,12 +138,13 @@ lang_ref spec_single(struct spec *s, lang_ref first);
 /* plan.c: the unit's plan; the first call makes it. */
 struct lang_plan *plan_of(struct lang_unit *unit);
 
-/*
- * plan.c: records the arguments of a call. Returns the variant of the callee; later calls may move
- * it.
- */
-/* makes the plan an open one: no parameter is bound or dropped */
+/* plan.c: records calls with unknown arguments. The plan is open from then on. */
 uint32_t plan_note_any(struct lang_unit *unit, uint32_t function);
+
+/*
+ * plan.c: records the arguments of a call; NULL: all vary. Returns the variant of the callee; later
+ * calls may move it.
+ */
 uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args,
                         bool args_have_effects);
 

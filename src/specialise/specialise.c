@@ -152,7 +152,7 @@ static void finish_slots(struct spec *s, struct lang_function *out, struct lang_
             continue;
         }
         if (ast_slot(s->layer, &s->fn, i)->type == IR_TYPE_STRING)
-            s->flags |= LANG_FN_STRINGS;
+            out->flags |= LANG_FN_STRINGS;
         add_slot(s, i, out);
     }
     out->num_params = out->num_slots;
@@ -167,27 +167,17 @@ static void finish_slots(struct spec *s, struct lang_function *out, struct lang_
     }
 }
 
-static void push_refs(struct lang_unit *unit, const uint32_t *ids, uint32_t count)
-{
-    if (count)
-        memcpy(vec_extend(unit->arena, &unit->refs, count), ids, count * sizeof *ids);
-}
-
 static uint32_t add_version(struct spec *s, lang_ref body)
 {
     struct lang_unit *unit = s->unit;
     struct lang_function fn = s->fn;
     struct lang_version version = {.origin = variant_of(s)->function};
+    fn.flags &= LANG_FN_EXPRESSION;
     finish_slots(s, &fn, &version);
     assert(fn.num_params <= s->fn.num_params);
-    fn.flags = s->flags;
     fn.body = spec_add(s, (struct lang_node){.kind = LANG_BLOCK, .a = body});
-    fn.num_nodes = s->num_nodes;
-    fn.first_ref = unit->refs.len;
-    fn.num_callees = s->callees.len;
-    fn.num_globals = s->globals.len;
-    push_refs(unit, s->callees.items, s->callees.len);
-    push_refs(unit, s->globals.items, s->globals.len);
+    lang_uses_record(&s->uses, unit, &fn);
+    lang_inherit_flags(unit, &fn);
     while (unit->versions.len < unit->functions.len) /* functions that the parser wrote */
         vec_push(unit->arena, &unit->versions, (struct lang_version){LANG_NONE});
     vec_push(unit->arena, &unit->functions, fn);
@@ -198,9 +188,8 @@ static uint32_t add_version(struct spec *s, lang_ref body)
 
 static void start_backward(struct spec *s)
 {
-    s->vars.len = s->longs.len = s->callees.len = s->globals.len = 0;
-    s->num_nodes = s->num_lists = 0;
-    s->flags = LANG_FN_PURE | LANG_FN_STRAIGHT | (s->fn.flags & LANG_FN_EXPRESSION);
+    s->vars.len = s->longs.len = s->num_lists = 0;
+    lang_uses_init(&s->uses);
     if (s->fn.num_slots)
         memset(s->slots, 0, s->fn.num_slots * sizeof *s->slots);
     for (uint32_t i = 0; i < s->fn.num_params; i++)

@@ -8,63 +8,19 @@
 
 #include <assert.h>
 
-static void forget_outputs(struct spec *s, lang_ref expression);
-
-static void forget_list(struct spec *s, lang_ref first)
+static bool forget_variable(void *user_data, lang_ref ref, unsigned access)
 {
-    for (lang_ref ref = first; ref; ref = ast_node(s->layer, ref)->next)
-        forget_outputs(s, ref);
+    struct spec *s = user_data;
+    const struct lang_node *node = ast_node(s->layer, ref);
+    if (node->kind == LANG_DECLARE || (node->kind == LANG_VAR && access & LANG_WRITE))
+        s->known[node->a] = 0;
+    return true;
 }
 
-static void forget_outputs(struct spec *s, lang_ref expression)
+/* Forgets the constants of all variables that a tree of the source may assign. */
+static void forget_assigned(struct spec *s, lang_ref tree)
 {
-    const struct lang_node *node = ast_node(s->layer, expression);
-    if (node->kind == LANG_OP) {
-        forget_list(s, node->a);
-    } else if (node->kind == LANG_CALL) {
-        const struct lang_unit *layer;
-        const struct lang_function *fn = lang_function(s->unit, node->a, &layer);
-        uint32_t i = 0;
-        for (lang_ref ref = node->b; ref; ref = ast_node(s->layer, ref)->next, i++)
-            if (ast_slot(layer, fn, i)->mode != LANG_IN)
-                s->known[ast_target_slot(s->layer, ref)] = 0;
-        forget_list(s, node->b);
-    }
-}
-
-/* Forgets the constants of all variables that a statement, or a nested one, may assign. */
-static void forget_assigned(struct spec *s, lang_ref statement)
-{
-    if (!statement)
-        return;
-    const struct lang_node *node = ast_node(s->layer, statement);
-    switch (node->kind) {
-    case LANG_DECLARE:
-    case LANG_ASSIGN:
-        s->known[node->kind == LANG_DECLARE ? node->a : ast_target_slot(s->layer, node->a)] = 0;
-        if (node->b)
-            forget_outputs(s, node->b);
-        break;
-    case LANG_EXPR: forget_outputs(s, node->a); break;
-    case LANG_BLOCK:
-        for (lang_ref ref = node->a; ref; ref = ast_node(s->layer, ref)->next)
-            forget_assigned(s, ref);
-        break;
-    case LANG_IF:
-        forget_outputs(s, node->a);
-        forget_assigned(s, node->b);
-        forget_assigned(s, node->c);
-        break;
-    case LANG_FOR:
-    case LANG_WHILE:
-    case LANG_DO:
-        forget_assigned(s, ast_step(s->layer, node));
-        if (node->b)
-            forget_outputs(s, node->b);
-        forget_assigned(s, node->c);
-        break;
-    default: break;
-    }
+    lang_walk(s->layer, tree, LANG_READ, forget_variable, s);
 }
 
 /*
@@ -206,10 +162,8 @@ static bool spec_if(struct spec *s, struct lang_node node, struct chain *out)
 
 static void forget_round(struct spec *s, const struct lang_node *loop)
 {
-    forget_assigned(s, ast_step(s->layer, loop));
+    forget_assigned(s, loop->b);
     forget_assigned(s, loop->c);
-    if (loop->b)
-        forget_outputs(s, loop->b);
 }
 
 static bool is_false(const struct spec *s, lang_ref condition)

@@ -9,97 +9,39 @@
 
 #include <assert.h>
 
-static bool holds(const uint32_t *items, uint32_t len, uint32_t id)
+/* ---- Uses in the remaining code ---- */
+
+static void use_variable(struct spec *s, lang_ref ref, unsigned access)
 {
-    for (uint32_t i = 0; i < len; i++)
-        if (items[i] == id)
-            return true;
-    return false;
+    struct spec_slot *slot = &s->slots[ast_node(s->unit, ref)->a];
+    slot->uses |=
+        (uint8_t)((access & LANG_READ ? SLOT_READ : 0) | (access & LANG_WRITE ? SLOT_WRITTEN : 0));
+    slot->mention = s->statement;
+    vec_push(s->unit->arena, &s->vars, ref);
 }
 
-/* ---- Uses in the remaining code, for the function's record ---- */
-
-static void use_expression(struct spec *s, lang_ref ref);
-
-/* A target: the assignment writes its variable and reads the indices. */
-static void use_target(struct spec *s, lang_ref ref, unsigned use)
+static void use_literal(struct spec *s, lang_ref ref)
 {
-    struct lang_node *node = spec_node(s, ref);
-    s->num_nodes++;
-    if (node->kind == LANG_VAR) {
-        s->slots[node->a].uses |= (uint8_t)use;
-        s->slots[node->a].mention = s->statement;
-        assert(node->a < s->fn.num_slots);
-        vec_push(s->unit->arena, &s->vars, ref);
-        return;
-    }
-    use_target(s, node->a, use);
-    for (lang_ref index = spec_node(s, node->a)->next; index; index = spec_node(s, index)->next)
-        use_expression(s, index);
+    struct spec_slot *slot = &s->slots[ast_node(s->unit, ref)->c - 1];
+    slot->literals = (uint8_t)(slot->literals + (slot->literals < 2));
+    vec_push(s->unit->arena, &s->longs, ref);
 }
 
-static void use_arguments(struct spec *s, const struct lang_node *call)
+static bool use_node(void *user_data, lang_ref ref, unsigned access)
 {
-    uint32_t i = 0;
-    for (lang_ref ref = call->b; ref; ref = spec_node(s, ref)->next, i++) {
-        uint8_t mode = ast_param_mode(s->unit, call->a, i);
-        if (mode == LANG_IN)
-            use_expression(s, ref);
-        else
-            use_target(s, ref, mode == LANG_OUT ? SLOT_WRITTEN : SLOT_WRITTEN | SLOT_READ);
-    }
-    assert(i == lang_function(s->unit, call->a, NULL)->num_params);
+    struct spec *s = user_data;
+    const struct lang_node *node = ast_node(s->unit, ref);
+    lang_uses_add(&s->uses, s->unit, node, s->unit->arena);
+    if (node->kind == LANG_VAR)
+        use_variable(s, ref, access);
+    else if (node->kind == LANG_CONST && node->c)
+        use_literal(s, ref);
+    return true;
 }
 
-static void use_callee(struct spec *s, uint32_t id)
+static void use_tree(struct spec *s, lang_ref ref, unsigned access)
 {
-    assert(id < s->unit->base_functions + s->unit->functions.len);
-    const struct lang_function *callee = lang_function(s->unit, id, NULL);
-    s->flags |= callee->flags & LANG_FN_DERIVATIVE;
-    s->flags &= (uint16_t)(callee->flags | ~(LANG_FN_PURE | LANG_FN_STRAIGHT));
-    if (!holds(s->callees.items, s->callees.len, id))
-        vec_push(s->unit->arena, &s->callees, id);
-}
-
-static void use_global(struct spec *s, const struct lang_node *node)
-{
-    uint8_t kind = lang_global(s->unit, node->a, NULL)->kind;
-    if (kind != LANG_GLOBAL_CONST)
-        s->flags &= (uint16_t)~LANG_FN_PURE;
-    if (!holds(s->globals.items, s->globals.len, node->a))
-        vec_push(s->unit->arena, &s->globals, node->a);
-}
-
-static void use_expression(struct spec *s, lang_ref ref)
-{
-    struct lang_node node = *spec_node(s, ref);
-    s->num_nodes++;
-    switch (node.kind) {
-    case LANG_CONST:
-        if (node.c) {
-            vec_push(s->unit->arena, &s->longs, ref);
-            struct spec_slot *slot = &s->slots[node.c - 1];
-            slot->literals = (uint8_t)(slot->literals + (slot->literals < 2));
-        }
-        break;
-    case LANG_VAR:
-        s->slots[node.a].uses |= SLOT_READ;
-        s->slots[node.a].mention = s->statement;
-        vec_push(s->unit->arena, &s->vars, ref);
-        break;
-    case LANG_GLOBAL: use_global(s, &node); break;
-    case LANG_CALL:
-        use_callee(s, node.a);
-        use_arguments(s, &node);
-        break;
-    default:
-        if (ir_op_info(node.op)->flags & OP_DERIVATIVE)
-            s->flags |= LANG_FN_DERIVATIVE;
-        if (node.op >= IR_TEX && node.op <= IR_TEX_FETCH)
-            s->flags &= (uint16_t)~LANG_FN_PURE;
-        for (lang_ref operand = node.a; operand; operand = spec_node(s, operand)->next)
-            use_expression(s, operand);
-    }
+    lang_walk(s->unit, ref, access, use_node, s);
 }
 
 /* ---- Effects on variables with later reads ---- */
@@ -109,82 +51,28 @@ static bool is_live(const struct spec *s, lang_ref target)
     return s->slots[ast_target_slot(s->unit, target)].uses & SLOT_READ;
 }
 
-static bool has_live_effects(const struct spec *s, lang_ref ref)
+static bool has_no_live_effect(void *user_data, lang_ref ref, unsigned access)
 {
+    const struct spec *s = user_data;
+    return !(access & LANG_WRITE) || !is_live(s, ref);
+}
+
+static bool has_live_effects(struct spec *s, lang_ref expression)
+{
+    return !lang_walk(s->unit, expression, LANG_READ, has_no_live_effect, s);
+}
+
+/*
+ * Collects the reads of a loop before the sweep of the loop. An assignment to a part reads the
+ * variable, because it keeps the other parts.
+ */
+static bool read_variable(void *user_data, lang_ref ref, unsigned access)
+{
+    struct spec *s = user_data;
     const struct lang_node *node = ast_node(s->unit, ref);
-    uint32_t i = 0;
-    if (node->kind == LANG_CALL) {
-        for (lang_ref arg = node->b; arg; arg = ast_node(s->unit, arg)->next, i++)
-            if (ast_param_mode(s->unit, node->a, i) == LANG_IN ? has_live_effects(s, arg)
-                                                               : is_live(s, arg))
-                return true;
-    } else if (node->kind == LANG_OP) {
-        for (lang_ref arg = node->a; arg; arg = ast_node(s->unit, arg)->next)
-            if (has_live_effects(s, arg))
-                return true;
-    }
-    return false;
-}
-
-/* Collects the reads of a loop before the sweep of the loop. */
-
-static void read_expression(struct spec *s, lang_ref ref)
-{
-    const struct lang_node *node = spec_node(s, ref);
-    if (node->kind == LANG_VAR) {
+    if (node->kind == LANG_VAR && access & (LANG_READ | LANG_PART))
         s->slots[node->a].uses |= SLOT_READ;
-    } else if (node->kind == LANG_OP) {
-        for (lang_ref arg = node->a; arg; arg = spec_node(s, arg)->next)
-            read_expression(s, arg);
-    } else if (node->kind == LANG_CALL) {
-        uint32_t i = 0;
-        for (lang_ref arg = node->b; arg; arg = spec_node(s, arg)->next, i++)
-            if (ast_param_mode(s->unit, node->a, i) != LANG_OUT
-                || spec_node(s, arg)->kind != LANG_VAR)
-                read_expression(s, arg);
-    }
-}
-
-static void read_statement(struct spec *s, lang_ref ref)
-{
-    if (!ref)
-        return;
-    const struct lang_node *node = spec_node(s, ref);
-    switch (node->kind) {
-    case LANG_ASSIGN:
-        if (spec_node(s, node->a)->kind != LANG_VAR)
-            read_expression(s, node->a); /* a read of the variable too, because the assignment keeps
-                                            its other parts */
-        read_expression(s, node->b);
-        break;
-    case LANG_DECLARE:
-        if (node->b)
-            read_expression(s, node->b);
-        break;
-    case LANG_EXPR:
-    case LANG_RETURN:
-        if (node->a)
-            read_expression(s, node->a);
-        break;
-    case LANG_IF:
-        read_expression(s, node->a);
-        read_statement(s, node->b);
-        read_statement(s, node->c);
-        break;
-    case LANG_BLOCK:
-        for (lang_ref inner = node->a; inner; inner = spec_node(s, inner)->next)
-            read_statement(s, inner);
-        break;
-    case LANG_BREAK:
-    case LANG_CONTINUE: break;
-    default: /* loops */
-        if (node->kind == LANG_FOR)
-            read_statement(s, node->a);
-        if (node->b)
-            read_expression(s, node->b);
-        read_statement(s, node->c);
-        read_statement(s, ast_step(s->unit, node));
-    }
+    return true;
 }
 
 /* ---- Statements; each function returns whether the statement stays ---- */
@@ -203,7 +91,7 @@ static bool becomes_call(struct spec *s, lang_ref ref, lang_ref value)
     node->kind = LANG_EXPR;
     node->a = value;
     node->b = 0;
-    use_expression(s, value);
+    use_tree(s, value, LANG_READ);
     return true;
 }
 
@@ -230,16 +118,23 @@ static void name_literals(struct spec *s, uint32_t slot)
     s->slots[slot].uses |= SLOT_READ;
 }
 
-static bool names_slot(const struct spec *s, lang_ref ref, uint32_t slot)
+struct slot_search {
+    const struct lang_unit *unit;
+    uint32_t slot;
+};
+
+static bool names_other_slot(void *user_data, lang_ref ref, unsigned access)
 {
-    const struct lang_node *node = ast_node(s->unit, ref);
-    if (node->kind == LANG_VAR)
-        return node->a == slot;
-    lang_ref child = node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;
-    for (; child; child = ast_node(s->unit, child)->next)
-        if (names_slot(s, child, slot))
-            return true;
-    return false;
+    const struct slot_search *search = user_data;
+    const struct lang_node *node = ast_node(search->unit, ref);
+    (void)access;
+    return node->kind != LANG_VAR || node->a != search->slot;
+}
+
+static bool names_slot(const struct spec *s, lang_ref expression, uint32_t slot)
+{
+    struct slot_search search = {s->unit, slot};
+    return !lang_walk(s->unit, expression, LANG_READ, names_other_slot, &search);
 }
 
 /*
@@ -285,7 +180,7 @@ static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
         return false;
     spec_node(s, ref)->b = value;
     if (value) {
-        use_expression(s, value);
+        use_tree(s, value, LANG_READ);
         s->slots[slot].uses |= is_read ? 0 : SLOT_WRITTEN; /* the variable keeps its slot */
     }
     vec_push(s->unit->arena, &s->vars, ref);
@@ -306,8 +201,8 @@ static bool sweep_assign(struct spec *s, lang_ref ref, unsigned loops, uint32_t 
         if (!has_live_effects(s, node.a) && becomes_call(s, ref, node.b))
             return true;
     }
-    use_target(s, node.a, SLOT_WRITTEN);
-    use_expression(s, node.b);
+    use_tree(s, node.a, LANG_WRITE);
+    use_tree(s, node.b, LANG_READ);
     return true;
 }
 
@@ -340,12 +235,12 @@ static bool sweep_if(struct spec *s, lang_ref ref, unsigned loops)
     if (!has_then && has_else)
         invert_condition(s, ref);
     s->statement = ref;
-    use_expression(s, spec_node(s, ref)->a);
+    use_tree(s, spec_node(s, ref)->a, LANG_READ);
     return true;
 }
 
 /* True if the head of an empty loop only counts its own variable. */
-static bool is_idle(const struct spec *s, const struct lang_node *loop)
+static bool is_idle(struct spec *s, const struct lang_node *loop)
 {
     if (loop->b && has_live_effects(s, loop->b))
         return false;
@@ -361,18 +256,17 @@ static bool sweep_loop(struct spec *s, lang_ref ref, unsigned loops)
 {
     struct lang_node node = *spec_node(s, ref);
     if (loops == 0)
-        read_statement(s, ref);
+        lang_walk(s->unit, ref, LANG_READ, read_variable, s);
     bool has_body = sweep_block(s, node.c, loops + 1);
     if (!has_body && is_idle(s, &node))
         return false;
-    s->flags &= (uint16_t)~LANG_FN_STRAIGHT;
+    s->uses.flags &= (uint16_t)~LANG_FN_STRAIGHT;
     s->statement = ref;
     if (node.kind == LANG_FOR) {
         lang_ref step = sweep_list(s, ast_step(s->unit, &node), loops + 1);
         spec_node(s, node.c)->b = step;
     }
-    if (node.b)
-        use_expression(s, node.b);
+    use_tree(s, node.b, LANG_READ);
     if (node.kind == LANG_FOR)
         spec_node(s, ref)->a = sweep_list(s, node.a, loops + 1);
     return true;
@@ -387,13 +281,10 @@ static bool sweep_statement(struct spec *s, lang_ref ref, unsigned loops, uint32
     case LANG_EXPR:
         if (!has_live_effects(s, node.a))
             return false;
-        use_expression(s, node.a);
+        use_tree(s, node.a, LANG_READ);
         return true;
     case LANG_IF: return sweep_if(s, ref, loops);
-    case LANG_RETURN:
-        if (node.a)
-            use_expression(s, node.a);
-        return true;
+    case LANG_RETURN: use_tree(s, node.a, LANG_READ); return true;
     case LANG_BREAK:
     case LANG_CONTINUE: return true;
     default:
@@ -415,7 +306,7 @@ static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops)
             s->changed = true;
             continue;
         }
-        s->num_nodes++;
+        s->uses.num_nodes++;
         spec_node(s, ref)->next = next;
         next = ref;
     }

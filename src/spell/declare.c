@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The interface of a stage: its names, and what the frames of languages declare it with. */
+/* The interface of a stage: names of variables, and the loops that frames declare them with. */
 #include "spell/spell.h"
 
 #include <assert.h>
@@ -42,7 +42,7 @@ void spell_name_interface(struct spell *spell)
         if (variable->block == BLOCK_VERTEX_DATA)
             name = prefixed(spell, io_block ? "vd." : "vd_", name);
         spell->variables[spell->shader->interface.items[i]] = name;
-        bool declared = spell->blocks || spell_uses(spell, variable);
+        bool declared = spell->shader->rules.blocks || spell_uses(spell, variable);
         if (declared && variable->block != BLOCK_LIGHT_DATA
             && !(variable->block == BLOCK_VERTEX_DATA && io_block))
             names_take(&spell->names, name.text, name.len);
@@ -62,7 +62,7 @@ void spell_declare(struct spell *spell, const struct shader_variable *variable,
     }
 }
 
-/* Does this stage use a variable of the block? */
+/* True if this stage uses a variable of the block. */
 bool spell_uses_block(const struct spell *spell, enum shader_block block)
 {
     assert(spell->shader->first_of_block[block] <= spell->shader->first_of_block[block + 1]);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Nodes as expressions. The scheduler bounds their depth (schedule.c), so the recursion here is
- * shallow.
+ * Writes nodes as expressions. The scheduler bounds their depth (schedule.c), so this code may
+ * recurse.
  */
 #include "spell/spell.h"
 
 #include <assert.h>
 
 /*
- * Structs and arrays of the graph have their own ids; a struct is that of the portable functions
- * with its name.
+ * Structs and arrays of the graph have their own ids. The struct of the portable functions with the
+ * same name gives the name in the output.
  */
 static const struct ir_user_type *user_type(const struct spell *spell, ir_type_id type)
 {
@@ -127,7 +127,7 @@ static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
 
 enum { MAX_OPERANDS = 1 << 20 }; /* a bound of the numbers read */
 
-/* The number in "{{number}}" at *p, which moves behind it; -1: none is there. */
+/* The number of "{{number}}" at *p, which then moves past it; -1: there is none. */
 static int read_operand(const char **p)
 {
     const char *at = *p + 2;
@@ -142,7 +142,7 @@ static int read_operand(const char **p)
     return index;
 }
 
-/* The expression with its operands, in parentheses, where {{i}} stands. */
+/* Writes the expression of verbatim source, with an operand in parentheses for each {{i}}. */
 static void write_verbatim(struct spell *spell, ir_ref ref, str_id expression)
 {
     const char *p = str_text(spell->shader->strings, expression);
@@ -196,7 +196,7 @@ static void write_call(struct spell *spell, ir_ref ref)
     text_char(spell->out, ')');
 }
 
-/* May the operand be written twice? */
+/* True if the text may repeat the operand. */
 static bool is_named(const struct spell *spell, ir_ref ref)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
@@ -207,7 +207,7 @@ static bool is_named(const struct spell *spell, ir_ref ref)
            || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
 }
 
-/* What stands for a node: its local, a variable, or else an expression. */
+/* Writes a node as its local, as a variable, or as an expression. */
 static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_precedence least)
 {
     uint32_t local = spell->local_of[ref];
@@ -246,12 +246,12 @@ static void write_form(struct spell *spell, const struct ir_node *node,
         text_put(spell->out, form->rest);
     if (node->op == IR_TEX_SIZE && spell->target->syntax->sizes_count_layers
         && ir_type_of(spell->shader->graph, args[0]) == IR_TYPE_SAMPLER_ARRAY)
-        spell_text(spell, ".xy"); /* the third is the number of layers */
+        spell_text(spell, ".xy"); /* the third component is the number of layers */
     if (parentheses)
         text_char(spell->out, ')');
 }
 
-/* Operations with neither operands nor a form: names. */
+/* Writes an op that has neither operands nor a form: a name. */
 static void write_source(struct spell *spell, const struct ir_node *node)
 {
     switch (node->op) {
@@ -268,7 +268,7 @@ static void write_source(struct spell *spell, const struct ir_node *node)
         spell_name(spell, spell->variables[node->attr]);
         break;
     case IR_SAMPLE: spell_text(spell, spell->loop_index); break;
-    default: /* POISON: an error was reported; the text is not used */
+    default: /* after an error, nobody uses the text */
         lang_print_value(spell->style, spell->shader->strings,
                          node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT,
                          (const union ir_word[16]){{0}}, LANG_PREC_COMMA, spell->out);
@@ -286,7 +286,7 @@ static void write_result(struct spell *spell, ir_ref call, uint32_t index,
         spell_expression(spell, call, least);
 }
 
-/* A node that has neither a local nor a form that was made ready. */
+/* Writes a node without a local, for which the style has no form. */
 static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
                              enum lang_precedence least)
 {
@@ -322,7 +322,7 @@ void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
         write_other_node(spell, ref, node, least);
 }
 
-/* The form for the types at hand of a target that has such forms; NULL: none for these. */
+/* The target's own form for these types; NULL: the syntax has the form. */
 static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref ref,
                                             const struct ir_node *node)
 {

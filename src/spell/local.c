@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Names of locals. A local is called as the library or the document calls its value: `H`, `alpha`,
- * `coat_roughness`. Where several locals of a function want one name, each has its origin in front:
- * `coat_alpha`, `metal_alpha`. A value without a name, or with several, is called by its operation:
- * `n_dot_l`, `clamped_roughness`, `metal_product`; a value that several origins share has no origin
- * in front.
+ * Names of locals. A local has the name that the library or the document gives its value: `H`,
+ * `alpha`, `coat_roughness`. If several locals of a function want one name, each has its origin as
+ * prefix: `coat_alpha`, `metal_alpha`. If the value has no name, or several, its operation gives
+ * the name: `n_dot_l`, `clamped_roughness`, `metal_product`. A value with several origins has no
+ * prefix.
  */
 #include "spell/spell.h"
 
@@ -15,8 +15,8 @@
 enum { MAX_OPERAND_NAME = 24 };
 
 /*
- * What the result of an operation is called: alone, and in front of the name of its only operand
- * that is no constant, where that differs.
+ * The words for the result of an operation: alone, and as prefix of the name of the operand, if
+ * only one operand is not a constant and the words differ.
  */
 static const struct {
     const char *alone, *of_operand;
@@ -139,13 +139,13 @@ static struct spell_name bare_name(const struct spell *spell, str_id id)
     return strncmp(name.text, "mx_", 3) == 0 ? without(name, 3) : name;
 }
 
-/* How the code above calls an operand; without text: the operand is an expression. */
+/* The name of an operand in the code above; no text if the operand is an expression. */
 static struct spell_name operand_name(const struct spell *spell, ir_ref ref)
 {
     assert(spell->local_of[ref] <= spell->let_names.len);
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
     str_id own = ir_label(spell->shader->graph, ref)->name;
-    /* a description of a description says nothing */
+    /* a name that describes another description says nothing */
     if (spell->local_of[ref] && (own || node->op == IR_CONTEXT))
         return spell->let_names.items[spell->local_of[ref] - 1];
     if (node->op == IR_UNIFORM)
@@ -153,7 +153,7 @@ static struct spell_name operand_name(const struct spell *spell, ir_ref ref)
     return own ? bare_name(spell, own) : (struct spell_name){0};
 }
 
-/* The only operand that is no constant; 0: there are several. */
+/* The only operand that is not a constant; 0: there are several. */
 static ir_ref only_operand(const struct ir_graph *graph, ir_ref ref)
 {
     ir_ref only = 0;
@@ -168,7 +168,7 @@ static ir_ref only_operand(const struct ir_graph *graph, ir_ref ref)
     return only;
 }
 
-/* "n_dot_v" of the normal and the view direction; without text: they have no short names. */
+/* "n_dot_v" for the normal and the view direction; no text if they have no short names. */
 static struct spell_name dot_name(struct spell *spell, ir_ref ref)
 {
     assert(ir_get(spell->shader->graph, ref)->num_args == 2);
@@ -183,7 +183,7 @@ static struct spell_name dot_name(struct spell *spell, ir_ref ref)
     return (struct spell_name){lower, name.len};
 }
 
-/* "clamped_roughness": the value of an operation over one operand that has a name. */
+/* "clamped_roughness": the operation, and the name of its only variable operand. */
 static struct spell_name name_by_operand(struct spell *spell, ir_ref ref)
 {
     const struct ir_graph *graph = spell->shader->graph;
@@ -262,14 +262,15 @@ struct spell_name spell_call_base(struct spell *spell, ir_ref call)
     const struct ir_graph *graph = spell->shader->graph;
     const struct ir_label *label = ir_label(graph, call);
     str_id origin = graph->origins.items[ir_get(graph, call)->origin].name;
-    bool is_own = origin && !label->name && !label->is_shared && !spell->options->neutral_names;
+    bool is_own =
+        origin && !label->name && !label->is_shared && !spell->shader->rules.neutral_names;
     return is_own ? spell_name_of(spell->shader->strings, origin) : spell_local_base(spell, call);
 }
 
 struct spell_name spell_local_base(struct spell *spell, ir_ref ref)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
-    if (spell->options->neutral_names)
+    if (spell->shader->rules.neutral_names)
         return word("v");
     if (node->op == IR_CONTEXT || node->op == IR_UNIFORM) {
         const struct shader_variable *variable = &spell->shader->variables.items[node->attr];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * maker: functions that put structs together member by member, for languages without constructors
- * of structs, or with bad ones.
+ * maker: functions that build a struct member by member, for languages whose constructors of
+ * structs are missing or defective.
  */
 #include "spell/spell.h"
 
@@ -43,7 +43,7 @@ static const char *local_name(const struct spell *spell, const struct ir_member 
         if (strcmp(member_name(spell, &members[i]), text_cstr(&name)) != 0)
             continue;
         text_char(&name, '_');
-        i = UINT32_MAX; /* from the first one */
+        i = UINT32_MAX; /* from the first member */
     }
     return text_cstr(&name);
 }

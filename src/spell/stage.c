@@ -7,7 +7,7 @@
 
 /* ---- Names of functions and types ---- */
 
-/* As they are spelled: a target may have one type for several. */
+/* Compares types by their names in the output: a target may use one type for several. */
 static bool equal_types(const struct spell *spell, ir_type_id a, ir_type_id b)
 {
     const struct lang_syntax *syntax = spell->target->syntax;
@@ -30,11 +30,13 @@ static bool equal_parameters(const struct spell *spell, uint32_t a, uint32_t b)
     return true;
 }
 
-/* Functions of one source name, as chains of places in the stage's reach, counted from 1. */
+/*
+ * Functions of equal source names, as chains of positions in the stage's reach, which count from 1.
+ */
 struct overloads {
     uint32_t *last; /* by hash of the name */
     uint32_t mask;
-    uint32_t *before; /* by place */
+    uint32_t *before; /* by position */
 };
 
 static struct overloads overloads_init(const struct spell *spell)
@@ -49,8 +51,8 @@ static struct overloads overloads_init(const struct spell *spell)
 }
 
 /*
- * The name that an earlier function of the same source name has and that this one may share as an
- * overload; NULL: none.
+ * The name of an earlier function of the same source name, if this function can overload it; NULL:
+ * it cannot.
  */
 static const char *overload_of(const struct spell *spell, struct overloads *overloads,
                                uint32_t index, str_id name)
@@ -66,7 +68,7 @@ static const char *overload_of(const struct spell *spell, struct overloads *over
         if (lang_function(spell->shader->unit, id, NULL)->name != name)
             continue;
         clash |= equal_parameters(spell, id, ids[index]);
-        shared = spell->functions[id]; /* in the end, the first one's */
+        shared = spell->functions[id]; /* at the end of the chain: the first function's name */
     }
     overloads->before[index + 1] = *last;
     *last = index + 1;
@@ -163,7 +165,8 @@ void spell_title(struct spell *spell)
             &shader->variables.items[shader->interface.items[i]];
         textures += variable->block == BLOCK_TEXTURES && !variable->semantic;
     }
-    for (size_t i = spell->options->neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts; i++) {
+    for (size_t i = spell->shader->rules.neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts;
+         i++) {
         if (!parts[i] || !*parts[i])
             continue;
         spell_comment(spell, parts[i], strlen(parts[i]));
@@ -195,7 +198,7 @@ void spell_verbatim_sources(struct spell *spell)
 void spell_function_doc(struct spell *spell, uint32_t function)
 {
     str_id doc = lang_function(spell->shader->unit, function, NULL)->doc;
-    if (!doc || !spell->options->comments || spell->options->neutral_names)
+    if (!doc || !spell->options->comments || spell->shader->rules.neutral_names)
         return;
     spell_text(spell, "// ");
     spell_comment(spell, str_text(spell->shader->strings, doc),
@@ -232,7 +235,10 @@ void spell_helper(struct spell *spell, const char *text)
     vec_push(spell->scratch, &spell->helpers, text);
 }
 
-/* The helpers, then the functions and main, which were written first: they ask for helpers. */
+/*
+ * Writes the helpers after the functions and main, because these ask for helpers; then joins the
+ * texts in order.
+ */
 static void join(struct spell *spell, struct text *out, const struct text *body)
 {
     spell->out = out;
@@ -266,7 +272,7 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
 
 /* ---- Entry ---- */
 
-/* The target's syntax for a stage that knows no neighbours on the screen. */
+/* The target's syntax for a stage without neighbours on the screen. */
 static const struct lang_syntax *syntax_alone(struct spell *spell)
 {
     struct lang_syntax *syntax = ARENA_NEW(spell->scratch, struct lang_syntax);
@@ -282,8 +288,6 @@ static void init(struct spell *spell)
     const struct shader *shader = spell->shader;
     struct arena *arena = spell->scratch;
     const struct lang_unit *unit = shader->unit;
-    spell->blocks = spell_can(spell, CAP_UNIFORM_BLOCKS)
-                    || (spell_can(spell, CAP_BLOCK_OPTION) && spell->options->uniform_blocks);
     spell->variables = ARENA_ARRAY(arena, struct spell_name, shader->variables.len + 1);
     uint32_t num_functions = unit->base_functions + unit->functions.len;
     spell->functions =
@@ -307,7 +311,7 @@ static void init(struct spell *spell)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_alone(spell),
                         arena);
     names_init(&spell->names, arena, spell->style->syntax);
-    if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
+    if (spell->options->comments && spell->options->path && !spell->shader->rules.neutral_names) {
         names_init(&spell->paths, arena, NULL);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }

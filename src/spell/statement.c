@@ -30,10 +30,10 @@ static struct spell_name add_local(struct spell *spell, struct spell_name base)
     return name;
 }
 
-/* "metal_ior" for the part "ior" of a call's results. */
+/* "metal_ior" for the part "ior" of the results of a call. */
 static struct spell_name part_name(struct spell *spell, struct spell_name base, const char *part)
 {
-    if (!part || spell->options->neutral_names)
+    if (!part || spell->shader->rules.neutral_names)
         return base;
     struct text text;
     text_init(&text, spell->scratch);
@@ -44,9 +44,9 @@ static struct spell_name part_name(struct spell *spell, struct spell_name base, 
 }
 
 /*
- * A comment says whose inner nodes follow: a node of the document or a graph. The nodes' own names
- * are those of the locals. Nodes of one parent stand in one graph, so that a path is asked for once
- * for all of them.
+ * A comment names the document node or graph that the following nodes are inside of. The nodes' own
+ * names are in the names of the locals. All nodes of one parent are in one graph, so the speller
+ * asks for a path once per parent.
  */
 static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
 {
@@ -68,7 +68,7 @@ static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
     text_char(spell->out, '\n');
 }
 
-/* "color c": a local that a node gives, or one of those that it does. */
+/* "color c": the local of a node, or of one of its results. */
 static void write_typed(struct spell *spell, ir_ref ref, ir_type_id type, struct spell_name name)
 {
     const char *own_type = spell->target->node_type ? spell->target->node_type(spell, ref) : NULL;
@@ -84,7 +84,7 @@ static void write_typed(struct spell *spell, ir_ref ref, ir_type_id type, struct
 
 struct call_out {
     ir_type_id type;
-    const char *part; /* name of the out parameter */
+    const char *part; /* name of the `out` parameter */
     bool inout;
 };
 
@@ -123,9 +123,9 @@ static struct call_out describe_out(const struct spell *spell, ir_ref call, unsi
 }
 
 /*
- * Portable functions mix `in`, `inout` and `out` parameters in any order; the call's operands are
- * those of the first two kinds. An `inout` argument is a local that begins with the operand's
- * value.
+ * Portable functions have `in`, `inout` and `out` parameters in any order. The operands of the call
+ * belong to the first two kinds. An `inout` argument is a local that starts with the value of the
+ * operand.
  */
 static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t first_name)
 {
@@ -164,10 +164,7 @@ static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t firs
     }
 }
 
-/*
- * The operand that belongs to the out parameter `index` of a portable function, which is an inout
- * one.
- */
+/* The operand of an `inout` parameter, by its index among the `out` and `inout` parameters. */
 static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned index)
 {
     const struct lang_unit *layer;
@@ -183,7 +180,7 @@ static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned ind
     }
 }
 
-/* "metal" of a call "metal_ior" with a result "ior", which is not named twice. */
+/* "metal" for a call "metal_ior" with a result "ior", so that no name repeats the word. */
 static struct spell_name parts_base(struct spell *spell, ir_ref call, unsigned outs)
 {
     struct spell_name base = spell_call_base(spell, call);
@@ -197,7 +194,7 @@ static struct spell_name parts_base(struct spell *spell, ir_ref call, unsigned o
     return base;
 }
 
-/* "float x, y;", and a declaration of its own for each inout argument. */
+/* Writes "float x, y;", and a separate declaration for each `inout` argument. */
 static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, call);
@@ -274,21 +271,23 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
 
 /* ---- Other effects ---- */
 
+/*
+ * Over all lights from the last one: a driver that knows a loop's first number unrolls it, which
+ * makes the shader by a third longer and no faster.
+ */
 static void write_loop(struct spell *spell, unsigned indent, bool lights)
 {
     if (!spell->loop_index)
         spell->loop_index = names_unique(&spell->names, "i", 1).text;
     const char *i = spell->loop_index;
     open_line(spell, indent, 0);
-    SPELL(spell, "for (int ", i, " = 0; ", i, " < ");
-    if (lights) {
-        spell_text(spell, "min(u_numActiveLightSources, ");
-        spell_number(spell, spell->shader->max_lights);
-        spell_text(spell, ")");
-    } else {
-        spell_text(spell, "u_envRadianceSamples");
+    if (!lights) {
+        SPELL(spell, "for (int ", i, " = 0; ", i, " < u_envRadianceSamples; ++", i, ") {\n");
+        return;
     }
-    SPELL(spell, "; ++", i, ") {\n");
+    SPELL(spell, "for (int ", i, " = min(u_numActiveLightSources, ");
+    spell_number(spell, spell->shader->max_lights);
+    SPELL(spell, ") - 1; ", i, " >= 0; --", i, ") {\n");
 }
 
 static void write_if(struct spell *spell, unsigned indent, ir_ref condition, bool braces)
@@ -311,7 +310,7 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
 {
     assert(effect->index < spell->shader->locals.len);
     const struct shader_local *local = &spell->shader->locals.items[effect->index];
-    struct spell_name name = spell->options->neutral_names
+    struct spell_name name = spell->shader->rules.neutral_names
                                  ? (struct spell_name){"v", 1}
                                  : spell_name_of(spell->shader->strings, local->name);
     spell->locals[effect->index] = names_unique(&spell->names, name.text, name.len);
@@ -341,7 +340,7 @@ static struct spell_name position_name(const struct spell *spell)
 
 static void write_comment(struct spell *spell, unsigned indent, str_id text)
 {
-    if (!spell->options->comments || spell->options->neutral_names)
+    if (!spell->options->comments || spell->shader->rules.neutral_names)
         return;
     open_line(spell, indent, 0);
     text_mem(spell->out, "// ", 3);
@@ -377,7 +376,7 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
     }
 }
 
-/* One plain statement in an `if` needs no braces. */
+/* A single plain statement in an `if` needs no braces. */
 static bool holds_one_statement(const struct effect_list *list, uint32_t opening)
 {
     if (opening + 2 >= list->len || list->items[opening + 2].kind != EFFECT_END)

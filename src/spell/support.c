@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* support: which ops a target writes, as a table for tests. */
+/* support: the table of the ops that a target can write, for tests. */
 #include "spell/target.h"
 
-/* Ops that the speller writes itself: names, literals and constructors need no form. */
+/* The speller writes these ops itself: names, literals and constructors need no form. */
 static bool is_structural(enum ir_op op)
 {
     switch (op) {
@@ -26,7 +26,7 @@ static bool is_structural(enum ir_op op)
     }
 }
 
-/* What an op needs beside a form; 0: nothing. */
+/* The capability that an op needs beside a form; 0: none. */
 static uint32_t needed_caps(enum ir_op op)
 {
     switch (op) {

@@ -80,14 +80,14 @@ struct target_network {
 };
 
 /*
- * What stands around the functions and statements of a stage, which spell_stage writes. Hooks may
- * be NULL: nothing stands there.
+ * The text around the functions and statements of a stage, which spell_stage writes. A hook may be
+ * NULL: it writes nothing.
  */
 struct target_frame {
-    /* Structs, uniforms, textures, stage inputs and outputs, below the language's first lines. */
+    /* declares structs, uniforms, textures, stage inputs and outputs, below the first lines */
     void (*declare)(struct spell *spell);
-    void (*open)(struct spell *spell);  /* "void main()\n{\n", and what main begins with */
-    void (*close)(struct spell *spell); /* what main ends with, before its brace */
+    void (*open)(struct spell *spell);  /* writes "void main()\n{\n" and the first lines of main */
+    void (*close)(struct spell *spell); /* writes the last lines of main, without its brace */
 };
 
 struct target {
@@ -103,11 +103,13 @@ struct target {
     const struct target_network *network;   /* NULL: no networks */
     const struct target_frame *frame;       /* of spell_stage; NULL: from base */
     /*
-     * The form of an op where types decide (struct lang_names); user_data is the spell. NULL: the
-     * syntax says all.
+     * The form of an op for languages where types decide it (struct lang_names); user_data is the
+     * spell. NULL: the syntax has all forms.
      */
     const struct lang_pieces *(*form)(void *user_data, const struct lang_use *use);
-    /* The function that puts a struct together (struct lang_names), where there is no constructor
+    /*
+     * The function that builds a struct, for languages without such constructors (struct
+     * lang_names)
      */
     const char *(*maker)(void *user_data, const char *type);
     enum shader_packing packing;          /* of blocks of uniforms */
@@ -147,9 +149,7 @@ struct spell_options {
     const char *colorspace; /* working colour space */
     /* metadata of parameters: 0 none, 1 for user interfaces, 2 with documentation */
     int metadata;
-    bool uniform_blocks;
-    bool vulkan_attributes; /* of HLSL: [[vk::binding(3, 0)]] */
-    bool neutral_names;
+    bool vulkan_attributes;  /* of HLSL: [[vk::binding(3, 0)]] */
     const char *shader_name; /* unique among functions and shaders; NULL: from the element's path */
     bool comments;           /* write element paths as comments */
     void *user_data;

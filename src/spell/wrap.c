@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Long lines are broken where an expression nests least: after a comma or in front of an operator.
- * A long comment goes on in the next line. Strings, directives of the preprocessor and source that
- * a document brought stay as they are.
+ * Breaks long lines where the expression nests least: after a comma or before an operator. A long
+ * comment continues in the next line. Strings, preprocessor directives and verbatim source stay
+ * unbroken.
  */
 #include "spell/spell.h"
 
@@ -16,10 +16,13 @@ struct wrapper {
     struct text out;
     uint32_t next_mark; /* the first mark of the spell that is not in `marks` */
     VEC(struct spell_mark) marks;
-    const char *copied; /* what stands in front of this is in `out` */
+    const char *copied; /* `out` has the text before this */
 };
 
-/* Does the operator or comma at `at` allow a break? The break replaces the space. */
+/*
+ * True if a line may break at this space, beside an operator or a comma. The break replaces the
+ * space.
+ */
 static bool may_break(const char *at, const char *end)
 {
     if (*at != ' ' || at + 2 >= end)
@@ -31,7 +34,7 @@ static bool may_break(const char *at, const char *end)
     return is_operator && ends && !(at[1] == '=' && at[2] == ' ');
 }
 
-/* The closing quote of the string that begins at `at`. */
+/* The closing quote of the string that starts at `at`. */
 static const char *end_of_string(const char *at, const char *end)
 {
     for (at++; at < end && (*at != '"' || at[-1] == '\\'); at++)
@@ -39,7 +42,7 @@ static const char *end_of_string(const char *at, const char *end)
     return at;
 }
 
-/* What a character means where a break is sought. */
+/* The role of a character in the search for a break. */
 enum meaning { PLAIN, OPENS, CLOSES, QUOTE, SLASH, SPACE };
 
 static const uint8_t meanings[256] = {
@@ -48,8 +51,8 @@ static const uint8_t meanings[256] = {
 };
 
 /*
- * Where to break [from, end), which begins at column `column`: of the places that leave no more
- * than MAX_COLUMNS, the last of those with the fewest open brackets; NULL: nowhere.
+ * Finds the break of [from, end), which starts at column `column`. Among the places within
+ * MAX_COLUMNS it is the last one with the fewest open brackets. NULL: there is none.
  */
 static const char *find_break(const char *from, const char *end, size_t column)
 {
@@ -75,7 +78,7 @@ static const char *find_break(const char *from, const char *end, size_t column)
     return best;
 }
 
-/* Copies what stands in front of `to` and is not copied yet. */
+/* Copies the text before `to` that is not copied yet. */
 static void copy(struct wrapper *w, const char *to)
 {
     assert(to >= w->copied);
@@ -86,7 +89,7 @@ static void copy(struct wrapper *w, const char *to)
         size_t at = spell->marks.items[w->next_mark].at;
         if (at >= (size_t)(to - base))
             break;
-        /* a mark may stand on the space that went */
+        /* a mark may be at the space that the break replaced */
         struct spell_mark mark = {w->out.len + (at > start ? at - start : 0),
                                   spell->marks.items[w->next_mark].origin};
         vec_push(spell->scratch, &w->marks, mark);
@@ -95,7 +98,7 @@ static void copy(struct wrapper *w, const char *to)
     w->copied = to;
 }
 
-/* A line goes on in the next one, which comes from the same origin. */
+/* Ends a line. The next line has the same origin. */
 static void break_line(struct wrapper *w, size_t line_begin)
 {
     const struct spell_mark *last = w->marks.len ? &w->marks.items[w->marks.len - 1] : NULL;
@@ -106,7 +109,7 @@ static void break_line(struct wrapper *w, size_t line_begin)
     }
 }
 
-/* A comment of its own line goes on in the next one, broken at a space. */
+/* The break of a comment on a line of its own: a space. */
 static const char *comment_break(const char *from, const char *end, size_t indent)
 {
     const char *at = from + MAX_COLUMNS - indent < end ? from + MAX_COLUMNS - indent : end;

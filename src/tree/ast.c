@@ -3,20 +3,6 @@
 
 #include <assert.h>
 
-const uint8_t lang_child_fields[LANG_NUM_KINDS] = {
-    [LANG_OP] = LANG_CHILD_A,
-    [LANG_CALL] = LANG_CHILD_B,
-    [LANG_DECLARE] = LANG_CHILD_B,
-    [LANG_ASSIGN] = LANG_CHILD_A | LANG_CHILD_B,
-    [LANG_EXPR] = LANG_CHILD_A,
-    [LANG_IF] = LANG_CHILD_A | LANG_CHILD_B | LANG_CHILD_C,
-    [LANG_FOR] = LANG_CHILD_A | LANG_CHILD_B | LANG_CHILD_C,
-    [LANG_WHILE] = LANG_CHILD_B | LANG_CHILD_C,
-    [LANG_DO] = LANG_CHILD_B | LANG_CHILD_C,
-    [LANG_BLOCK] = LANG_CHILD_A | LANG_CHILD_B,
-    [LANG_RETURN] = LANG_CHILD_A,
-};
-
 uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32_t index,
                            uint32_t (*size_of)(const struct lang_unit *, ir_type_id),
                            ir_type_id *out_type)

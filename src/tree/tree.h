@@ -54,12 +54,6 @@ enum lang_kind {
     LANG_NUM_KINDS
 };
 
-/*
- * The child fields of a node, by kind; a nonzero `next` is a sibling. ast.c
- */
-enum lang_child_field { LANG_CHILD_A = 1, LANG_CHILD_B = 2, LANG_CHILD_C = 4 };
-extern const uint8_t lang_child_fields[LANG_NUM_KINDS];
-
 struct lang_node {
     uint8_t kind;
     uint8_t op;
@@ -86,7 +80,11 @@ enum lang_function_flags {
     LANG_FN_STRINGS = 8,
     /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
     LANG_FN_EXPRESSION = 16,
-    LANG_FN_FINAL = 32, /* nothing to specialise, except for arguments and callees: canonical.c */
+    /*
+     * nothing to specialise, except for arguments and callees (canonical.c): saves a tenth of a
+     * process (docs/benchmarks.md)
+     */
+    LANG_FN_FINAL = 32,
 };
 
 struct lang_function {
@@ -122,6 +120,7 @@ enum lang_global_kind {
 struct lang_global {
     str_id name;
     uint8_t kind; /* enum lang_global_kind */
+    uint8_t reserved;
     ir_type_id type;
     /*
      * value of a CONST or OPTION of built-in or array type, in unit->words (arrays: elements in

@@ -90,7 +90,9 @@ static void process(struct xml_reader *reader, const struct xml_source *source, 
 {
     assert(!reader->handle_open && reader->include_depth <= reader->limits.max_include_depth);
     struct document *doc = reader->doc;
-    const char *href = str_text(doc->strings, attr_by_text(doc, include, "href"));
+    str_id said = attr_by_text(doc, include, "href");
+    const char *href = str_text(
+        doc->strings, doc_fix_path(doc->strings, said, href_place(doc, include), reader->diags));
     const char *parse = str_text(doc->strings, attr_by_text(doc, include, "parse"));
     const char *name, *data, *reason;
     size_t size;

@@ -115,6 +115,8 @@ static void add_attr(struct xml_reader *reader, elem_id element, str_id name, st
                      struct diag_place element_place, size_t offset)
 {
     assert(element_place.line <= reader->source->position.line);
+    const char *value_text = reader->source->text + offset;
+    reader->doc->has_loose_attrs |= value_text[-2] != '=' || is_blank(value_text[-3]);
     uint32_t column = xml_column(reader->source, offset),
              lines = reader->source->position.line - element_place.line;
     doc_add_attr(
@@ -143,9 +145,12 @@ static void add_plain_attr(const struct start_tag *tag, int index, elem_id eleme
     struct xml_reader *reader = tag->reader;
     const xmlChar **a = tag->attrs + (size_t)index * 5;
     str_id name = qualified_name(reader, (const char *)a[1], (const char *)a[0]);
-    if (name == STR_name)
+    if (name == STR_name) {
         doc_set_name(reader->doc, element, attr_value(reader, a[3], a[4]));
-    else
+        uint32_t column = xml_column(reader->source, offset);
+        doc_set_name_place(reader->doc, element, reader->source->position.line - place.line,
+                           column);
+    } else
         add_attr(reader, element, name, attr_value(reader, a[3], a[4]), place, offset);
 }
 

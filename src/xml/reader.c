@@ -161,6 +161,7 @@ static void read_all(void *arg)
     if (reader->limits.steps != XML_ALL_STEPS)
         return;
     doc_expand_templates(doc, reader->diags);
+    doc_fix_paths(doc, reader->diags);
     doc_qualify_names(doc);
     doc_index_names(doc, reader->diags);
 }

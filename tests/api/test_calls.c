@@ -174,6 +174,11 @@ static void test_refused_indices(const struct objects *o)
     REQUIRE_EQ(mxg_result_source_path(o->result, MXG_STAGE_PIXEL, 100000, NULL, 0), 0);
     REQUIRE_EQ(mxg_result_source_path(o->result, MXG_NUM_STAGES, 1, NULL, 0), 0);
     REQUIRE_EQ(mxg_result_source_path(NULL, MXG_STAGE_PIXEL, 1, NULL, 0), 0);
+    REQUIRE_EQ(mxg_result_source_path(NULL, MXG_STAGE_PIXEL, 1, NULL, 8), 0);
+    size_t only = sizeof only; /* a description without anything behind its size */
+    REQUIRE_EQ(mxg_generate(NULL, NULL, (const void *)&only, NULL), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_diagnostics_format(NULL, 0, NULL, 0, false, NULL, 8), 0);
+    REQUIRE_EQ(mxg_diagnostics_format_line(NULL, 0, NULL, 0, false, NULL, 8), 0);
 }
 
 /* Accessors of NULL are of something empty, and NULL can be destroyed. */

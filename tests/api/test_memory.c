@@ -241,6 +241,37 @@ static void test_pack(void)
     }
 }
 
+/* Formatting messages leaves the count of the context's memory as it was. */
+static void test_count_of_messages(void)
+{
+    static const struct memory_file warned[] = {
+        {"main.mtlx", "<materialx><constant name='c' type='float' unknown='1'/>"
+                      "<output name='o' type='float' nodename='c'/></materialx>"},
+        {NULL, NULL}};
+    struct memory_files source = {.files = warned};
+    struct heap heap = {0};
+    mxg_context_desc desc = counted(&heap);
+    desc.max_memory = (size_t)16 << 20;
+    mxg_resolver own = memory_resolver(&source);
+    desc.resolver = &own;
+    mxg_context *context = NULL;
+    mxg_document *document = NULL;
+    char line[256];
+    REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_OK);
+    mxg_library *library = mxg_library_builtin(context);
+    REQUIRE_EQ(mxg_document_load(context, library, "main.mtlx", &document), MXG_OK);
+    const mxg_diagnostics *list = mxg_document_diagnostics(document);
+    REQUIRE(mxg_diagnostics_warnings(list) > 0);
+    for (int i = 0; i < 10000; i++) /* a few bytes that stay counted fill the limit */
+        REQUIRE(mxg_diagnostics_format(list, 0, NULL, 0, false, line, sizeof line) > 0);
+    mxg_document_destroy(document);
+    REQUIRE_EQ(mxg_document_load(context, library, "main.mtlx", &document), MXG_OK);
+    mxg_document_destroy(document);
+    mxg_library_unref(library);
+    mxg_context_destroy(context);
+    REQUIRE_EQ(heap.held, 0);
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2)
@@ -250,6 +281,7 @@ int main(int argc, char **argv)
     test_context_goes_on();
     test_limit();
     test_builtin_text();
+    test_count_of_messages();
     test_own_files(argv[1]);
     test_pack();
     return test_report("api-memory");

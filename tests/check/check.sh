@@ -103,6 +103,33 @@ else
     skip 'glslang is not installed: nothing was compiled'
 fi
 
+# A report over an input, or over another report
+cp tree/a.mtlx over.mtlx && cp tree/b.mtlx part.mtlx && echo over.mtlx >over.list && cp tree.json shard.json && mkdir overs && cp over.mtlx overs
+echo '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="part.mtlx"/></materialx>' >includes.mtlx
+echo '<materialx version="1.39"><nodedef name="ND_own" node="own"><output name="out" type="float"/></nodedef></materialx>' >own.mtlx
+while IFS='|' read -r file options; do
+    cp "$file" before
+    # shellcheck disable=SC2086
+    check "one file: check $options" exits 1 "$mxgen" check $options
+    check 'is told' grep -q '\[output-clash\]' err
+    check 'and kept' cmp "$file" before
+done <<'X'
+over.mtlx|over.mtlx --no-compile --json over.mtlx
+over.mtlx|over.mtlx --no-compile --sarif ./over.mtlx
+over.mtlx|over.mtlx --no-compile --junit tree/../over.mtlx
+over.mtlx|over.mtlx --no-compile --html over.mtlx
+over.mtlx|over.mtlx --no-compile --json y.json --depfile over.mtlx
+overs/over.mtlx|overs --no-compile --json overs/over.mtlx
+part.mtlx|includes.mtlx --no-compile --json part.mtlx
+own.mtlx|over.mtlx --library own.mtlx --no-compile --json own.mtlx
+over.list|@over.list --no-compile --json over.list
+over.list|--files-from over.list --no-compile --json over.list
+over.mtlx|over.mtlx --no-compile --json y.json --sarif ./y.json
+shard.json|merge shard.json --json shard.json
+shard.json|merge shard.json --html ./shard.json
+X
+check 'and nothing is written' test ! -e y.json
+
 # The schema of JSON reports
 schema=$here/../../docs/check.schema.json
 if python3 -c 'import jsonschema' 2>/dev/null; then

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Budgets and baselines of mxgen check. Arguments: mxgen, whether shaders can be compiled, whether pictures can be drawn (yes or no).
+# Budgets and pictures of mxgen check. Arguments: mxgen, whether shaders can be compiled, whether pictures can be drawn (yes or no).
 mxgen=$(realpath "$1") compiles=$2 draws=$3
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../programs/common.sh"
@@ -44,9 +44,6 @@ fi
 # Budgets in files
 cat >show/mxgen.toml <<'END'
 # for the whole show
-[tool]
-max-closures = "somebody else's"
-[[tool.part]]
 [ budget ]
 max-source-bytes = 1_000 # bytes
 [budget.essl]
@@ -68,50 +65,58 @@ check 'the command line says more' exits 0 "$mxgen" check show "${quick[@]}" --m
 check 'about its own measures' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 100
 printf '[budget]\nmax-closures = 100\n' >show/deep/deeper/mxgen.toml
 check 'the nearest file holds' eval '"$mxgen" check show "${quick[@]}" --json near.json >out; says near.json "[x[\"status\"] for x in d]" "['"'passed', 'failed'"']"'
-for fault in 'max-closure = 1' 'max-closures = many' 'max-closures = 1__0' 'max-closures' '[budget.gsls]' '[budget' '[budget essl]' '[budget.] x'; do
-    printf '[budget]\n\n%s\n' "$fault" >show/deep/deeper/mxgen.toml
+# Faults with their columns and messages
+while IFS='|' read -r column fault message; do
+    printf '[budget]\n\n%b\n' "$fault" >show/deep/deeper/mxgen.toml
     check "a fault in a file: $fault" exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
-    check 'is told with its line' grep -q '^show/deep/deeper/mxgen.toml:3: error: .*\[budget-invalid\]' out
-done
+    check "is told: $message" grep -qF "show/deep/deeper/mxgen.toml:3:$column: error: $message [budget-invalid]" out
+    check 'with a caret under it' is "$(sed -n '/budget-invalid/{n;n;p}' out | sed 's/^    //; s/\^.*/^/' | wc -m)" "$((column + 1))"
+done <<'END'
+1|max-closure = 1|there is no budget 'max-closure'; did you mean 'max-closures'?
+1|colour = 1|there is no budget 'colour'; 'mxgen check --help all' lists them, without the dashes
+1|max-closures|a line is a table, a key with '=' and a value, or a comment
+1|= 3|a line is a table, a key with '=' and a value, or a comment
+16|max-closures = many|a budget is a whole number; 'many' is none
+16|max-closures = |a budget is a whole number; '' is none
+16|max-closures = "3"|a budget is a whole number, not a string
+16|max-closures = '3'|a budget is a whole number, not a string
+16|max-closures = true # yes|a budget is a whole number, not a boolean
+16|max-closures = 3.5|a budget is a whole number, not a number with a fraction
+16|max-closures = 1e3|a budget is a whole number, not a number with a fraction
+16|max-closures = inf|a budget is a whole number, not a number with a fraction
+16|max-closures = [3]|a budget is a whole number, not an array
+16|max-closures = { glsl = 3 }|a budget is a whole number, not a table
+16|max-closures = 2026-01-01|a budget is a whole number, not a date
+16|max-closures = 10:20:30|a budget is a whole number, not a time
+16|max-closures = -3|a budget is a whole number from 0, not a negative one
+16|max-closures = 1__0|a budget is a whole number; '1__0' is none
+16|max-closures = 007|a budget is a whole number; '007' is none
+16|max-closures = 99999999999999999999|a budget is a whole number; '99999999999999999999' is none
+17|\tmax-closures = x|a budget is a whole number; 'x' is none
+2|[budgets]|there is no table 'budgets'; did you mean 'budget'?
+2|[tool.x]|there is no table 'tool'; tables are [budget] and [budget.TARGET]
+9|[budget.gsls]|there is no target 'gsls'; did you mean 'glsl'?
+2|[[budget]]|a table has one pair of brackets: [budget]
+8|[budget|a table is a name in brackets: [budget] or [budget.TARGET]
+9|[budget essl]|a table is a name in brackets: [budget] or [budget.TARGET]
+9|[budget.] x|a table is a name in brackets: [budget] or [budget.TARGET]
+2|[budget]|this table stands above already
+END
+printf 'max-closures = 1\n' >show/deep/deeper/mxgen.toml
+check 'a key without a table' exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
+check 'is told' grep -q 'mxgen.toml:1:1: error: a key stands below a table: \[budget\] \[budget-invalid\]' out
+printf '[budget]\nmax-closures = 1\nmax-closures = 2\n' >show/deep/deeper/mxgen.toml
+check 'a key twice' exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
+check 'is told, too' grep -q "mxgen.toml:3:1: error: 'max-closures' stands above already" out
+printf '\n# all of these are 4096\r\n["budget"]\n"max-closures" = 0x1000\nmax-textures=0b1000000000000# bits\n[ budget . glsl ]\nmax-samplers = +4_096\nmax-source-bytes = 0o3641100\n' >show/deep/deeper/mxgen.toml
+check 'every form of whole numbers and names' exits 0 "$mxgen" check show/deep/deeper "${quick[@]}"
 ln -sf /proc/self/mem show/deep/deeper/mxgen.toml # which nobody can read from its beginning
 check 'a file that cannot be read' exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
 check 'is told, too' grep -q '^show/deep/deeper/mxgen.toml: error: cannot be read: .*\[budget-invalid\]' out
 rm show/mxgen.toml show/deep/deeper/mxgen.toml
 
-# Baselines
-changes() { json "$1" '[(x["file"].split("/")[-1], c["kind"]) for x in d for c in x.get("changes", [])]'; }
-compared() { tail -n 2 out | head -n 1; }
-material Bad '1, 2' >show/bad.mtlx
-check 'a baseline is written' exits 1 "$mxgen" check show "${quick[@]}" --baseline base.json
-check 'with everything' says base.json 'len(d)' 3
-check 'what is as it was passes, known failures too' exits 0 "$mxgen" check show "${quick[@]}" --baseline base.json --json same.json
-check 'and has no changes' is "$(changes same.json)" '[]'
-check 'the baseline stays as it is' says base.json 'len(d)' 3
-material Near 0.9 >show/deep/near.mtlx # a value of a uniform
-check 'another value of a uniform is no change' eval 'exits 0 "$mxgen" check show "${quick[@]}" --baseline base.json --json value.json && is "$(changes value.json)" "[]"'
-sed 's/<input.*specular_rough.*/<input name="coat" type="float" value="0.5"\/>/; /<.input>/d' show/deep/near.mtlx >near && mv near show/deep/near.mtlx
-material Good >show/bad.mtlx
-material More >show/more.mtlx
-material Worse '1, 2' >show/deep/deeper/deep.mtlx
-"$mxgen" check show --no-compile -t glsl --interface authored --baseline other.json >/dev/null
-check 'what newly fails' exits 1 "$mxgen" check show "${quick[@]}" --baseline base.json --json changed.json
-check 'is told' grep -q '^changed show/deep/deeper/deep.mtlx (fails): fails at validate, where it passed' out
-check 'with what got better and what is new' eval 'changes changed.json | grep -q "bad.mtlx., .fixed.*deep.mtlx., .fails.*more.mtlx., .new"'
-check 'and summed up' is "$(compared | grep -o 'fails [0-9]*, fixed [0-9]*')" 'fails 1, fixed 1'
-rm show/more.mtlx show/deep/near.mtlx
-check 'what is gone' exits 1 "$mxgen" check show "${quick[@]}" --baseline base.json
-check 'is told, too' grep -q '^changed show/deep/near.mtlx (gone)' out
-check 'a baseline is renewed' eval '"$mxgen" check show "${quick[@]}" --baseline base.json --update-baseline >/dev/null; exits 0 "$mxgen" check show "${quick[@]}" --baseline base.json'
-material Near >show/deep/near.mtlx
-mkdir library
-"$mxgen" check show/deep/near.mtlx "${quick[@]}" --baseline sizes.json >/dev/null
-check 'other options' exits 0 "$mxgen" check show/deep/near.mtlx "${quick[@]}" --interface reduced --baseline sizes.json
-check 'make another shader' grep -q "(topology) 'Near' for glsl: another shader" out
-check 'of another size' grep -Eq "\(size\) 'Near' for essl: [0-9]+ bytes of source, before [0-9]+ \(-[0-9.]+ %\)" out
-check 'a baseline that is none' exits 1 "$mxgen" check show --baseline show/bad.mtlx
-check 'is told as well' grep -q '\[report-unreadable\]' err
 if python3 -c 'import jsonschema' 2>/dev/null; then
-    for report in over changed base; do
+    for report in over file; do
         check "$report.json is as its schema says" validates "$here/../../docs/check.schema.json" $report.json
     done
 else
@@ -119,6 +124,7 @@ else
 fi
 
 # Pictures
+changes() { json "$1" '[(x["file"].split("/")[-1], c["kind"]) for x in d for c in x.get("changes", [])]'; }
 mkdir programs && cp "$mxgen" "$(dirname "$mxgen")/mxgen-check" programs
 check 'without a renderer' exits 1 env PATH= programs/mxgen check show/deep/near.mtlx --no-compile --render
 check 'nothing is drawn' grep -q '\[no-renderer\]' err
@@ -132,14 +138,14 @@ elif ! has_device "$mxgen" render; then
 else
     sed 's|<input.*specular_rough.*/>|<input name="base_color" type="color3" value="0.8, 0.1, 0.1"/>|' show/deep/near.mtlx >red.mtlx
     draw=("$mxgen" check red.mtlx --no-compile --render)
-    check 'pictures' exits 0 "${draw[@]}" --baseline red.json --html red.html --json drawn.json
+    check 'pictures' exits 0 "${draw[@]}" --baseline red.json --update-baseline --html red.html --json drawn.json
     check 'are PNGs' eval 'json drawn.json "d[0][\"elements\"][0][\"picture\"]" | base64 -d | head -c 8 | od -An -c | grep -q "P *N *G"'
     check 'in the gallery' grep -q 'src="data:image/png;base64,iVBOR' red.html
     check 'and signatures in the baseline' says red.json '(len(d[0]["elements"][0]["signature"]), "picture" in d[0]["elements"][0])' '(1024, False)'
     check 'a second run draws the same' eval 'exits 0 "${draw[@]}" --baseline red.json --json red2.json && is "$(changes red2.json)" "[]"'
     sed -i 's/0.8, 0.1, 0.1/0.1, 0.8, 0.1/' red.mtlx
     check 'another colour' exits 0 "${draw[@]}" --baseline red.json --json green.json
-    check 'looks different, though the shader is the same' is "$(changes green.json)" "[('red.mtlx', 'picture')]"
+    check 'looks different, though the shader is the same' is "$(changes green.json)" "[('red.mtlx', 'values'), ('red.mtlx', 'picture')]"
 
     # An image that changes under its name
     paint() { # FILE R G B: a picture of 4 x 4 pixels
@@ -154,9 +160,13 @@ open(sys.argv[1], "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
     sed 's|<standard_surface.*|<image name="I" type="color3"><input name="file" type="filename" value="wood/oak.png"/></image>\n&|
          s|<input.*specular_rough.*/>|<input name="base_color" type="color3" nodename="I"/>|' show/deep/near.mtlx >look/oak.mtlx
     touch -d '1 hour ago' look/oak.mtlx
-    look() { exits "$1" "$mxgen" check look --no-compile --render --cache drawn --baseline look.json --json "$2" --depfile look.d; }
+    look() { # CODE REPORT OPTION...
+        local code=$1 report=$2
+        shift 2
+        exits "$code" "$mxgen" check look --no-compile --render --cache drawn --baseline look.json --json "$report" --depfile look.d "$@"
+    }
     paint look/wood/oak.png 200 60 20
-    check 'a picture with an image' look 0 first.json
+    check 'a picture with an image' look 0 first.json --update-baseline
     check 'is kept' look 0 second.json
     check 'in the cache' grep -q '1 document unchanged' out
     check 'its depfile names the image' grep -q '^ look/wood/oak.png' look.d
@@ -166,6 +176,7 @@ open(sys.argv[1], "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
     paint look/wood/oak.png 20 60 200
     check 'where the image changes' look 0 third.json
     check 'it is drawn again' is "$(changes third.json)" "[('oak.mtlx', 'picture')]"
+    check 'and fails the run on demand' look 1 fourth.json --fail-on picture
 fi
 
 finish check-judge

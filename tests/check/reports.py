@@ -4,6 +4,7 @@
 import html.parser
 import json
 import pathlib
+import re
 import sys
 import urllib.parse
 import xml.etree.ElementTree
@@ -11,10 +12,18 @@ import xml.etree.ElementTree
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
 
+EXPLANATIONS = (pathlib.Path(__file__).resolve().parents[2] / "docs/messages.md").read_text(encoding="utf-8")
+OWN_STAGES = ("load", "validate", "render", "crash", "timeout")
+REASONS = ("cannot be loaded", "does not match the node library", "cannot generate the shader", "rejects the shader", "cannot be rendered",
+           "exceeds its budget", "worker crashed", "takes too long")
 with open(sys.argv[1], encoding="utf-8") as file:
     report = json.load(file)
+gone = report.get("gone", [])
 documents = report["documents"]
 messages = [message for document in documents for message in document["messages"]]
+# SARIF also has those of the baseline that are gone.
+results_of = [(document, message) for document in documents for message in document["messages"] + document.get("goneMessages", [])]
+results_of += [(document, message) for document in gone for message in document["messages"]]
 elements = [(document, element) for document in documents for element in document["elements"]]
 
 
@@ -29,32 +38,68 @@ def check_sarif(path):
     rules = [rule["id"] for rule in driver["rules"]]
     check(len(rules) == len(set(rules)), "SARIF: rules are unique")
     check(all(rule["help"]["text"] for rule in driver["rules"]), "SARIF: rules say what to do")
+    for rule in driver["rules"]:
+        address = urllib.parse.urlsplit(rule["helpUri"])
+        check(address.scheme and address.fragment == rule["id"], "SARIF: rules link to their explanation")
+        check(f"\n## {rule['id']}\n" in EXPLANATIONS, f"SARIF: the explanation of {rule['id']}")
     results = run["results"]
     check({result["ruleId"] for result in results} == set(rules), "SARIF: a rule for each id")
-    check([result["message"]["text"] for result in results] == [message["message"] for message in messages], "SARIF: texts")
-    check([result["level"] for result in results] == [message["severity"] for message in messages], "SARIF: levels")
-    for result, message in zip(results, messages):
+    check([result["message"]["text"] for result in results] == [message["message"] for _, message in results_of], "SARIF: texts")
+    check([result["level"] for result in results] == [message["severity"] for _, message in results_of], "SARIF: levels")
+    prints = [(document.get("name"), *result["partialFingerprints"].values()) for result, (document, _) in zip(results, results_of)]
+    check(len(set(prints)) == len(prints), "SARIF: fingerprints differ in a document")
+    for result, (_, message) in zip(results, results_of):
+        check(result.get("baselineState") == message.get("baselineState"), "SARIF: the state since the baseline")
+        check(("baselineState" in result) == ("compared" in report), "SARIF: the state is of a comparison")
+        related = result.get("relatedLocations", [])
+        check([note["message"]["text"] for note in related] == [note["message"] for note in message.get("notes", [])], "SARIF: notes")
+        for place, note in zip(related, message.get("notes", [])):
+            region = place.get("physicalLocation", {}).get("region", {})
+            check(region.get("startLine") == note.get("line"), "SARIF: places of notes")
         place = result["locations"][0]["physicalLocation"]
         check(urllib.parse.unquote(place["artifactLocation"]["uri"]) == message["file"], "SARIF: the file")
         check(" " not in place["artifactLocation"]["uri"], "SARIF: spaces are escaped")
         check(place.get("region", {}).get("startLine") == message.get("line"), "SARIF: the line")
         check(place.get("region", {}).get("startColumn") == message.get("column"), "SARIF: the column")
+        if "column" in message:
+            check(place["region"]["endColumn"] == message["column"] + message.get("length", 1), "SARIF: the end column")
 
 
 def check_junit(path):
     root = xml.etree.ElementTree.parse(path).getroot()
     check(root.tag == "testsuites", "JUnit: root")
     suites = root.findall("testsuite")
-    check([suite.get("name") for suite in suites] == [document["file"] for document in documents], "JUnit: a suite for each document")
-    for suite, document in zip(suites, documents):
+    check([suite.get("name") for suite in suites] == [document["file"] for document in documents + gone], "JUnit: a suite for each document")
+    for suite, document in zip(suites, documents + gone):
         cases = suite.findall("testcase")
-        shaders = [shader for element in document["elements"] for shader in element["shaders"]]
+        shaders = [] if document in gone else [(element, shader) for element in document["elements"] for shader in element["shaders"]]
         check(len(cases) == int(suite.get("tests")) == 1 + len(shaders), "JUnit: cases")
         check(len(suite.findall("testcase/failure")) == int(suite.get("failures")), "JUnit: failures")
-        check((int(suite.get("failures")) > 0) == (document["status"] == "failed"), f"JUnit: {document['file']} fails where it does")
+        check(len(suite.findall("testcase/skipped")) == int(suite.get("skipped")), "JUnit: skipped cases")
+        for case, (element, shader) in zip(cases, [(None, None)] + shaders):
+            is_now = "failed" if case.find("failure") is not None else "skipped" if case.find("skipped") is not None else "passed"
+            expected = outcome(document, element, shader)
+            check(is_now == expected, f"JUnit: {document['file']} {case.get('name')} is {is_now}, not {expected}")
+    for total in "tests", "failures", "skipped":
+        check(int(root.get(total)) == sum(int(suite.get(total)) for suite in suites), f"JUnit: the sum of {total}")
     texts = [failure.text or "" for failure in root.iter("failure")]
     for message in messages:
-        check(message["severity"] != "error" or any(message["rendered"] in text for text in texts), "JUnit: errors are told")
+        is_due = message["severity"] == "error" and message.get("baselineState") != "unchanged"
+        check(not is_due or any(message["rendered"] in text for text in texts), "JUnit: errors are told")
+
+
+def outcome(document, element, shader):
+    """Of a case of JUnit: with a baseline its changes count, and known failures are skipped."""
+    if "compared" not in report:
+        errors = shader["status"] if shader else "failed" if document.get("stage") in OWN_STAGES else "passed"
+        return errors
+    mine = [change for change in document.get("changes", [])
+            if (shader and (change.get("element"), change.get("target")) == (element["path"], shader["target"]))
+            or (not shader and not (change.get("element") and change.get("target")))]
+    if any(change["kind"] in ("fails", "new-errors", "uncompiled") for change in mine):
+        return "failed"
+    failed = shader["status"] == "failed" if shader else document.get("stage") in OWN_STAGES
+    return "skipped" if failed or document in gone else "passed"
 
 
 class Page(html.parser.HTMLParser):
@@ -62,11 +107,12 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.cards, self.links, self.inside = [], [], False
+        self.cards, self.links, self.inside, self.totals, self.in_totals = [], [], False, "", False
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
         self.links += [attributes[name] for name in ("src", "href") if name in attributes]
+        self.in_totals = self.in_totals or tag == "section"
         if tag == "article":
             self.cards.append((attributes, []))
             self.inside = True
@@ -74,8 +120,11 @@ class Page(html.parser.HTMLParser):
     def handle_endtag(self, tag):
         if tag == "article":
             self.inside = False
+        self.in_totals = self.in_totals and tag != "section"
 
     def handle_data(self, data):
+        if self.in_totals:
+            self.totals += data
         if self.inside:
             self.cards[-1][1].append(data)
 
@@ -87,16 +136,27 @@ def check_html(path):
         page.feed(file.read())
     check(not [link for link in page.links if not link.startswith("data:")], "HTML: nothing is loaded")
     empty = sum(not document["elements"] for document in documents)
-    check(len(page.cards) == len(elements) + empty, "HTML: a card for each element")
+    check(len(page.cards) == len(elements) + empty + len(gone), "HTML: a card for each element")
+    check(sum("gone" in attributes["class"].split() for attributes, _ in page.cards) == len(gone), "HTML: cards for what is gone")
     text = "\n".join("".join(parts) for _, parts in page.cards)
     for message in messages:
-        check(message["rendered"] in text, "HTML: messages with their lines")
+        check(all(line in text for line in message["rendered"].split("\n")), "HTML: messages with their lines")
+    ranks = ["fails" not in attributes["class"].split() for attributes, _ in page.cards]
+    check(ranks == sorted(ranks), "HTML: failures are first")
+    for attributes, parts in page.cards:
+        words = any(word in "".join(parts) for word in REASONS)
+        check(words == ("failed" in attributes["class"].split()), f"HTML: a failure in words: {''.join(parts)[:40]}")
+    totals = page.totals
+    check(re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", totals), "HTML: the date")
+    check(all(target in totals for target in report["targets"]), "HTML: the targets")
+    for count, what in (len(documents), "documents"), (report["summary"]["failed"], "failed"), (report["summary"].get("warnings", 0), "warnings"):
+        check(f"{count} {what}" in totals, f"HTML: the total {count} {what}")
     for document, element in elements:
         card = [(attributes, "".join(parts)) for attributes, parts in page.cards
                 if element["path"] in "".join(parts) and document["file"] in "".join(parts)]
         check(len(card) == 1, f"HTML: {element['path']}")
         sizes = [shader.get("sourceBytes", 0) for shader in element["shaders"]]
-        check(all(str(size) in card[0][1] for size in sizes), "HTML: sizes")
+        check(all(str(size or "") in card[0][1] for size in sizes), "HTML: sizes")
         check(card[0][0]["data-source-bytes"] == str(max(sizes)), "HTML: what is sorted by")
 
 

@@ -26,20 +26,63 @@ check 'with times too' exits 1 "$mxgen" check show --no-compile --stats --json t
 check 'which JUnit has' grep -q '<testcase [^>]* time="[0-9.]*"' t.xml
 check 'they still tell the same' "$here/reports.py" t.json t.sarif t.xml t.html
 
+# Messages with notes
+mkdir notes
+cat >notes/twice.mtlx <<'END'
+<materialx version="1.39">
+  <constant name="a" type="float"/>
+  <constant name="a" type="float"/>
+  <output name="out" type="float" nodename="a"/>
+</materialx>
+END
+check 'a document with notes' exits 0 "$mxgen" check notes --no-compile --json n.json --sarif n.sarif --junit n.xml --html n.html
+check 'has them in its record' says n.json '[n["line"] for m in d[0]["messages"] for n in m["notes"]]' '[2]'
+check 'and in all reports' "$here/reports.py" n.json n.sarif n.xml n.html
+
+# The date of the page, and a temporary folder that is not there
+check 'the date can be fixed' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html a.html >out; grep -q "<time>2023-11-14 22:13 UTC</time>" a.html'
+check 'then the page is the same' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html b.html >out; cmp a.html b.html'
+for kind in html junit; do
+    check "no temporary folder for --$kind" exits 1 env TMPDIR=none "$mxgen" check show/warned.mtlx --no-compile --$kind none.$kind
+    check 'is an error' grep -q "^error: cannot write 'none.$kind': No such file or directory \[output-failed\]" err
+    check 'and leaves no report' test ! -e none.$kind
+done
+
 # The page in a browser: cards that are shown after a filter, and their order
 browser=$(command -v chromium chromium-browser google-chrome | head -n 1)
+browse() { # OPTION...
+    timeout 120 "$browser" --headless --no-sandbox --disable-gpu --hide-scrollbars --force-color-profile=srgb --window-size=1400,1600 \
+        --user-data-dir="$work/browser" "$@" 2>browser.log
+}
 # shown ADDRESS: what stands on the cards that are visible, in order
 shown() {
-    timeout 60 "$browser" --headless --no-sandbox --disable-gpu --user-data-dir="$work/browser" --dump-dom "file://$work/r.html#$1" 2>browser.log |
+    browse --dump-dom "file://$work/r.html#$1" |
         grep -o '<article [^>]*>\(<img[^>]*>\)\?<h2>[^<]*' | grep -v 'hidden' | sed 's/.*<h2>//; s/ $//' | paste -sd ' '
 }
 if [ -n "$browser" ]; then
-    check 'the page shows all' is "$(shown '')" 'Good document document Odd Warned Wrong'
+    check 'the page shows all' is "$(shown '')" 'document Odd Wrong Good document Warned'
     check 'filters by status' is "$(shown status=failed)" 'document Odd Wrong'
     check 'filters by text' is "$(shown filter=show/war)" 'Warned'
     check 'sorts by size' is "$(shown order=sourceBytes)" "$(json r.json '
-        " ".join(e["path"] for e in sorted((e for x in d for e in x["elements"] or [{"path": "document", "shaders": []}]),
-                                           key=lambda e: -max((s.get("sourceBytes", 0) for s in e["shaders"]), default=0)))')"
+        " ".join(e["path"] for x, e in sorted(((x, e) for x in d for e in x["elements"] or [{"path": "document", "shaders": []}]),
+                                              key=lambda pair: (-max((s.get("sourceBytes", 0) for s in pair[1]["shaders"]), default=0),
+                                                                pair[0]["status"] == "passed")))')"
+
+    # How it looks: a document with long lines, tabs and many targets, and one that is gone
+    mkdir look
+    long=$(printf 'a very long name %.0s' $(seq 20))
+    printf '<materialx version="1.39">\n\t<standard_surface name="SR" type="surfaceshader">\n\t\t<input name="specular_roughness" type="float" doc="%s" value="wrong"/>\n\t</standard_surface>\n</materialx>\n' "$long" >look/long.mtlx
+    material 'Wide' >look/wide.mtlx
+    material Lost >look/lost.mtlx
+    targets=(--no-compile -t glsl,vulkan,essl,essl310,hlsl,osl)
+    "$mxgen" check look "${targets[@]}" --baseline look.json --update-baseline >/dev/null
+    rm look/lost.mtlx
+    sed 's/name="specular_roughness"/name="specular_rough"/' look/wide.mtlx >wide && mv wide look/wide.mtlx
+    sed 's/specular_roughness/specular_rough/' look/long.mtlx >look/longer.mtlx
+    "$mxgen" check look "${targets[@]}" --baseline look.json --html look.html >out
+    "$here/layout.py" instrument look.html measured.html
+    check 'the page is drawn' eval 'browse --screenshot="$work/look.png" "file://$work/look.html" && [ -s look.png ]'
+    check 'nothing is cut off, carets stand under what they point at' eval 'browse --dump-dom "file://$work/measured.html" >dom.html && "$here/layout.py" verify dom.html look.png'
 else
     skip 'there is no Chromium: the page was read by a parser only'
 fi

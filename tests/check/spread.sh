@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Incremental and distributed runs of mxgen check: the cache, also after kill -9, depfiles, shards, GNU parallel and Slurm. Arguments: mxgen
+# Incremental and distributed runs of mxgen check: the cache, also after kill -9, depfiles, shards and GNU parallel. Arguments: mxgen
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 examples=$here/../../examples/check
@@ -69,9 +69,16 @@ check 'until it is there' textured '' 0
 check 'which is remembered' textured 1 0
 rm textures/wood.png
 check 'until it is gone' textured '' 1
-for entry in cache/*/*.json; do printf 'x' >"$entry"; done
+for entry in cache/*/*.entry; do # still JSON, and no record any more
+    sed -i 's/"passed"/"failed"/; s/"record"/"recurd"/' "$entry"
+done
 check 'damaged entries are made anew' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
-check 'as if there were none' eval 'exits 1 "$mxgen" check show --no-compile --json none.json && cmp damaged.json none.json'
+check 'as if there were none' eval '"$mxgen" check show --no-compile --json none.json >out 2>err; cmp damaged.json none.json'
+check 'and kept' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
+check 'whole' is "$(unchanged)" 15
+for entry in cache/*/*.entry; do printf 'x' >"$entry"; done
+check 'entries of one byte are made anew' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
+check 'are none' eval 'exits 1 "$mxgen" check show --no-compile --json none.json && cmp damaged.json none.json'
 check 'a cache that cannot be written is told' exits 0 "$mxgen" check show/m2.mtlx --no-compile --cache show/m1.mtlx
 check 'and changes no verdict' grep -q '^warning: the cache' err
 
@@ -105,8 +112,8 @@ for delay in 0.01 0.02 0.03 0.05 0.08 0.12 0.2; do
     wait $! 2>/dev/null
 done
 whole() {
-    find killed -name '*.json' | while read -r entry; do
-        python3 -m json.tool "$entry" >/dev/null || exit 1
+    find killed -name '*.entry' | while read -r entry; do
+        [ "$(tail -n +2 "$entry" | sha256sum | cut -c -64)" = "$(head -n 1 "$entry")" ] || exit 1
     done
 }
 check 'kill -9 leaves no half entry' whole
@@ -114,6 +121,53 @@ check 'and no half report' eval '[ ! -e killed.json ] || python3 -m json.tool ki
 check 'the next run is right' eval 'exits 1 "$mxgen" check show --no-compile --cache killed --json killed.json && cmp killed.json none.json'
 sleep 0.2
 check 'no worker is left' eval '! pgrep -f "$work/programs/mxgen-check"'
+
+# Limits: of the files that the cache hashes, and of the memory of a worker
+truncate -s 3G sparse.mtlx
+cat >peak.py <<'P'
+import resource, subprocess, sys
+code = subprocess.run(sys.argv[2:], check=False).returncode
+peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024
+print(f"{peak} MiB", file=sys.stderr)
+sys.exit(code if peak < int(sys.argv[1]) else 99)
+P
+check 'a document of 3 GiB' exits 1 python3 peak.py 200 "$mxgen" check sparse.mtlx --cache cache --no-compile --max-file-size 1
+check 'is too large, and nobody reads it' grep -q 'larger than 1 MiB.*\[file-too-large\]' out
+python3 - <<'P'
+with open("heavy.mtlx", "w", encoding="ascii") as out:
+    out.write('<materialx version="1.39"><position name="n0" type="vector3"/>')
+    for i in range(1, 60000):
+        out.write(f'<add name="n{i}" type="vector3"><input name="in1" type="vector3" nodename="n{i - 1}"/>'
+                  f'<input name="in2" type="vector3" value="{i}, 1, 2"/></add>')
+    out.write('<output name="o" type="vector3" nodename="n59999"/></materialx>')
+P
+check 'a document that needs more memory than a worker has' exits 1 "$mxgen" check heavy.mtlx show/m2.mtlx -j1 --no-compile --memory-limit 48 --json heavy.json
+check 'is told' grep -q 'a worker needs more than 48 MiB of memory: .*\[check-memory\]' out
+check 'and the next is checked' says heavy.json '[x["status"] for x in d]' "['failed', 'passed']"
+
+# A run that ends while a worker waits: for the other end of a pipe
+mkfifo pipe.mtlx
+is_running() { case $(ps -o stat= -p "$1") in '' | Z*) return 1 ;; esac; }
+for signal in TERM HUP KILL; do # a shell makes its background jobs ignore SIGINT
+    "$mxgen" check pipe.mtlx --no-compile --json ended.json >/dev/null 2>&1 &
+    run=$! worker=
+    for _ in $(seq 200); do
+        worker=$(pgrep -P "$run") && [ -n "$(find . -maxdepth 1 -name 'ended.json.*')" ] && break
+        sleep 0.05
+    done
+    check "a worker waits before SIG$signal" test -n "$worker"
+    kill -s "$signal" "$run"
+    wait "$run" 2>/dev/null
+    for _ in $(seq 200); do
+        is_running "$worker" || break
+        sleep 0.05
+    done
+    check "no worker is left by SIG$signal" eval '! is_running "$worker"'
+    check 'no report' test ! -e ended.json
+    # no program can do anything about SIGKILL
+    [ "$signal" = KILL ] || check "no half report is left by SIG$signal" test -z "$(find . -maxdepth 1 -name 'ended.json*')"
+done
+rm -f ended.json*
 
 # Depfiles
 cat >Makefile <<END
@@ -126,7 +180,7 @@ check 'and not again' make -q
 check 'until an include changes' eval 'touch show/part.mtlx && ! make -q'
 printf '[budget]\nmax-closures = 100\n' >show/mxgen.toml
 echo show/whole.mtlx >list
-"$mxgen" check show/whole.mtlx --no-compile --json base.json >/dev/null
+"$mxgen" check show/whole.mtlx --no-compile --baseline base.json --update-baseline >/dev/null
 check 'a depfile names' exits 0 "$mxgen" check @list --library library --no-compile --baseline base.json --json r.json --depfile r.d
 for file in show/whole.mtlx show/part.mtlx show/mxgen.toml library/a.mtlx list base.json; do check "$file" grep -q "^ $file\( \|\$\)" r.d; done
 rm show/mxgen.toml
@@ -141,11 +195,25 @@ check 'into the same report' cmp merged.json none.json
 check 'of every kind' eval 'exits 1 "$mxgen" check show --no-compile --junit none.xml && cmp merged.xml none.xml'
 check 'a shard too few' exits 1 "$mxgen" check merge shards/[124].json
 check 'is told' grep -q 'shard 3 of 4 is missing \[shard-missing\]' err
+check 'with no other message' is "$(wc -l <err)" 1
+check 'the last shard is missing' exits 1 "$mxgen" check merge shards/[123].json
+check 'is told' grep -q 'shard 4 of 4 is missing \[shard-missing\]' err
+check 'two shards are missing' exits 1 "$mxgen" check merge shards/[24].json
+check 'are told at once' is "$(cat err)" 'error: shards 1, 3 of 4 are missing [shard-missing]'
 check 'a shard twice' exits 1 "$mxgen" check merge shards/*.json shards/2.json
-check 'is told, too' grep -q '\[shard-twice\]' err
+check 'is told once' is "$(cat err)" "error: 'shards/2.json' and 'shards/2.json' are both shard 2 of 4 [shard-twice]"
+check 'one twice and one missing' exits 1 "$mxgen" check merge shards/[124].json shards/2.json
+check 'are told, both' eval 'grep -q "shard 3 of 4 is missing" err && is "$(grep -c shard-twice err)" 1'
 "$mxgen" check show --no-compile --shard 1/2 --json other.json >/dev/null
 check 'shards of two runs' exits 1 "$mxgen" check merge shards/2.json other.json
 check 'are told apart' grep -q '\[shard-other\]' err
+"$mxgen" check show --no-compile --target essl --shard 3/4 --json other3.json >/dev/null
+check 'a shard with other targets' exits 1 "$mxgen" check merge shards/[124].json other3.json
+check 'is told, too' grep -q "'other3.json' and 'shards/1.json' are not shards of the same run \[shard-other\]" err
+"$mxgen" check show --no-compile --json all.json >/dev/null
+check 'two whole reports' exits 1 "$mxgen" check merge all.json none.json
+check 'are no shards' grep -q '\[shard-other\]' err
+check 'one whole report is one run' eval 'exits 1 "$mxgen" check merge all.json --json all2.json && cmp all.json all2.json'
 head -c $(($(wc -c <shards/2.json) / 2)) shards/2.json >cut.json
 check 'half a shard' exits 1 "$mxgen" check merge shards/[134].json cut.json --json half.json
 check 'is told as well' grep -q '\[report-unreadable\]' err
@@ -161,67 +229,10 @@ check 'an empty shard passes' exits 0 "$mxgen" check show/m2.mtlx --no-compile -
 if command -v parallel >/dev/null; then
     check 'GNU parallel' exits 1 "$examples/parallel.sh" 2/: 4 show --no-compile
     check 'gives the same report' cmp report.json none.json
+    "$mxgen" check show --no-compile --baseline parallel.json --update-baseline >/dev/null
+    check 'against a baseline' env BASELINE=parallel.json "$examples/parallel.sh" 2/: 4 show --no-compile
 else
     skip 'GNU parallel is not installed'
-fi
-
-# Slurm: a controller and a node of our own
-slurm() {
-    local host port=$((20000 + $$ % 20000))
-    host=$(hostname -s)
-    mkdir -p slurm/state slurm/spool
-    cat >slurm/slurm.conf <<END
-ClusterName=test
-SlurmctldHost=$host(127.0.0.1)
-SlurmUser=$(id -un)
-SlurmdUser=$(id -un)
-AuthType=auth/none
-CredType=cred/none
-ProctrackType=proctrack/pgid
-TaskPlugin=task/none
-SelectType=select/cons_tres
-SelectTypeParameters=CR_CPU
-JobAcctGatherType=jobacct_gather/none
-MpiDefault=none
-SchedulerParameters=sched_interval=1
-SlurmctldPidFile=$work/slurm/slurmctld.pid
-SlurmdPidFile=$work/slurm/slurmd.pid
-SlurmdSpoolDir=$work/slurm/spool
-StateSaveLocation=$work/slurm/state
-SlurmctldPort=$port
-SlurmdPort=$((port + 1))
-SlurmctldLogFile=$work/slurm/slurmctld.log
-SlurmdLogFile=$work/slurm/slurmd.log
-NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
-PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
-END
-    export SLURM_CONF=$work/slurm/slurm.conf
-    slurmctld -D >slurm/slurmctld.out 2>&1 &
-    controller=$!
-    slurmd -D >slurm/slurmd.out 2>&1 &
-    node=$!
-    trap 'kill $node $controller; wait; rm -rf "$work"' EXIT
-    for _ in $(seq 60); do
-        sinfo -h -o %T 2>/dev/null | grep -q idle && return
-        sleep 0.5
-    done
-    return 1
-}
-merge_array() {
-    local array
-    rm -rf shards report.json && mkdir shards
-    array=$(sbatch --parsable --array=1-3 "$examples/array.sbatch" show --no-compile) || return
-    timeout 100 sbatch --wait --output=merge.log --dependency=afterany:"$array" \
-        --wrap 'mxgen check merge shards/*.json --json report.json --html report.html'
-    [ $? -eq 1 ] || { cat merge.log shards/*.log; return 1; } # the merge's exit code
-}
-if ! command -v slurmctld >/dev/null || ! command -v slurmd >/dev/null; then
-    skip 'Slurm is not installed'
-elif slurm; then
-    check 'a Slurm array' merge_array
-    check 'gives the same report' cmp report.json none.json
-else
-    skip 'Slurm does not start here'
 fi
 
 finish check-spread

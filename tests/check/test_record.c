@@ -12,10 +12,13 @@
 
 static struct check_document *make_document(void)
 {
+    static struct check_note notes[] = {{"defined here", "b.mtlx", 1, 2, 3},
+                                        {"and so on", "", 0, 0, 0}};
     static struct check_message messages[] = {
         {MXG_SEVERITY_WARNING, "unused-node", "nobody uses 'a'", "a.mtlx", 4, 7, 2, "", NULL,
-         "a.mtlx:4:7: warning: …\n"},
-        {MXG_SEVERITY_ERROR, "bad-value", "'x' is no number", "a.mtlx", 5, 1, 0, "M", "glsl", NULL},
+         "a.mtlx:4:7: warning: …\n", notes, 2, "new"},
+        {MXG_SEVERITY_ERROR, "bad-value", "'x' is no number", "a.mtlx", 5, 1, 0, "M", "glsl", NULL,
+         NULL, 0, ""},
     };
     static struct check_part parts[] = {{MEASURE_TEXTURES, "wood", 1},
                                         {MEASURE_UNIFORM_BYTES, "", 1ull << 40}};
@@ -32,10 +35,25 @@ static struct check_document *make_document(void)
                                              0.5,
                                              12.25},
                                             {.target = "osl"}};
-    static struct check_element elements[] = {{"M", "material", shaders, 2, "cGljdHVyZQ==", "1,2"},
+    static struct check_setting values[] = {{"SR/base", "0.5"}, {"SR/empty", ""}},
+                                textures[] = {{"I/file", "wood.png"}};
+    static struct check_element elements[] = {{.path = "M",
+                                               .type = "material",
+                                               .shaders = shaders,
+                                               .num_shaders = 2,
+                                               .values = values,
+                                               .num_values = 2,
+                                               .textures = textures,
+                                               .num_textures = 1,
+                                               .picture = "cGljdHVyZQ==",
+                                               .signature = "1,2"},
                                               {.path = "N"}};
     static const char *files[] = {"a.mtlx", "b.mtlx"}, *folders[] = {"./"}, *images[] = {"c.png"};
-    static struct check_document document = {.file = "a.mtlx",
+    static struct check_document document = {.file = "../a.mtlx",
+                                             .name = "a.mtlx",
+                                             .num_hidden = 7,
+                                             .gone_messages = messages,
+                                             .num_gone_messages = 1,
                                              .failed = CHECK_COMPILE,
                                              .messages = messages,
                                              .num_messages = 2,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Runs examples/check/github.yml like GitHub Actions: the steps of each job of the matrix in a separate folder. Copies of files simulate
-the actions. The second run uses the caches of the first. Arguments: mxgen, the workflow, a document."""
+the actions. The second run uses the caches of the first, and finds a new fault. Arguments: mxgen, the workflow, a document."""
 import fnmatch
 import json
 import os
@@ -102,13 +102,17 @@ def run_workflow(runner, workflow, commit):
 
 
 def make_tree(folder):
-    """Twenty materials, one with a fault."""
+    """Twenty materials, one with a fault that the baseline has."""
     text = DOCUMENT.read_text(encoding="utf-8")
     (folder / "shots/materials").mkdir(parents=True)
     for number in range(20):
         path = folder / f"shots/materials/{number:02}.mtlx"
         path.write_text(text if number != 7 else re.sub(r'value="0\.', 'value="x.', text), encoding="utf-8")
         os.utime(path, (1, 1))
+    command = re.search(r"^# +mxgen (check .*--update-baseline)$", WORKFLOW.read_text(encoding="utf-8"), re.M)
+    check(command, "the workflow says how to write the baseline")
+    result = subprocess.run([MXGEN, *command[1].split()], cwd=folder / "shots", capture_output=True, text=True, check=False)
+    check(result.returncode == 0, f"which works: {result.stderr}")
 
 
 with tempfile.TemporaryDirectory() as work:
@@ -118,20 +122,28 @@ with tempfile.TemporaryDirectory() as work:
         parsed = yaml.safe_load(file)
     check({"push", "pull_request"} <= set(parsed[True]), "it runs at a push and for a request") # "on" is a truth of YAML 1.1
     actions = Runner(root)
-    whole = subprocess.run([MXGEN, "check", "materials", "--target", "glsl,vulkan", "--json", root / "whole.json", "--junit", root / "whole.xml"],
-                           cwd=root / "shots", capture_output=True, text=True, check=False)
-    check(whole.returncode == 1, "a material has a fault")
     for commit in "first", "second":
+        if commit == "second": # which has a new fault
+            materials = root / "shots/materials"
+            (materials / "03.mtlx").write_text((materials / "07.mtlx").read_text(encoding="utf-8"), encoding="utf-8")
+            os.utime(materials / "03.mtlx", (1, 1))
+        whole = subprocess.run([MXGEN, "check", "materials", "--target", "glsl,vulkan", "--baseline", "materials/baseline.json", "--fail-on",
+                                "new-warnings,gone", "--junit", root / "whole.xml"], cwd=root / "shots", capture_output=True, text=True,
+                               check=False)
+        check(whole.returncode == (commit == "second"), "a known fault passes, a new one does not")
         jobs = run_workflow(actions, parsed, commit)
         check(len(jobs["check"]) == 8, "eight shards")
         check(all(good for _, good, _ in jobs["check"]), "a shard with a fault does not stop the others")
         (said, passed, place), = jobs["report"]
-        check(not passed, "the report's job fails as a material does")
-        check("19 passed, 1 failed" in said, f"it tells of all: {said}")
+        check(passed == (commit == "first"), f"the report's job fails as the run does: {said}")
+        check(("19 passed, 1 failed" if passed else "18 passed, 2 failed") in said, f"it tells of all: {said}")
+        check(("no change" if passed else "1 document fails (fails 1, new-errors 1)") in said, f"it compares: {said}")
         check((place / "report.xml").read_bytes() == (root / "whole.xml").read_bytes(), "the report is that of one run")
         check("<article" in (place / "report.html").read_text(encoding="utf-8"), "the gallery is there")
     check(len(actions.reports) == 2 and actions.reports[0]["runs"][0]["results"], "SARIF is uploaded though the job failed")
     check(actions.restored == [False] * 8 + [True] * 8, "the second run has caches")
+    states = [{result["baselineState"] for result in report["runs"][0]["results"]} for report in actions.reports]
+    check(states == [{"unchanged"}, {"new", "unchanged"}], f"SARIF says what is new: {states}")
     unchanged = sum(int(count) for text, _, _ in jobs["check"] for count in re.findall(r"(\d+) documents? unchanged", text))
-    check(unchanged == 20, f"and checks nothing again: {unchanged}")
+    check(unchanged == 19, f"and checks only what has changed again: {unchanged}")
 finish("check-workflow")

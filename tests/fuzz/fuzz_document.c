@@ -5,10 +5,11 @@
  * be the reason of is a fault.
  */
 #include "files.h"
+#include "mutate.h"
 
 enum { MAX_RENDERABLES = 3 };
 
-static const char *const targets[] = {"glsl", "vulkan", "essl", "hlsl"};
+static const char *const targets[] = {"glsl", "vulkan", "essl", "hlsl", "osl", "essl310"};
 static const char *const interfaces[] = {"complete", "authored", "reduced"};
 
 static bool is_expected(mxg_status status)
@@ -43,10 +44,12 @@ static void use(mxg_context *context, const mxg_document *document, const struct
     mxg_result *result = NULL;
     if (mxg_options_create(context, &options) == MXG_OK)
         mxg_options_set(options, "interface", interfaces[choice / 8 % 3]);
+    if (options && choice / 64 % 6 == 4 && choice % 4 == 0)
+        mxg_options_set(options, "osl-network", "true");
     FUZZ_REQUIRE(is_expected(mxg_document_validate(context, document, &result)));
     format_all(mxg_result_diagnostics(result), files);
     mxg_result_destroy(result);
-    mxg_generate_desc desc = {sizeof desc, targets[choice / 64 % 4], NULL, options};
+    mxg_generate_desc desc = {sizeof desc, targets[choice / 64 % 6], NULL, options};
     for (uint32_t i = 0; i < mxg_document_num_renderables(document) && i < MAX_RENDERABLES; i++) {
         mxg_renderable renderable = {sizeof renderable};
         FUZZ_REQUIRE(mxg_document_renderable(document, i, &renderable) == MXG_OK);
@@ -66,7 +69,8 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     mxg_context_desc limits = {.max_memory = (size_t)256 << 20,
                                .max_elements = 20000,
                                .max_nodes = 50000,
-                               .max_output_mib = 4};
+                               .max_output_mib = 4,
+                               .trust = fuzz_choice(data, size, 2) != 0};
     mxg_context *context = fuzz_files_context(&files, heap, limits);
     mxg_document *document = NULL;
     if (!context)
@@ -82,3 +86,27 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     mxg_context_destroy(context);
     FUZZ_REQUIRE(files.num_open == 0);
 }
+
+/* ---- Mutation, which libFuzzer calls ---- */
+
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size,
+                                 uint8_t *out, size_t max_size, unsigned seed);
+
+#ifdef MXG_FUZZ
+enum { BYTES = 8 }; /* one mutation of so many is of bytes */
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
+{
+    return seed % BYTES == 0 ? LLVMFuzzerMutate(data, size, max_size)
+                             : mutate_document((char *)data, size, max_size, seed);
+}
+
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size,
+                                 uint8_t *out, size_t max_size, unsigned seed)
+{
+    return mutate_cross((const char *)a, a_size, (const char *)b, b_size, (char *)out, max_size,
+                        seed);
+}
+#endif

@@ -33,9 +33,9 @@ run_line() {
         esac
     done
     local title=${document%.mtlx}.$name
-    check "$title" exits 0 "$mxgen" "$document" --target "$target" --interface "$interface" --reflect -o "$title" "${options[@]}" || return
+    check "$title" exits 0 "$mxgen" "$document" --target "$target" --interface "$interface" --reflect -o "$title.d" "${options[@]}" || return
     for ending in ${files//,/ }; do
-        local made=("$title"/*."$ending")
+        local made=("$title.d"/*."$ending")
         for file in "${made[@]}"; do
             local element=${file##*/}
             [ ${#made[@]} -eq 1 ] && element= || element=.${element%."$ending"}
@@ -45,7 +45,7 @@ run_line() {
         done
     done
     if [[ " ${options[*]} " = *' --integrator=scatter '* ]]; then # a function without a program around it
-        for file in "$title"/*.frag; do
+        for file in "$title.d"/*.frag; do
             echo 'void main() { scatter(); }' >>"$file"
             if command -v glslangValidator >/dev/null; then
                 check "$file compiles" glslangValidator "$file"

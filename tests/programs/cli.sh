@@ -130,6 +130,8 @@ name_clash.mtlx|name_clash.mtlx -t osl -o clashes
 name_clash.mtlx|name_clash.mtlx -t osl --osl-network -o clashes
 lib.mtlx|library pack lib.mtlx -o lib.mtlx
 lib.mtlx|library expand lib.mtlx -o ./lib.mtlx
+clash.mtlx|format clash.mtlx -o ./clash.mtlx
+clash.mtlx|upgrade clash.mtlx -o clash.mtlx
 X
 check 'before anything is written' test ! -e clashes
 ln -s clash.mtlx link.mtlx
@@ -220,6 +222,42 @@ check 'thirty errors' exits 1 "$mxgen" validate thirty.mtlx
 check 'are twenty' eval 'test "$(grep -c unknown-node err)" -eq 20 && grep -q "more than 20 errors" err'
 check 'unless asked for' exits 1 "$mxgen" validate thirty.mtlx --max-errors 0
 check 'all' eval 'test "$(grep -c unknown-node err)" -eq 30'
+# Equal warnings appear once, with the lines of the others; a note without a message needs --verbose.
+{
+    echo '<materialx version="1.39">'
+    for i in $(seq 15); do echo "<constant name='c$i' type='float' nodeid='$i'/><output name='o$i' type='float' nodename='c$i'/>"; done
+    echo '<constant name="p" type="color3"><input name="value" type="color3" value="1, 1, 1" colorspace="srgb_tx"/></constant>'
+    echo '<output name="q" type="color3" nodename="p"/></materialx>'
+} >repeats.mtlx
+check 'a warning fifteen times' exits 0 "$mxgen" validate repeats.mtlx
+check 'is told once' eval 'test "$(grep -c unknown-attribute err)" -eq 1 && grep -q "^note: and 14 more, in the lines 3, 4, 5, 6, 7, 8, 9, 10, …" err'
+check 'a name of a colour space is not told' eval '! grep -q colorspace-alias err'
+check 'but with --verbose' exits 0 "$mxgen" validate repeats.mtlx --verbose
+check 'as a note' grep -q "note: 'srgb_tx' is another name of the colour space 'srgb_texture' \[colorspace-alias\]" err
+# What follows from a missing include is counted for every element
+{
+    echo '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="absent.mtlx"/>'
+    for i in 1 2 3; do echo "<glow name='g$i' type='float'/><output name='o$i' type='float' nodename='g$i'/>"; done
+    echo '</materialx>'
+} >absent_include.mtlx
+check 'a missing include' exits 1 "$mxgen" validate absent_include.mtlx
+check 'is the only error' eval 'test "$(grep -c "error: " err)" -eq 1 && grep -q "note: 3 more errors may follow" err'
+check 'when generating, too' exits 1 "$mxgen" absent_include.mtlx -o absent
+check 'it is' eval 'test "$(grep -c "error: " err)" -eq 1'
+check 'an unknown working space' exits 1 "$mxgen" two.mtlx --colorspace acecsg -o space
+check 'is compared with those that exist' grep -q "'acecsg' is not a value of option 'colorspace'; expected acescg" err
+check 'one like no other' exits 1 "$mxgen" two.mtlx --colorspace moonlight -o space
+check 'lists them' grep -q 'one of: none, lin_rec709, .*acescg' err
+# Nodes are found by name
+check 'library list WORD' exits 0 "$mxgen" library list NOISE2
+check 'lists these nodes only' eval 'test "$(grep -c noise2d out)" -eq "$(wc -l <out)" && grep -q "^ND_noise2d_float  noise2d(" out'
+check 'of a misspelt word' exits 1 "$mxgen" library list nois2d
+check 'it suggests one' grep -q "did you mean 'noise2d'" err
+check 'explain NODE' exits 0 "$mxgen" explain standard_surface
+check 'prints the inputs' grep -Eq '^ +base_color +color3 +0.8, 0.8, 0.8' out
+check 'explain of neither' exits 2 "$mxgen" explain standard_surfac
+check 'suggests a node' grep -q "did you mean 'standard_surface'" err
+check 'no format is printed raw' eval '"$mxgen" explain | { ! grep -q "%[sud]"; }'
 
 # Output that cannot be written
 touch file

@@ -109,9 +109,15 @@ check 'a reduced shader has no uniforms' exits 1 "$render" plain.mtlx --scene gr
 check 'a picture' exits 0 "$render" plain.mtlx -o ball.png --size 48x32
 check 'is a PNG of that size' test "$(od -An -tx1 -j16 -N8 ball.png | tr -d ' ')" = 0000003000000020
 check 'the same bytes again' eval '"$render" plain.mtlx -o again.png --size 48x32 && cmp ball.png again.png'
-check 'a missing texture' exits 1 "$render" textured.mtlx -o none.png
+check 'a missing texture' exits 1 "$render" textured.mtlx -o lost.png
 check 'names the file' grep -q "none.png.*\[missing-texture\]" err
-check 'leaves no picture' test ! -e none.png
+check 'its place, and a way out' eval 'grep -Eq "^textured.mtlx:[0-9]+:[0-9]+: warning: .*none.png" err && grep -q -- "--missing-texture checker" err'
+sed '/<nodegraph/a <image name="x" type="float"><input name="file" type="filename" value="gone.png"/></image><image name="y" type="float"><input name="file" type="filename" value="gone.png"/></image>' textured.mtlx >several.mtlx
+check 'several missing textures' exits 1 "$render" several.mtlx -o lost.png
+check 'are told together, each once' eval 'test "$(grep -c "there is no file" err)" -eq 2 && test "$(grep -c "no file .gone.png" err)" -eq 1'
+check 'a misspelt input' exits 1 "$render" plain.mtlx --set SR/base_colr=1,0,0 -o lost.png
+check 'is compared' grep -q "did you mean 'SR/base_color'" err
+check 'leaves no picture' test ! -e lost.png
 quarter='1,0,0,1,0,0,0,1,0,0,1,0'
 half="$quarter,$quarter"
 missing='0.400000006,0.400000006,0.400000006,0.400000006,0.400000006,0.400000006,0,0,1,0,0,1'

@@ -435,7 +435,14 @@ static void test_sandbox(void)
     REQUIRE(symlink("../a.mtlx", "deep/link.mtlx") == 0);
     REQUIRE(sandbox_fault(context, "deep/link.mtlx") != NULL); /* links are followed */
     REQUIRE(unlink("deep/link.mtlx") == 0);
-    REQUIRE(!sandbox_fault(context, "none.mtlx")); /* opening it tells why */
+    REQUIRE(sandbox_fault(context, "none.mtlx") != NULL); /* whether it exists or not */
+    REQUIRE(sandbox_fault(context, "deep/../none.mtlx") != NULL);
+    REQUIRE(sandbox_fault(context, "/no/such/folder/none.mtlx") != NULL);
+    REQUIRE(symlink("../none.mtlx", "deep/link.mtlx") == 0);
+    REQUIRE(sandbox_fault(context, "deep/link.mtlx") != NULL);
+    REQUIRE(unlink("deep/link.mtlx") == 0);
+    REQUIRE(!sandbox_fault(context, "deep/none.mtlx")); /* opening it tells why */
+    REQUIRE(!sandbox_fault(context, "deep/no/folder/none.mtlx"));
     REQUIRE(sandbox_admit_folder(context, "."));
     REQUIRE(!sandbox_fault(context, "a.mtlx"));
     mxg_context_destroy(context);

@@ -6,6 +6,7 @@
 #include "base/hash.h"
 #include "base/json.h"
 #include "base/mem.h"
+#include "base/names.h"
 #include "base/num.h"
 #include "base/strpool.h"
 #include "base/text.h"
@@ -541,6 +542,39 @@ static void test_hashes(void)
     REQUIRE(hash_pair(1, 2) != hash_pair(2, 1));
 }
 
+/* A host's list of names, which needs ever more room, or keeps silent about its end. */
+struct names_host {
+    unsigned calls;
+    bool is_greedy;
+};
+
+static size_t host_names(void *user_data, const char *from, const char *folder, char *names,
+                         size_t capacity)
+{
+    struct names_host *host = user_data;
+    (void)from, (void)folder;
+    host->calls++;
+    if (!host->is_greedy && capacity >= 6)
+        memcpy(names, "a\0long", 6); /* the last name lacks its NUL */
+    return host->is_greedy ? capacity + 1 : 6;
+}
+
+static void test_names(void)
+{
+    struct mem mem;
+    struct arena arena;
+    struct names_host host = {.is_greedy = true};
+    const char *names = NULL;
+    mem_init(&mem, NULL, NULL);
+    arena_init(&arena, &mem);
+    REQUIRE_EQ(names_list(&arena, host_names, &host, "", "", &names), 0);
+    REQUIRE(host.calls < 10 && names && !*names);
+    host.is_greedy = false;
+    REQUIRE_EQ(names_list(&arena, host_names, &host, "", "", &names), 6);
+    REQUIRE_STR(names + 2, "long");
+    arena_finish(&arena);
+}
+
 int main(void)
 {
     struct mem mem;
@@ -549,6 +583,7 @@ int main(void)
     arena_init(&arena, &mem);
     test_arena();
     test_vectors();
+    test_names();
     test_failures();
     test_overflow();
     test_strings(&arena);

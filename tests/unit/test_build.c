@@ -334,7 +334,7 @@ static void test_need(void)
     struct work w;
     work_open(&w, document);
     REQUIRE_STR(value_text(&w, work_build(&w, "c1")), "nothing");
-    REQUIRE_STR(layers_messages(&w.layers), "cycle");
+    REQUIRE_STR(layers_messages(&w.layers), "cycle, reads, reads");
     REQUIRE_STR(value_text(&w, work_build(&w, "odd")), "nothing");
     REQUIRE_STR(layers_messages(&w.layers), "unknown-node");
     /* and what is left is as good as before */

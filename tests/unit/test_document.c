@@ -145,15 +145,15 @@ static void test_layers(void)
 static void test_duplicates(void)
 {
     REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"/>\n<b name=\"n\"/>\n" END, NULL,
-                     "3:1 duplicate-name, 2:1 previous-definition");
+                     "3:10 duplicate-name, 2:10 previous-definition");
     REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"/>\n<a name=\"n\" type=\"x\"/>\n" END, NULL,
-                     "3:1 duplicate-name, 2:1 previous-definition");
+                     "3:10 duplicate-name, 2:10 previous-definition");
     REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"><b/></a>\n<a name=\"n\"><b/><b/></a>\n" END, NULL,
-                     "3:1 duplicate-name, 2:1 previous-definition");
+                     "3:10 duplicate-name, 2:10 previous-definition");
     REQUIRE_MESSAGES(
         ROOT
         "\n<a name=\"n\" x=\"1\" y=\"2\"><b/></a>\n<a y=\"2\" x=\"1\" name=\"n\"><b/></a>\n" END,
-        NULL, "3:1 repeated-element, 2:1 previous-definition");
+        NULL, "3:22 repeated-element, 2:10 previous-definition");
     REQUIRE_TREE(ROOT "<a name=\"n\"/><a name=\"n\"/><a/><a/>" END, NULL,
                  "<a name=\"n\"/>\n<a/>\n<a/>\n");
 }
@@ -256,8 +256,8 @@ static void test_validation(void)
                   "<add name=\"c\" type=\"float\"><input name=\"in1\" type=\"float\" "
                   "nodegraph=\"NG_a\"/></add>",
                   "");
-    require_valid("<add name=\"1a\" type=\"float\"/>", "2:1 bad-name");
-    require_valid("<add name=\"a b\" type=\"float\"/>", "2:1 bad-name");
+    require_valid("<add name=\"1a\" type=\"float\"/>", "2:12 bad-name");
+    require_valid("<add name=\"a b\" type=\"float\"/>", "2:12 bad-name");
     require_valid("<add type=\"float\"/>", "2:1 name-missing");
     require_valid("<add name=\"a\"/>", "2:1 missing-attribute");
     require_valid("<add name=\"a\" type=\"flaot\"/>", "2:21 unknown-type");
@@ -286,10 +286,10 @@ static void test_validation(void)
     require_valid(
         "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>"
         "<add name=\"b\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>",
-        "2:1 cycle");
+        "2:12 cycle, 2:147 reads, 2:69 reads");
     require_valid(
         "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>",
-        "2:1 cycle");
+        "2:12 cycle, 2:69 reads");
     require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/>", "2:37 inherit-missing");
     require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/><nodedef name=\"M\" node=\"n\" "
                   "inherit=\"N\"/>",

@@ -559,6 +559,12 @@ static void test_specialise_loops(void)
     specialises("float f(float x) { float y = 2.0; float dead = 0.0; for (int i = 0; i < 3; ++i) { "
                 "dead = x; } x *= y; return x; }",
                 "f", "", "float f0(float x)\n{\n    x *= 2.0;\n    return x;\n}\n");
+    specialises("float f(float x) { int i = 0; for (int k = 0; k < 3; ++k) { x += float(i); "
+                "for (i = 5; x < 0.0;) x += 1.0; } return x; }",
+                "f", "",
+                "float f(float x)\n{\n    int i = 0;\n    for (int k = 0; k < 3; ++k) {\n"
+                "        x += float(i);\n        for (i = 5; x < 0.0;)\n            x += 1.0;\n"
+                "    }\n    return x;\n}\n");
     specialises("float f(float x, float w) { float k = 1.0; for (int i = 0; i < 3; ++i) { x *= k; "
                 "if (x > w) { k = 2.0; continue; } x += 1.0; } return x; }",
                 "f", "w=5",

@@ -23,16 +23,14 @@ static const char *spell(struct fixture *f, const char *target_name, enum shader
 
 static const struct spell_options plain = {.generator = "mxgen 0.1", .interface = "complete"};
 
-static void finish(struct fixture *f, const struct target *target,
-                   const struct spell_options *options)
+/* Keeps the rules that the test has set. */
+static void finish(struct fixture *f, const struct target *target)
 {
     f->shader.style = ARENA_NEW(&f->arena, struct lang_style);
     lang_style_init(f->shader.style, target->syntax, &f->arena);
-    struct shader_layout_rules rules = {
-        .blocks = target->caps & CAP_UNIFORM_BLOCKS || options->uniform_blocks,
-        .bindings = (target->caps & CAP_BINDINGS) != 0,
-        .neutral_names = options->neutral_names,
-    };
+    struct shader_layout_rules rules = f->shader.rules;
+    rules.blocks |= (target->caps & CAP_UNIFORM_BLOCKS) != 0;
+    rules.bindings = (target->caps & CAP_BINDINGS) != 0;
     shader_finish(&f->shader, &rules);
 }
 
@@ -41,7 +39,7 @@ static const char *body(struct fixture *f, const struct spell_options *options)
 {
     struct spell_mark *marks;
     uint32_t num_marks;
-    finish(f, target_find("glsl"), options);
+    finish(f, target_find("glsl"));
     const char *text = spell(f, "glsl", STAGE_PIXEL, options, &marks, &num_marks);
     const char *start = strstr(text, "void main()\n{\n") + strlen("void main()\n{\n");
     return arena_strndup(&f->arena, start, strlen(start) - 2);
@@ -240,15 +238,15 @@ static void test_statements(void)
                ir_ref n = sine(f, "n", v); use_twice(f, n); use_twice(f, sine(f, "m", n)););
     STATEMENTS(
         "    vec3 v = u_0;\n    vec3 v_2 = sin(u_0);\n    v += v_2;\n    v += v_2 + vec3(1.0);\n",
-        (&(struct spell_options){
-            .comments = true, .path = path_of, .user_data = f, .neutral_names = true}),
-        effect(f, EFFECT_VAR, f->color, v);
-        use_twice(f, sine(f, "n", v)););
-    STATEMENTS("    vec3 color = v;\n    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) "
-               "{\n        color += u_lightData[i].direction;\n    }\n",
-               &plain, effect(f, EFFECT_VAR, f->color, v);
-               effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
-               effect(f, EFFECT_END, 0, 0););
+        (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}),
+        f->shader.rules.neutral_names = true;
+        effect(f, EFFECT_VAR, f->color, v); use_twice(f, sine(f, "n", v)););
+    STATEMENTS(
+        "    vec3 color = v;\n    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) "
+        "{\n        color += u_lightData[i].direction;\n    }\n",
+        &plain, effect(f, EFFECT_VAR, f->color, v);
+        effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
+        effect(f, EFFECT_END, 0, 0););
 }
 
 /* The whole pixel stage, from `from` on. */
@@ -256,7 +254,7 @@ static const char *stage_from(struct fixture *f, const char *from)
 {
     struct spell_mark *marks;
     uint32_t num_marks;
-    finish(f, target_find("glsl"), &plain);
+    finish(f, target_find("glsl"));
     const char *text = spell(f, "glsl", STAGE_PIXEL, &plain, &marks, &num_marks),
                *start = strstr(text, from);
     return start ? start : text;
@@ -381,7 +379,7 @@ static const char *const lit_main =
     "void main()\n{\n    vec3 base = texture(image_file, @texcoord_0).xyz * base_color;\n    vec3 "
     "color = base * noise(@texcoord_0);\n"
     "    vec3 N = normalize(@normalWorld);\n"
-    "    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n"
+    "    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {\n"
     "        color += u_lightData[i].color * (base * dot(N, u_lightData[i].direction));\n    }\n"
     "    if (bool(@geomprop_flag))\n        color += N;\n    out1 = vec4(color, 1.0);\n}\n";
 
@@ -478,13 +476,12 @@ static void test_stages(void)
         const struct stage_case *c = &stage_cases[i];
         struct fixture f;
         fixture_open(&f, functions);
-        struct spell_options options = plain;
-        options.uniform_blocks = c->uniform_blocks;
+        f.shader.rules.blocks = c->uniform_blocks;
         build_lit(&f);
-        finish(&f, target_find(c->target), &options);
+        finish(&f, target_find(c->target));
         struct spell_mark *marks;
         uint32_t num_marks;
-        const char *pixel = spell(&f, c->target, STAGE_PIXEL, &options, &marks, &num_marks);
+        const char *pixel = spell(&f, c->target, STAGE_PIXEL, &plain, &marks, &num_marks);
         const char *rest = strstr(pixel, "float noise(");
         REQUIRE_STR(arena_strndup(&f.arena, pixel, (size_t)(rest - pixel)), c->pixel);
         REQUIRE_STR(
@@ -492,7 +489,7 @@ static void test_stages(void)
         REQUIRE(maps_line(&f, pixel, marks, num_marks, "    vec3 N = ", "N"));
         REQUIRE(num_marks >= 2);
         write_file(c->target, "lit", "frag", pixel);
-        const char *vertex = spell(&f, c->target, STAGE_VERTEX, &options, &marks, &num_marks);
+        const char *vertex = spell(&f, c->target, STAGE_VERTEX, &plain, &marks, &num_marks);
         if (c->vertex)
             REQUIRE_STR(vertex, c->vertex);
         write_file(c->target, "lit", "vert", vertex);
@@ -620,7 +617,7 @@ static void walk_ops(const struct target *target)
     write_color(&f);
     struct spell_mark *marks;
     uint32_t num_marks;
-    finish(&f, target, &plain);
+    finish(&f, target);
     const char *text = spell(&f, target->name, STAGE_PIXEL, &plain, &marks, &num_marks);
     write_file(target->name, "ops", target->stage_suffix[STAGE_PIXEL], text);
     REQUIRE(strchr(text, '$') == NULL);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "check/spool.h"
+
+#include "cli/cli.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+FILE *spool_begin(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char *path = cli_format("%s/mxgen-report-XXXXXX", folder && *folder ? folder : "/tmp");
+    int fd = mkstemp(path);
+    if (fd >= 0)
+        unlink(path);
+    free(path);
+    return fd >= 0 ? fdopen(fd, "w+") : NULL;
+}
+
+const char *spool_end(FILE *spool, FILE *out)
+{
+    char buffer[1 << 14];
+    size_t size;
+    if (!spool)
+        return NULL;
+    errno = 0;
+    bool good = fflush(spool) == 0 && !ferror(spool);
+    rewind(spool);
+    while (good && (size = fread(buffer, 1, sizeof buffer, spool)) > 0)
+        fwrite(buffer, 1, size, out);
+    good = good && !ferror(spool);
+    const char *reason = good ? NULL : strerror(errno ? errno : EIO);
+    fclose(spool);
+    return reason;
+}

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Documents that once crashed mxgen, hung it, took its memory, or gave a shader that does not compile: each for every
+target and both interfaces, with --trust, under a limit of memory. It is generated and compiles, or ends with exit code 1 and
+a message with its place. Arguments: mxgen, mxgen-compile or '', the folder."""
+import pathlib
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from checks import check, finish, skip
+
+MXGEN, COMPILE, FOLDER = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+MEMORY, SECONDS = 1 << 30, 60 # a machine may be slow; without a limit these take hours
+GOOD = ""
+# The message of each document, or GOOD. A verbatim implementation is for GLSL only.
+EXPECTED = {
+    "add_minus_inf": GOOD,
+    "chosen_index": GOOD,
+    "divide_by_zero_reduced": GOOD,
+    "extract_index3": "index-out-of-range",
+    "extract_matrix_index": "index-out-of-range",
+    "inf_default_options": GOOD,
+    "many_fn": GOOD,
+    "matrix_default": GOOD,
+    "matrix_stream": "function-signature",
+    "ndchain": "missing-implementation",
+    "osl_network_ladder20": GOOD,
+    "sandbox_texture": GOOD, # without --sandbox; see tests/diag/sandbox_texture.mtlx
+    "struct_exp": "lang-limit",
+    "subtract_inf_default": GOOD,
+    "udimset40000": GOOD,
+    "uniform_clash": "uniform-name",
+    "upgrade_null": "misplaced-element",
+    "verbatim_index_oob": "lang-unknown",
+    "verbatim_stack": "lang-unknown",
+}
+NETWORK = {"osl_network_ladder20": "network-limit"} # with --osl-network
+GLSL_ONLY = {"verbatim_index_oob", "verbatim_stack"}
+
+
+def targets():
+    lines = subprocess.run([MXGEN, "--help"], capture_output=True, text=True, check=True).stdout.splitlines()
+    return [line.split()[0] for line in lines[lines.index("Targets:") + 1:] if line.startswith("  ")]
+
+
+def limit():
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def run(command):
+    """The exit code, or None after the time; and what it says."""
+    try:
+        result = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS, preexec_fn=limit)
+        return result.returncode, result.stderr
+    except subprocess.TimeoutExpired:
+        return None, "it does not end"
+
+
+def check_run(document, target, arguments, out):
+    what = f"{document.name}, {target} {' '.join(arguments)}"
+    expected = EXPECTED[document.stem]
+    if document.stem in GLSL_ONLY and target in ("hlsl", "osl"):
+        expected = "missing-implementation"
+    if "--osl-network" in arguments:
+        expected = NETWORK.get(document.stem, expected)
+    code, text = run([MXGEN, document, "--target", target, "--trust", "-o", out, *arguments])
+    check(code == (1 if expected else 0), f"{what}: exit code {code}: {text[:500]}")
+    if expected:
+        check(re.search(rf":\d+:\d+: error: .*\[{expected}\]", text), f"{what}: no '{expected}' with a place in: {text[:500]}")
+    else:
+        made = [path for path in out.rglob("*") if path.is_file()]
+        check(made, f"{what}: nothing is written")
+        check(sum(path.stat().st_size for path in made) < 1 << 20, f"{what}: the output is too large")
+    shutil.rmtree(out, ignore_errors=True)
+
+
+def write_tiles(path):
+    """A udimset of 40,000 numbers, most of which are no tiles."""
+    tiles = ",".join(str(number) for number in range(1001, 41001))
+    path.write_text(f"""<materialx version="1.39">
+  <geominfo name="g" geom="*"><geomprop name="udimset" type="stringarray" value="{tiles}"/></geominfo>
+  <image name="i" type="color3"><input name="file" type="filename" value="a.&lt;UDIM&gt;.png"/></image>
+  <output name="o" type="color3" nodename="i"/>
+</materialx>
+""", encoding="utf-8")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    temporary = pathlib.Path(folder)
+    write_tiles(temporary / "udimset40000.mtlx")
+    documents = sorted(FOLDER.glob("*.mtlx")) + [temporary / "udimset40000.mtlx"]
+    check({document.stem for document in documents} == set(EXPECTED), "a document or its row is missing")
+    for document in documents:
+        for target in targets():
+            for interface in ("complete", "reduced"):
+                check_run(document, target, ["--interface", interface], temporary / "out")
+        check_run(document, "osl", ["--osl-network"], temporary / "out")
+        if COMPILE and EXPECTED[document.stem] == GOOD:
+            code, text = run([COMPILE, document, "--trust", "--targets", ",".join(targets()), "--interfaces", "complete,reduced"])
+            check(code == 0, f"{document.name} does not compile: {text[:1000]}")
+
+if not COMPILE:
+    skip("without glslang nothing is compiled")
+finish("faults")
