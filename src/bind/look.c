@@ -226,23 +226,6 @@ void look_finish(struct bind_look *look)
     pattern_set_finish(&look->patterns);
 }
 
-void look_check_all(const struct document *doc, struct arena *scratch, struct diag_list *diags)
-{
-    struct bind_look look;
-    init_look(&look, doc, 0, scratch, diags);
-    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next) {
-        if (doc_element(doc, e)->kind == KIND_COLLECTION)
-            look_read_collection(&look, doc_element(doc, e)->name, e, STR_name);
-        if (doc_element(doc, e)->kind != KIND_LOOK)
-            continue;
-        look.order = doc_attr(doc, e, STR_slotorder) ? e : 0;
-        read_variants(&look, e);
-        read_assigns(&look, e);
-        look_read_order(&look);
-    }
-    look_finish(&look);
-}
-
 void look_assign_name(const struct bind_look *look, uint32_t assign, struct text *out)
 {
     const struct look_assign *a = &look->assigns.items[assign];

@@ -106,9 +106,6 @@ void look_read(struct bind_look *look, const struct document *doc, elem_id eleme
                const struct scene *scene, struct arena *arena, struct diag_list *diags);
 void look_finish(struct bind_look *look);
 
-/* Checks the assignments of every look of a document, each once. */
-void look_check_all(const struct document *doc, struct arena *scratch, struct diag_list *diags);
-
 /* "day/dust", "day/#3" if it has no name; "/set.material:binding" of a scene. */
 void look_assign_name(const struct bind_look *look, uint32_t assign, struct text *out);
 

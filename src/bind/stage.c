@@ -6,7 +6,8 @@
 
 #include <assert.h>
 
-/* A prim of the layer that becomes a primitive; `above` is the number of its parent on the stack. */
+/* A prim of the layer that becomes a primitive; `above` is the number of its parent on the stack.
+ */
 struct visit {
     usda_prim_id prim;
     prim_id parent;
@@ -86,8 +87,9 @@ static bool read_binding_name(struct stage *s, const struct usda_property *prope
         const char *code = property->name.bytes + strlen(slots);
         rest = slot_decode(code, (size_t)(end - code), &name);
         if (!rest) {
-            report_binding(s, property, "is not the name of a slot; expected for example "
-                                        "material:slotBinding:_050:_:_010");
+            report_binding(s, property,
+                           "is not the name of a slot; expected for example "
+                           "material:slotBinding:_050:_:_010");
             return false;
         }
         struct text text;
@@ -139,8 +141,7 @@ static void add_binding(struct stage *s, prim_id prim, const struct usda_propert
 {
     struct scene_binding added = {.prim = prim};
     struct text_word rest;
-    if (!usda_is(property->type, "rel")
-        || !read_binding_name(s, property, &added.name, &rest))
+    if (!usda_is(property->type, "rel") || !read_binding_name(s, property, &added.name, &rest))
         return;
     if (begins(rest, "collection")) {
         diag_add(s->diags, DIAG_ID_collection_binding,
@@ -174,8 +175,8 @@ static void add_bindings(struct stage *s, prim_id prim, const struct usda_prim *
 /* True for what a scene is drawn of: groups and geometry, but no shading, and no settings. */
 static bool is_primitive(const struct stage *s, const struct usda_prim *prim)
 {
-    static const char *const others[] = {"Material", "Shader", "NodeGraph", "RenderSettings",
-                                         "RenderProduct", "RenderVar"};
+    static const char *const others[] = {"Material",       "Shader",        "NodeGraph",
+                                         "RenderSettings", "RenderProduct", "RenderVar"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (usda_is(prim->type, others[i]))
             return false;
@@ -207,8 +208,9 @@ static usda_prim_id reference_of(struct stage *s, usda_prim_id id, uint32_t abov
     if (!rest.len || usda_is(rest, "None") || !usda_next_item(&rest, &target))
         return 0;
     usda_prim_id found = *target.bytes == '/' ? usda_find(&s->layer, target.bytes, target.len) : 0;
-    bool is_cycle = found && (found == id || is_open(s, above, found)
-                              || (above && s->open.items[above - 1].depth > MAX_REFERENCES));
+    bool is_cycle = found
+                    && (found == id || is_open(s, above, found)
+                        || (above && s->open.items[above - 1].depth > MAX_REFERENCES));
     if (!found || is_cycle)
         diag_add(s->diags, is_cycle ? DIAG_ID_usda_cycle : DIAG_ID_usda_reference, place,
                  text_of(s, prim->name), text_of(s, target));

@@ -99,9 +99,7 @@ static void read_inner(struct parser *p, char *closers, unsigned *depth)
     else if (open)
         closers[(*depth)++] = closing[open - opening];
     else if (close && *close != closers[*depth - 1])
-        fail(p, closers[*depth - 1] == ']'   ? "']'"
-                : closers[*depth - 1] == ')' ? "')'"
-                                             : "'}'");
+        fail(p, closers[*depth - 1] == ']' ? "']'" : closers[*depth - 1] == ')' ? "')'" : "'}'");
     else if (close)
         (*depth)--;
     else if (p->token.kind == USDA_END || p->token.kind == USDA_BAD

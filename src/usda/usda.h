@@ -15,9 +15,9 @@ typedef uint32_t usda_prim_id; /* 0: the pseudo root */
 enum usda_specifier { USDA_DEF, USDA_OVER, USDA_CLASS };
 
 struct usda_property {
-    struct text_word name;  /* "material:binding", "points.timeSamples" */
-    struct text_word type;  /* of an attribute: "token[]"; of a relationship: "rel" */
-    struct text_word value; /* its text; len 0: none */
+    struct text_word name;    /* "material:binding", "points.timeSamples" */
+    struct text_word type;    /* of an attribute: "token[]"; of a relationship: "rel" */
+    struct text_word value;   /* its text; len 0: none */
     struct text_word bind_as; /* the metadata bindMaterialAs, without quotes */
     uint32_t line, column;
     uint32_t next; /* of the same prim; 0: none */
@@ -38,7 +38,7 @@ struct usda_layer {
     struct arena *arena;
     const char *file;
     struct text_word default_prim;
-    VEC(struct usda_prim) prims; /* a parent stands before its children */
+    VEC(struct usda_prim) prims;          /* a parent stands before its children */
     VEC(struct usda_property) properties; /* 0 unused */
 };
 
