@@ -44,30 +44,6 @@ static bool read_name(struct bind_look *look, elem_id element, struct slot_name 
 
 /* ---- Materials ---- */
 
-static void guess_elements(const struct bind_look *look, struct diag_guess *guess,
-                           enum element_kind kind)
-{
-    const struct document *doc = look->doc;
-    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == kind
-            && (kind != KIND_NODE || doc_attr_value(doc, e, STR_type) == STR_material))
-            diag_guess_add(guess, text_of(look, doc_element(doc, e)->name));
-}
-
-void look_report_unknown(struct bind_look *look, elem_id element, str_id attr, const char *what,
-                         enum element_kind kind)
-{
-    const struct document *doc = look->doc;
-    const char *name = text_of(look, doc_attr_value(doc, element, attr)), *near = "";
-    struct diag_guess guess;
-    if (diag_guess_begin(&guess, look->diags, name)) {
-        guess_elements(look, &guess, kind);
-        near = diag_guess_text(&guess);
-    }
-    diag_add(look->diags, DIAG_ID_unknown_assigned, doc_attr_place(doc, element, attr), what, name,
-             near);
-}
-
 static bool is_given(const struct document *doc, elem_id input)
 {
     return doc_attr(doc, input, STR_value) || doc_attr_value(doc, input, STR_nodename)
@@ -270,7 +246,7 @@ static bool find_bound(struct bind_look *look, struct look_assign *assign,
     struct diag_guess guess;
     const char *near = "";
     if (diag_guess_begin(&guess, look->diags, material)) {
-        guess_elements(look, &guess, KIND_NODE);
+        look_guess(look, &guess, KIND_NODE);
         near = diag_guess_text(&guess);
     }
     diag_add(look->diags, DIAG_ID_unknown_assigned, binding->place, "material", material, near);

@@ -225,31 +225,3 @@ void look_finish(struct bind_look *look)
 {
     pattern_set_finish(&look->patterns);
 }
-
-void look_assign_name(const struct bind_look *look, uint32_t assign, struct text *out)
-{
-    const struct look_assign *a = &look->assigns.items[assign];
-    const struct document *doc = look->doc;
-    if (a->binding) {
-        text_str(out, look->scene->bindings.items[a->binding - 1].label);
-        return;
-    }
-    str_id name = doc_element(doc, a->element)->name;
-    text_fmt(out, "%s/", text_of(doc, doc_element(doc, a->look)->name));
-    if (name)
-        text_str(out, text_of(doc, name));
-    else
-        text_fmt(out, "#%u", (unsigned)a->ordinal);
-}
-
-struct diag_place look_assign_place(const struct bind_look *look, const struct look_assign *assign)
-{
-    return assign->binding ? look->scene->bindings.items[assign->binding - 1].place
-                           : doc_place(look->doc, assign->element);
-}
-
-struct diag_place look_slot_place(const struct bind_look *look, const struct look_assign *assign)
-{
-    return assign->binding ? look->scene->bindings.items[assign->binding - 1].place
-                           : doc_attr_place(look->doc, assign->element, STR_slot);
-}

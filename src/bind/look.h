@@ -106,12 +106,20 @@ void look_read(struct bind_look *look, const struct document *doc, elem_id eleme
                const struct scene *scene, struct arena *arena, struct diag_list *diags);
 void look_finish(struct bind_look *look);
 
+/* ---- describe.c ---- */
+
 /* "day/dust", "day/#3" if it has no name; "/set.material:binding" of a scene. */
 void look_assign_name(const struct bind_look *look, uint32_t assign, struct text *out);
 
 /* The place of an assignment, and of its slot. */
 struct diag_place look_assign_place(const struct bind_look *look, const struct look_assign *assign);
 struct diag_place look_slot_place(const struct bind_look *look, const struct look_assign *assign);
+
+/* Reports that the top-level element that an attribute names does not exist. */
+void look_report_unknown(struct bind_look *look, elem_id element, str_id attr, const char *what,
+                         enum element_kind kind);
+/* Adds the names of a kind of elements to a guess; of nodes those of materials. */
+void look_guess(const struct bind_look *look, struct diag_guess *guess, enum element_kind kind);
 
 /* True if collection `outer` includes collection `inner`, at any depth. Numbers from 1. */
 static inline bool look_contains(const struct bind_look *look, uint32_t outer, uint32_t inner)
@@ -127,9 +135,6 @@ static inline bool look_contains(const struct bind_look *look, uint32_t outer, u
 void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal);
 void look_read_variant(struct bind_look *look, elem_id element);
 void look_read_binding(struct bind_look *look, uint32_t binding);
-/* Reports that the top-level element that an attribute names does not exist. */
-void look_report_unknown(struct bind_look *look, elem_id element, str_id attr, const char *what,
-                         enum element_kind kind);
 
 /* collection.c: the number of a collection, from 1; 0 after a diagnostic at the element's
  * attribute. */

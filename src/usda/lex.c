@@ -175,7 +175,7 @@ struct usda_token usda_next_token(struct usda_lexer *l)
 
 uint32_t usda_column(const struct usda_token *token)
 {
-    enum { MAX_COLUMN = UINT16_MAX };
+    enum { MAX_COLUMN = 4096 };
     uint32_t column = 1;
     for (const char *c = token->line_begin; c < token->begin && column < MAX_COLUMN; c++)
         column += ((unsigned char)*c & 0xc0) != 0x80;

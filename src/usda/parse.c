@@ -11,8 +11,9 @@ struct parser {
     struct usda_lexer lexer;
     struct usda_token token;
     struct diag_list *diags;
-    usda_prim_id prim; /* the one whose body is read */
-    VEC(char) bodies;  /* open braces: 'p' of a prim, 'v' of a variant, 's' of a variant set */
+    usda_prim_id prim;     /* the one whose body is read */
+    VEC(char) bodies;      /* open braces: 'p' of a prim, 'v' of a variant, 's' of a variant set */
+    uint32_t num_variants; /* of the bodies, those of variants */
     bool failed;
 };
 
@@ -265,6 +266,7 @@ static void open_body(struct parser *p, char kind)
     skip_newlines(p);
     expect(p, '{', "'{'");
     vec_push(p->layer->arena, &p->bodies, kind);
+    p->num_variants += kind == 'v';
 }
 
 static void add_prim(struct parser *p, struct usda_prim added)
@@ -309,8 +311,7 @@ static bool is_identifier(struct text_word name)
 static void read_prim(struct parser *p, uint8_t specifier)
 {
     struct usda_prim prim = {.specifier = specifier, .line = p->token.line};
-    for (size_t i = 0; i < p->bodies.len; i++)
-        prim.is_variant |= p->bodies.items[i] == 'v';
+    prim.is_variant = p->num_variants != 0;
     if (p->token.kind == USDA_NAME) {
         prim.type = word_of(p->token);
         next(p);
@@ -357,7 +358,9 @@ static void close_body(struct parser *p)
         return;
     }
     next(p);
-    if (vec_pop(&p->bodies) == 'p')
+    char kind = vec_pop(&p->bodies);
+    p->num_variants -= kind == 'v';
+    if (kind == 'p')
         p->prim = p->layer->prims.items[p->prim].parent;
 }
 

@@ -90,7 +90,6 @@ check 'leaves the slot' grep -qE '^/set/cup/handle +\(000 Clay\)  \[050 Dust\]$'
 # fails ID ARGUMENT...: the command ends with 1 and tells the message.
 fails() { exits 1 "$mxgen" bind "${@:2}" && grep -qF "[$1]" err; }
 check 'an unknown slot' fails unknown-slot look.mtlx --stage stage.txt --solo 051
-check 'is compared' grep -qF "did you mean '050'" err
 check 'no slot at all' fails bad-slot look.mtlx --stage stage.txt --mute 'a b'
 check 'an unknown primitive' fails unknown-primitive look.mtlx --stage stage.txt --geom /set/cap
 check 'is compared, too' grep -qF "did you mean '/set/cup'" err
@@ -193,6 +192,8 @@ check 'and what a stronger binding has beaten' row '/set/shelf/board (000 Clay) 
 check 'but deeper wins' row '/set/stool/leg [000 Clay] (dust Dust) (base Clay)'
 check 'reasons name it' exits 0 usd --geom /set/shelf/board
 check 'as stronger' grep -q 'loses to /set/shelf.material:binding, which is stronger than bindings of the scene below it' out
+check 'an unknown slot of the stage' fails unknown-slot materials.mtlx --stage stage.usda --solo dsut
+check 'is compared' grep -qF "did you mean 'dust'" err
 # broken SCRIPT ID [LINE]: the stage, edited by sed.
 broken() {
     sed "$1" stage.usda >broken.usda
