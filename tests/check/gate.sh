@@ -173,7 +173,7 @@ material Aaa >show/aaa.mtlx
 rm show/wood.mtlx
 check 'a run with changes of all sorts' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --html all.html --sarif all.sarif --junit all.xml --json all.json
 check 'tells failures first' is "$(grep -n '^changed' out | head -n 1 | cut -d: -f1)" "$(($(grep -n '^FAILED' out | tail -n 1 | cut -d: -f1) + 1))"
-check 'with the source of a new error' is "$(grep -A 2 '(new-errors)' out | tail -n 1 | tr -d ' ')" '^'
+check 'with the source of a new error' is "$(grep -A 2 '(new-errors)' out | tail -n 1 | tr -d ' ')" '^~~~~'
 check 'then the rest' eval 'grep -q "^changed show/aaa.mtlx (new): is new" out && grep -q "^changed show/wood.mtlx (gone): is in the baseline, but not in this run" out'
 check 'and one summary' is "$(tail -n 3 out)" '3 documents, 3 elements, 6 shaders
 since the baseline: 1 document fails (fails 1, new-errors 1); others: new 1, gone 1
