@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The Debian packages: built from the tracked files, judged by lintian, unpacked together in an empty root, and used there.
+# The Debian packages: built from the tracked files, judged by lintian, unpacked together in an empty folder, and used there.
 # Argument: the root of the project.
 root=$1
 . "$(dirname "$0")/../programs/common.sh"
@@ -28,7 +28,7 @@ sort files | uniq -d >twice
 check "no file is in two packages" cmp twice /dev/null
 check "the program runs" unpacked mxgen "$root/examples/gold.mtlx" -o program
 check "the Python package runs" unpacked /usr/bin/python3 "$root/examples/shader.py" "$root/examples/gold.mtlx" glsl
-sed -i 's|prefix=/usr|prefix='"$work"'/root/usr|' system/usr/lib/*/pkgconfig/mxgen.pc
+sed -i 's|prefix=/usr|prefix='"$work"'/system/usr|' system/usr/lib/*/pkgconfig/mxgen.pc
 flags=$(PKG_CONFIG_PATH=$(echo system/usr/lib/*/pkgconfig) pkg-config --cflags --libs mxgen)
 # shellcheck disable=SC2086
 check "a program in C compiles" cc "$root/examples/c_minimal.c" -o c_minimal $flags
