@@ -638,6 +638,25 @@ typedef struct mxg_shader_info {
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 
+/*
+ * The meaning of a variable without a path: space, unit, direction and range (docs/reflection.md
+ * has the table). World space is right-handed, vectors are columns, matrices are stored column by
+ * column, and clip space is that of the host's projectionMatrix.
+ */
+typedef struct mxg_semantic {
+    size_t size; /* in */
+    mxg_block block;
+    /*
+     * mxg_variable.semantic; the name of a member of LightData; "texcoord:*": '*' stands for an
+     * index, the name of a property, or a variant of a matrix
+     */
+    const char *semantic;
+    const char *type; /* "vec3"; "": several */
+    const char *doc;
+} mxg_semantic;
+MXG_API uint32_t mxg_num_semantics(void);
+MXG_API mxg_status mxg_get_semantic(uint32_t index, mxg_semantic *out);
+
 /* ---- Values ---- */
 
 typedef enum mxg_change {

@@ -76,7 +76,7 @@ static union ir_word word_of(ir_type_id scalar, float number)
     if (scalar == IR_TYPE_BOOL)
         word.u = number != 0;
     else if (scalar != IR_TYPE_FLOAT)
-        word.i = number >= 2147483648.0f  ? INT32_MAX
+        word.i = number >= 2147483648.0f   ? INT32_MAX
                  : number > -2147483648.0f ? (int32_t)number
                                            : INT32_MIN;
     return word;
@@ -147,7 +147,8 @@ bool mxg_result_light_member(const mxg_result *result, uint32_t index, uint32_t 
         || member >= result->shader.lights.items[index].num_members)
         return false;
     const struct shader *shader = &result->shader;
-    uint32_t wanted = shader->light_members.items[shader->lights.items[index].first_member + member];
+    uint32_t wanted =
+        shader->light_members.items[shader->lights.items[index].first_member + member];
     for (uint32_t i = shader->first_of_block[BLOCK_LIGHT_DATA];
          i < shader->first_of_block[BLOCK_LIGHT_DATA + 1]; i++) {
         if (shader->interface.items[i] != wanted)

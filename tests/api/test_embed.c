@@ -44,9 +44,9 @@ static void open_host(struct host *h, const char *text)
     memset(h, 0, sizeof *h);
     REQUIRE_EQ(mxg_context_create(NULL, &h->context), MXG_OK);
     h->library = mxg_library_builtin(h->context);
-    REQUIRE_EQ(mxg_document_parse(h->context, h->library, "host.mtlx", text, strlen(text),
-                                  &h->document),
-               MXG_OK);
+    REQUIRE_EQ(
+        mxg_document_parse(h->context, h->library, "host.mtlx", text, strlen(text), &h->document),
+        MXG_OK);
     REQUIRE_EQ(mxg_options_create(h->context, &h->options), MXG_OK);
 }
 
@@ -108,8 +108,9 @@ static void check_states(const mxg_result *result, bool is_reduced)
         mxg_input_state wanted = is_reduced ? states[i].reduced : states[i].state;
         if (!REQUIRE_EQ(mxg_result_input_state(result, states[i].path), wanted))
             printf("at %s\n", states[i].path);
-        REQUIRE_EQ(mxg_result_find_variable(result, states[i].path + (*states[i].path == '/'), NULL),
-                   wanted == MXG_INPUT_UNIFORM);
+        REQUIRE_EQ(
+            mxg_result_find_variable(result, states[i].path + (*states[i].path == '/'), NULL),
+            wanted == MXG_INPUT_UNIFORM);
     }
 }
 
@@ -163,8 +164,9 @@ static void test_compiled_inputs(void)
     REQUIRE(!input.authored);
     REQUIRE(!find_compiled(result, "S/metalness", &input));
     const char *json = mxg_result_reflection_json(result, NULL);
-    REQUIRE(json && strstr(json, "\"path\": \"G/cells/jitter\",\n      \"documentType\": \"float\",\n"
-                                 "      \"value\": \"0.5\",\n      \"authored\": true"));
+    REQUIRE(json
+            && strstr(json, "\"path\": \"G/cells/jitter\",\n      \"documentType\": \"float\",\n"
+                            "      \"value\": \"0.5\",\n      \"authored\": true"));
     mxg_result_destroy(result);
     mxg_options_set(h.options, "constant", "S/coat,G/scale");
     result = generate(&h, h.document, "glsl", true);
@@ -227,19 +229,23 @@ static void test_changes(void)
     open_host(&h, document_text);
     mxg_result *program = generate(&h, h.document, "glsl", false);
     uint32_t variable = UINT32_MAX, wanted = 0, num = 7;
-    REQUIRE_EQ(change_of(&h, "S", "metalness", "float", "0.25", &variable, &num), MXG_CHANGE_NOTHING);
+    REQUIRE_EQ(change_of(&h, "S", "metalness", "float", "0.25", &variable, &num),
+               MXG_CHANGE_NOTHING);
     REQUIRE_EQ(num, 0);
-    REQUIRE_EQ(change_of(&h, "S", "metalness", "float", "0.75", &variable, &num), MXG_CHANGE_VALUES);
+    REQUIRE_EQ(change_of(&h, "S", "metalness", "float", "0.75", &variable, &num),
+               MXG_CHANGE_VALUES);
     REQUIRE(mxg_result_find_variable(program, "S/metalness", &wanted));
     REQUIRE_EQ(variable, wanted);
     REQUIRE_EQ(num, 1);
-    REQUIRE_EQ(change_of(&h, "G/wood", "file", "filename", "oak.png", &variable, &num), MXG_CHANGE_VALUES);
+    REQUIRE_EQ(change_of(&h, "G/wood", "file", "filename", "oak.png", &variable, &num),
+               MXG_CHANGE_VALUES);
     REQUIRE(mxg_result_find_variable(program, "G/wood/file", &wanted));
     REQUIRE_EQ(variable, wanted);
     REQUIRE_EQ(change_of(&h, "G/wood", "filtertype", "string", "closest", &variable, &num),
                MXG_CHANGE_VALUES);
     REQUIRE_EQ(variable, wanted);
-    REQUIRE_EQ(change_of(&h, "G/wood", "uvtiling", "vector2", "5, 5", &variable, &num), MXG_CHANGE_SHADER);
+    REQUIRE_EQ(change_of(&h, "G/wood", "uvtiling", "vector2", "5, 5", &variable, &num),
+               MXG_CHANGE_SHADER);
     REQUIRE_EQ(num, 0);
     REQUIRE_EQ(change_of(&h, "G/cells", "jitter", "float", "0.75", NULL, NULL), MXG_CHANGE_SHADER);
     REQUIRE_EQ(change_of(&h, "G/loose", "amplitude", "float", "9", NULL, NULL), MXG_CHANGE_NOTHING);
@@ -406,6 +412,57 @@ static void test_lights(void)
     close_host(&h);
 }
 
+/* ---- Semantics ---- */
+
+/* A '*' stands for one or more characters. */
+static bool fits(const char *pattern, const char *text)
+{
+    const char *star = strchr(pattern, '*');
+    if (!star)
+        return strcmp(pattern, text) == 0;
+    size_t head = (size_t)(star - pattern), tail = strlen(star + 1), len = strlen(text);
+    return len > head + tail && strncmp(pattern, text, head) == 0
+           && strcmp(star + 1, text + len - tail) == 0;
+}
+
+/* Every variable that the host supplies has a meaning, in its block and with its type. */
+static void check_semantics(const mxg_result *result)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); i++) {
+        mxg_variable v = MXG_INIT(mxg_variable);
+        REQUIRE_EQ(mxg_result_variable(result, i, &v), MXG_OK);
+        if (*v.path || v.block == MXG_BLOCK_OUTPUTS)
+            continue;
+        const char *name = v.block == MXG_BLOCK_LIGHT_DATA ? v.name : v.semantic;
+        bool found = false;
+        for (uint32_t s = 0; s < mxg_num_semantics(); s++) {
+            mxg_semantic semantic = MXG_INIT(mxg_semantic);
+            REQUIRE_EQ(mxg_get_semantic(s, &semantic), MXG_OK);
+            bool is_stream = v.block == MXG_BLOCK_VERTEX_DATA;
+            found |= fits(semantic.semantic, name) && (semantic.block == v.block || is_stream)
+                     && (!*semantic.type || strcmp(semantic.type, v.type) == 0);
+        }
+        if (!REQUIRE(found))
+            printf("no meaning of '%s'\n", name);
+    }
+}
+
+static void test_semantics(void)
+{
+    struct host h;
+    open_host(&h, document_text);
+    mxg_result *result = generate(&h, h.document, "vulkan", true);
+    check_semantics(result);
+    mxg_result_destroy(result);
+    mxg_options_set(h.options, "integrator", "scatter");
+    result = generate(&h, h.document, "vulkan", true);
+    check_semantics(result);
+    mxg_result_destroy(result);
+    mxg_semantic semantic = MXG_INIT(mxg_semantic);
+    REQUIRE_EQ(mxg_get_semantic(mxg_num_semantics(), &semantic), MXG_ERROR_ARGUMENT);
+    close_host(&h);
+}
+
 int main(void)
 {
     test_states();
@@ -416,5 +473,6 @@ int main(void)
     test_pack("hlsl");
     test_pack_values();
     test_lights();
+    test_semantics();
     return test_report("api-embed");
 }
