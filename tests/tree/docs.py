@@ -122,6 +122,15 @@ def check_program():
         check(result.returncode == 0, f"README.md: the program does not compile: {result.stderr}")
 
 
+def check_embedding():
+    """The code of docs/embedding.md is that of examples/embedding.c."""
+    program = text_of(ROOT / "examples/embedding.c")
+    excerpts = re.findall(r"^```c\n(.*?)^```", text_of(ROOT / "docs/embedding.md"), re.MULTILINE | re.DOTALL)
+    check(len(excerpts) >= 10, f"docs/embedding.md has {len(excerpts)} excerpts only")
+    for excerpt in excerpts:
+        check(excerpt in program, f"docs/embedding.md: examples/embedding.c does not have\n{excerpt}")
+
+
 SEMANTIC = re.compile(r'^SEMANTIC\((\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)$', re.MULTILINE)
 
 
@@ -154,4 +163,5 @@ check_references()
 check_commands()
 check_program()
 check_semantics()
+check_embedding()
 finish("docs")
