@@ -191,6 +191,12 @@ typedef struct mxg_context_desc {
     bool sandbox;
     const char *const *include_roots; /* folders; num_include_roots of them */
     size_t num_include_roots;
+    /*
+     * Folders to search for the source files of implementations, after the folder of the referring
+     * file and the folders of libraries; num_source_paths of them
+     */
+    const char *const *source_paths;
+    size_t num_source_paths;
 } mxg_context_desc;
 #define MXG_CONTEXT_DESC_INIT MXG_INIT(mxg_context_desc)
 

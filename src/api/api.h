@@ -107,6 +107,8 @@ struct mxg_library {
     const void *image; /* the mapped library image; NULL for a layer from files */
     size_t image_size;
     VEC(const char *) files; /* names of the files that it was read from */
+    /* its folders and those of its base: places of source files, with a '/' at the end */
+    VEC(const char *) folders;
 };
 
 struct mxg_context {
@@ -122,6 +124,7 @@ struct mxg_context {
     bool sandbox;
     enum library_trust trust;   /* for verbatim source in documents */
     struct sandbox_root *roots; /* canonical */
+    struct source_path *source_paths;
     struct mxg_library builtin; /* size 0: this build has no built-in library */
 };
 
@@ -133,6 +136,9 @@ struct mxg_document {
     const char **renderable_paths;
 };
 
+/* target.c: true if mxgen has the target of this MaterialX name. */
+bool target_exists(const char *materialx_name);
+
 /* ---- Files: files.c ---- */
 
 /* The resolver of the context, as an interface for other rooms. */
@@ -142,9 +148,19 @@ struct file_source {
     struct arena scratch;    /* owns the texts of source files */
     VEC(const char *) names; /* canonical names of all files, each once */
     mxg_blob blob;
-    bool is_open;    /* the source must release `blob` */
-    uint64_t digest; /* hash of the bytes of all files; 0 at the start: no hash */
+    bool is_open;              /* the source must release `blob` */
+    uint64_t digest;           /* hash of the bytes of all files; 0 at the start: no hash */
+    VEC(const char *) folders; /* of libraries, to search for source files */
 };
+
+/*
+ * files.c: folders to search for source files, from the context's description. false: out of
+ * memory.
+ */
+bool source_path_add(struct mxg_context *context, const char *folder);
+void source_paths_finish(struct mxg_context *context);
+/* The folder of a library, and its parent: libraries name files relative to both. */
+void file_source_add_folder(struct file_source *source, const char *folder);
 
 void file_source_init(struct file_source *source, struct object *object);
 void file_source_finish(struct file_source *source); /* also call this after a jump out of memory */

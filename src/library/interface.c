@@ -74,14 +74,16 @@ static void report_dangling(const struct library *lib, elem_id asker, uint32_t n
     else
         text_str(&who, "the document");
     struct diag_guess suggestion;
-    if (diag_guess_begin(&suggestion, diags, text_of(lib, name)))
+    bool may_walk = diag_guess_begin(&suggestion, diags, text_of(lib, name));
+    if (may_walk)
         for_inputs(lib, graph, nodedef, guess, &suggestion);
     diag_add(diags, DIAG_ID_dangling_interfacename,
              doc_attr_place(&lib->doc, asker, STR_interfacename), text_cstr(&who),
              text_of(lib, name), diag_guess_text(&suggestion));
     struct listing inputs = {.count = 0};
     text_init(&inputs.text, diags->arena);
-    for_inputs(lib, graph, nodedef, list, &inputs);
+    if (may_walk) /* like suggestions, so that many faults take linear time */
+        for_inputs(lib, graph, nodedef, list, &inputs);
     if (graph && inputs.count)
         diag_add(diags, DIAG_ID_graph_inputs,
                  doc_place(&lib->doc, nodedef == LIBRARY_NONE

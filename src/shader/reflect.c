@@ -252,7 +252,10 @@ static void put_lights(struct reflect *r)
         if (light->shader)
             reflect_id(r, "shader", light->name);
         else
-            reflect_id(r, "function", lang_function(shader->unit, light->function, NULL)->name);
+            reflect_id(r, "function",
+                       light->source != UINT32_MAX
+                           ? shader->verbatim.items[light->source].function
+                           : lang_function(shader->unit, light->function, NULL)->name);
         json_key(&r->json, "members");
         json_open(&r->json, '[');
         for (uint32_t m = 0; m < light->num_members; m++) {

@@ -104,6 +104,8 @@ struct shader_light {
     str_id name; /* of the node, for comments and reflection */
     /* lang function: inputs, P, out direction, out intensity; or LANG_NONE with */
     uint32_t function;
+    /* verbatim source: (LightData, P, out lightshader); or UINT32_MAX with */
+    uint32_t source;
     /* a LIGHT_SHADER over members of LightData, with a position and a direction */
     ir_ref shader;
     uint32_t position, direction; /* variables, for a LIGHT_SHADER */
@@ -113,12 +115,14 @@ struct shader_light {
 
 /* Verbatim source, the callee of a VERBATIM node. The id of the callee is its index. */
 struct shader_verbatim {
-    str_id source; /* definitions that the call needs, written once before it; 0 = none */
+    /* in source_refs: the sources that the call needs, in their order (shader/source.h) */
+    uint32_t first_source, num_sources;
     /* the function, with the operands and an `out` argument per RESULT; 0: use `expression` */
     str_id function;
     str_id expression; /* {{i}} stands for operand i */
     /* types of a function's results, in shader->result_types; RESULT 1 is the first */
     uint32_t num_results, first_result;
+    bool has_initial; /* the last operands are the values of the results before the call */
 };
 
 /*
@@ -211,6 +215,11 @@ struct shader_layout_rules {
     uint32_t set;        /* descriptor set of everything */
 };
 
+struct source_language;
+struct shader_source;
+struct shader_token;
+struct source_leaf;
+
 struct shader {
     struct arena *arena;
     struct strpool *strings;
@@ -225,7 +234,14 @@ struct shader {
     VEC(struct shader_light) lights;
     VEC(uint32_t) light_members;
     VEC(struct shader_verbatim) verbatim;
-    VEC(ir_type_id) result_types; /* of verbatim functions */
+    VEC(ir_type_id) result_types;                  /* of verbatim functions */
+    const struct source_language *source_language; /* of the target; NULL: it has none */
+    VEC(struct shader_source) sources;             /* source.h */
+    VEC(uint32_t) source_refs;
+    VEC(struct shader_token) tokens; /* of all sources */
+    VEC(struct source_leaf) source_leaves;
+    bool source_is_1_38;       /* it has closures of MaterialX 1.38 */
+    struct table helper_table; /* names of the target's helpers to bits + 1 */
     /* used variables, block by block, in the order of their layout */
     VEC(uint32_t) interface;
     /* start of each block in `interface`, and the end of the last */
@@ -267,6 +283,9 @@ uint32_t shader_add_variable(struct shader *shader, const struct shader_variable
 bool shader_name_is_free(struct shader *shader, str_id name);
 /* UINT32_MAX: none. */
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name);
+
+/* True if streams.def has the private uniform. */
+bool shader_knows_uniform(str_id name);
 
 /* The IR node that reads a variable: UNIFORM, TEXTURE or STREAM by its block. */
 ir_ref shader_read(struct shader *shader, uint32_t variable);

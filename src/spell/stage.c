@@ -177,24 +177,6 @@ void spell_title(struct spell *spell)
     write_plural(spell->out, textures, "texture");
 }
 
-void spell_verbatim_sources(struct spell *spell)
-{
-    const struct shader *shader = spell->shader;
-    spell->verbatim_begin = spell->out->len;
-    for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
-        assert(spell->stage->verbatim.items[i] < shader->verbatim.len);
-        str_id source = shader->verbatim.items[spell->stage->verbatim.items[i]].source;
-        bool written = source == 0;
-        for (uint32_t j = 0; j < i && !written; j++)
-            written = shader->verbatim.items[spell->stage->verbatim.items[j]].source == source;
-        if (written)
-            continue;
-        spell_text(spell, str_text(shader->strings, source));
-        spell_text(spell, "\n");
-    }
-    spell->verbatim_end = spell->out->len;
-}
-
 void spell_function_doc(struct spell *spell, uint32_t function)
 {
     str_id doc = lang_function(spell->shader->unit, function, NULL)->doc;
@@ -318,6 +300,7 @@ static void init(struct spell *spell)
     if (spell->options->shader_name)
         names_take(&spell->names, spell->options->shader_name, strlen(spell->options->shader_name));
     spell_name_interface(spell);
+    spell_take_source_names(spell);
     name_types(spell);
     name_functions(spell);
 }

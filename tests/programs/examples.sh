@@ -17,7 +17,7 @@ for document in "$examples"/*.mtlx; do
     check "${document##*/}" exits 0 "$mxgen" "$document" --target vulkan -o out.d
     check "${document##*/} without a warning" test ! -s err
     [ -z "$compile" ] || check "${document##*/} compiles" exits 0 "$compile" "$document"
-    check "${document##*/} as OSL" exits 0 "$mxgen" "$document" --target osl -o out.osl
+    check "${document##*/} as OSL" exits 0 "$mxgen" "$document" --target osl -o osl.d
     [ -z "$compile_osl" ] || check "${document##*/} compiles as OSL" exits 0 "$compile" "$document" --targets osl
     check "${document##*/} is in the list" grep -qF "\`${document##*/}\`" "$examples/README.md"
 done
