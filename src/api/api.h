@@ -31,7 +31,7 @@ struct made_text { /* a text in its own block */
     size_t size;
 };
 
-enum { OBJECT_MAX_TEXTS = 2 };
+enum { OBJECT_MAX_TEXTS = 3 };
 
 struct object {
     struct mxg_context *context;
@@ -234,6 +234,8 @@ struct option_value {
 const struct option_value *options_default(struct arena *arena);
 const char *option_key(enum option_id option); /* "interface" */
 const struct option_value *options_values(const mxg_options *options);
+/* A hash of all values. */
+uint64_t options_hash(const struct option_value *values);
 
 /* ---- Definitions: library.c ---- */
 

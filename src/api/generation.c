@@ -178,6 +178,7 @@ bool generation_start(struct generation *g)
                                        &g->output);
     if (!good || !g->element)
         return false;
+    g->result->options = options_hash(g->options);
     generation_check_globs(g);
     init_layers(g);
     name_shader(g);

@@ -73,6 +73,7 @@ struct builder {
     VEC(ir_ref) results;
     struct resolve_out resolved;
     VEC(elem_id) public_nodes; /* nodes whose inputs form the shader's interface */
+    struct table compiled;     /* the inputs in shader->compiled + 1: interface.c */
     VEC(struct memo) memos;
     uint32_t *memo_table;
     uint32_t memo_mask;
@@ -169,6 +170,11 @@ struct shader_variable build_describe(struct builder *b, elem_id node, const str
  */
 ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
                      str_id input, ir_ref value, bool authored);
+/*
+ * Lists an input of the document among those whose value is compiled in, once. Inputs of nodes in
+ * the library are not listed. `element` holds the value; 0: the definition does.
+ */
+void build_compile_in(struct builder *b, elem_id node, const struct port *port, elem_id element);
 /* The path of an input: "SR_gold/base_color". */
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
 
@@ -185,9 +191,10 @@ ir_ref build_default(struct builder *b, const struct port *port);
 ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place);
 /*
  * The value of a constant, or the initial value of a uniform, for compile-time decisions; false for
- * other nodes.
+ * other nodes. The uniform is then listed as compiled in, because another value may decide
+ * otherwise.
  */
-bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out);
+bool build_initial(struct builder *b, ir_ref value, struct ir_value *out);
 
 /*
  * color.c: converts a color3 or color4 from `space` to the working space, with the transform nodes

@@ -35,7 +35,7 @@ enum shader_stage_id { STAGE_VERTEX, STAGE_PIXEL, NUM_STAGES };
 /* The reaction of a host to a new value of an input. */
 enum shader_update {
     UPDATE_UNIFORM, /* set the variable */
-    UPDATE_SHADER,  /* generate again, because the value is compiled in */
+    UPDATE_SHADER,  /* generate again, because the build read the initial value */
 };
 
 /* The mode in which a node reads a texture, from its inputs of these names; 0: absent. */
@@ -91,10 +91,11 @@ struct shader_variable {
 /* The kind of a shader for targets without stages. */
 enum shader_kind { SHADER_VALUE, SHADER_SURFACE, SHADER_VOLUME };
 
-/* An input whose value is compiled in. A host needs a new shader when it changes. */
+/* An input of the document whose value is compiled in. A new value needs a new shader. */
 struct shader_compiled_input {
-    str_id path, doc_type, value;
-    uint32_t element;
+    uint32_t element;    /* holds the value; or the node whose definition does */
+    uint32_t definition; /* element of the nodedef's input; 0 = none */
+    str_id doc_type;
 };
 
 /* A bound light shader: its number in u_lightData[].type and its code. */
@@ -390,6 +391,12 @@ struct shader_ui {
         *enum_values;
     bool advanced;
 };
+/* An input that is compiled in, as text. */
+struct shader_compiled_text {
+    const char *path, *type, *value;
+    bool authored; /* the document has the value, not the definition */
+    struct shader_ui ui;
+};
 struct reflect; /* reflect.h */
 struct network;
 struct shader_reflect_options {
@@ -397,6 +404,8 @@ struct shader_reflect_options {
     void *user_data;
     /* Fills the strings for a variable, which is zeroed before; NULL: none. */
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
+    /* Describes an item of shader->compiled; NULL: nothing is compiled in. */
+    void (*compiled)(void *user_data, uint32_t index, struct shader_compiled_text *out);
     const struct network *network; /* described in the place of the shader; NULL: it is none */
     uint64_t network_topology;
     void (*reflect_network)(const struct network *network, struct reflect *r);
