@@ -15,13 +15,14 @@ from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, diagn
 from .document import Connection, Document, Element, Renderable, Value, equal
 from .edit import Draft, Edit, NewValue
 from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, OutOfMemoryError
-from .shader import (Alpha, Block, CompiledInput, OptionValue, Part, Place, Shader, ShaderInfo, Stage, Tile, Variable, View)
+from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, Place, Semantic, Shader,
+                     ShaderInfo, Stage, Tile, Variable, View, semantics)
 
 __version__ = library_version()
 
-__all__ = ["Alpha", "ArgumentError", "Block", "CancelledError", "CompiledInput", "Connection", "Context", "Diagnostic",
+__all__ = ["Alpha", "ArgumentError", "Block", "BlockInfo", "Change", "CancelledError", "CompiledInput", "Connection", "Context", "Diagnostic",
            "DiagnosticKind", "Diagnostics", "Document", "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "File",
-           "InternalError", "Library", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType", "OptionValue",
-           "OutOfMemoryError", "Part", "Place", "Port", "Renderable", "Resolver", "Rewriting", "Rewritten", "Severity", "Shader",
+           "InputState", "InternalError", "Library", "LightType", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType", "OptionValue",
+           "OutOfMemoryError", "Part", "Place", "Port", "Renderable", "Resolver", "Rewriting", "Rewritten", "Semantic", "Severity", "Shader",
            "ShaderInfo", "Stage", "Target", "Tile", "Value", "Variable", "View", "diagnostic_kinds", "equal", "library_version",
-           "options", "targets"]
+           "options", "semantics", "targets"]

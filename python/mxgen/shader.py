@@ -128,6 +128,8 @@ class Variable:
     advanced: bool
     #: not interpolated between vertices
     flat: bool
+    #: the exact default of an integer
+    integer: int
     _shader: Shader = field(repr=False, compare=False)
     _index: int = field(repr=False, compare=False)
 
@@ -154,7 +156,86 @@ class CompiledInput:
 
     path: str
     type: str
+    #: as written: "0.5", "oren_nayar"; "" for zero
     value: str
+    #: the document has the value; otherwise it is the default
+    authored: bool
+    #: uiadvanced
+    advanced: bool
+    uiname: str
+    uifolder: str
+    uimin: str
+    uimax: str
+    uisoftmin: str
+    uisoftmax: str
+    uistep: str
+    enum_names: str
+    enum_values: str
+    doc: str
+
+
+class InputState(enum.IntEnum):
+    """The effect of a new value of an input on a shader."""
+
+    #: the document has no input of this path
+    UNKNOWN = lib.MXG_INPUT_UNKNOWN
+    #: the shader does not need the input
+    UNUSED = lib.MXG_INPUT_UNUSED
+    #: a variable has the value: `Shader.find_variable`
+    UNIFORM = lib.MXG_INPUT_UNIFORM
+    #: needs a new generation: `Shader.compiled_inputs`
+    COMPILED = lib.MXG_INPUT_COMPILED
+    #: no value: the input is connected, or its default is a property of the geometry
+    CONNECTED = lib.MXG_INPUT_CONNECTED
+
+
+class Change(enum.IntEnum):
+    """What a host changes to draw another shader."""
+
+    NOTHING = lib.MXG_CHANGE_NOTHING
+    #: the program stays; some variables have other values
+    VALUES = lib.MXG_CHANGE_VALUES
+    #: another program
+    SHADER = lib.MXG_CHANGE_SHADER
+
+
+@dataclass(frozen=True)
+class Semantic:
+    """The meaning of a variable without a path (docs/reflection.md)."""
+
+    block: Block
+    semantic: str
+    #: "": several
+    type: str
+    doc: str
+
+
+@dataclass(frozen=True)
+class BlockInfo:
+    """A block of the interface. Its variables have consecutive indices."""
+
+    name: str
+    first_variable: int
+    num_variables: int
+    #: for uniforms in a buffer; 0: single uniforms
+    byte_size: int
+    set: int
+    binding: int
+    #: LightData: the lights, and their distance in bytes
+    array_length: int
+    array_stride: int
+
+
+@dataclass(frozen=True)
+class LightType:
+    """A light shader: u_lightData[i].type selects it for light i."""
+
+    type: int
+    name: str
+    #: made of nodes: also reads the members `position` and `direction`
+    is_shader: bool
+    #: the members of LightData that it reads as its inputs; None: no stage reads the member
+    members: tuple[Variable | None, ...]
 
 
 @dataclass(frozen=True)
@@ -302,6 +383,63 @@ class Shader(Native):
             found.append(CompiledInput(**values))
         return tuple(found)
 
+    def input_state(self, path: str) -> InputState:
+        """The effect of a new value of an input of a node or nodegraph."""
+        return InputState(lib.mxg_result_input_state(self._handle.pointer, c_text(path, "path")))
+
+    def change(self, after: Shader) -> tuple[Change, tuple[Variable, ...]]:
+        """What a host changes to draw `after` in place of this shader, and the variables of `after` with other values."""
+        if not isinstance(after, Shader):
+            raise TypeError(f"after must be Shader, not {type(after).__name__}")
+        capacity = lib.mxg_result_num_variables(after._handle.pointer)
+        indices, count = ffi.new("uint32_t[]", max(capacity, 1)), ffi.new("uint32_t *")
+        change = Change(lib.mxg_result_change(self._handle.pointer, after._handle.pointer, indices, capacity, count))
+        return change, tuple(after._variable(indices[i]) for i in range(min(count[0], capacity)))
+
+    def block(self, block: Block) -> BlockInfo:
+        """A block of the interface."""
+        values = record("mxg_block_info", lib.mxg_result_block, self._handle.pointer, Block(block))
+        if values is None:
+            raise ArgumentError("the call made no interface")
+        return BlockInfo(**values)
+
+    def pack(self, block: Block) -> bytearray:
+        """The buffer of a block of uniforms with the default values, ready for upload."""
+        size = lib.mxg_result_pack(self._handle.pointer, Block(block), ffi.NULL, 0)
+        data = bytearray(size)
+        if size:
+            lib.mxg_result_pack(self._handle.pointer, Block(block), ffi.from_buffer(data), size)
+        return data
+
+    def pack_value(self, data: bytearray, variable: Variable, values: Sequence[float], element: int = 0) -> None:
+        """Writes the value of a variable to its place in such a buffer. `element` is the light or the element of an array."""
+        if not isinstance(variable, Variable):
+            raise TypeError(f"variable must be Variable, not {type(variable).__name__}")
+        if variable._shader is not self:
+            raise ValueError(f"'{variable.name}' is a variable of another shader")
+        numbers = ffi.new("float[]", list(values))
+        status = lib.mxg_result_pack_value(self._handle.pointer, variable._index, element, numbers, len(numbers),
+                                           ffi.from_buffer(data, require_writable=True), len(data))
+        if status == lib.MXG_ERROR_ARGUMENT:
+            raise ArgumentError(f"'{variable.name}' is in no buffer, has another number of values, or has no room in the buffer")
+        if status != lib.MXG_OK:
+            raise error_of(status)
+
+    @property
+    def light_types(self) -> tuple[LightType, ...]:
+        """The light shaders."""
+        found = []
+        for index in range(lib.mxg_result_num_light_types(self._handle.pointer)):
+            values = record("mxg_light_type", lib.mxg_result_light_type, self._handle.pointer, index)
+            assert values is not None
+            members = tuple(self._light_member(index, member) for member in range(values.pop("num_members")))
+            found.append(LightType(**values, members=members))
+        return tuple(found)
+
+    def _light_member(self, light: int, member: int) -> Variable | None:
+        index = ffi.new("uint32_t *")
+        return self._variable(index[0]) if lib.mxg_result_light_member(self._handle.pointer, light, member, index) else None
+
     @property
     def reflection_json(self) -> str:
         """The variables, inputs and info as JSON (docs/reflection.md)."""
@@ -318,6 +456,17 @@ class Shader(Native):
     def _text(self) -> str:
         """The text of an inspection."""
         return py_text(lib.mxg_result_text(self._handle.pointer, ffi.NULL))
+
+
+def semantics() -> tuple[Semantic, ...]:
+    """The meanings of variables without a path."""
+    found = []
+    for index in range(lib.mxg_num_semantics()):
+        values = record("mxg_semantic", lib.mxg_get_semantic, index)
+        assert values is not None
+        values["block"] = Block(values["block"])
+        found.append(Semantic(**values))
+    return tuple(found)
 
 
 # ---- Options ----

@@ -3,6 +3,7 @@
 import json
 import pathlib
 import re
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -104,6 +105,52 @@ class Shaders(unittest.TestCase):
         with self.assertRaises(mxgen.Error):
             bare.reflection_json
 
+    def test_states_and_changes(self):
+        document = self.context.load(common.EXAMPLES / "marble.mtlx")
+        shader, reduced = document.generate("vulkan"), document.generate("vulkan", options={"interface": "reduced"})
+        self.assertEqual(shader.input_state("NG_marble/stone"), mxgen.InputState.UNIFORM)
+        self.assertEqual(reduced.input_state("NG_marble/stone"), mxgen.InputState.COMPILED)
+        self.assertEqual(shader.input_state("none"), mxgen.InputState.UNKNOWN)
+        with document.edit() as edit:
+            edit["NG_marble/stone"].set("value", "1, 0, 0")
+        after = edit.document.generate("vulkan")
+        change, variables = shader.change(after)
+        self.assertEqual((change, [variable.path for variable in variables]), (mxgen.Change.VALUES, ["NG_marble/stone"]))
+        self.assertEqual(variables[0].values, (1, 0, 0))
+        self.assertEqual(shader.change(shader), (mxgen.Change.NOTHING, ()))
+        self.assertEqual(shader.change(reduced)[0], mxgen.Change.SHADER)
+        with self.assertRaises(TypeError):
+            shader.change(5)
+
+    def test_buffers(self):
+        shader = self.context.load(common.EXAMPLES / "marble.mtlx").generate("vulkan")
+        block = shader.block(mxgen.Block.PUBLIC_UNIFORMS)
+        stone = shader.find_variable("NG_marble/stone")
+        data = shader.pack(mxgen.Block.PUBLIC_UNIFORMS)
+        self.assertEqual(len(data), block.byte_size)
+        self.assertEqual(struct.unpack_from("<3f", data, stone.offset), stone.values[:3])
+        shader.pack_value(data, stone, (1, 0.5, 0.25))
+        self.assertEqual(struct.unpack_from("<3f", data, stone.offset), (1, 0.5, 0.25))
+        for wrong, error in (((1, 2), mxgen.ArgumentError), (("x",), TypeError)):
+            with self.assertRaises(error):
+                shader.pack_value(data, stone, wrong)
+        with self.assertRaises(mxgen.ArgumentError):
+            shader.pack_value(bytearray(4), stone, (1, 1, 1))
+        with self.assertRaises(TypeError):
+            shader.pack_value(data, 5, (1, 1, 1))
+        with self.assertRaises((TypeError, BufferError)):
+            shader.pack_value(bytes(data), stone, (1, 1, 1))
+        self.assertEqual(shader.pack(mxgen.Block.TEXTURES), b"")
+
+    def test_lights(self):
+        shader = self.context.load(common.EXAMPLES / "gold.mtlx").generate("glsl")
+        lights = {light.type: light for light in shader.light_types}
+        self.assertEqual(sorted(lights), [1, 2, 3])
+        self.assertIn("point", lights[2].name)
+        self.assertTrue(all(member is None or member.block == mxgen.Block.LIGHT_DATA for light in lights.values() for member in light.members))
+        self.assertTrue(any(light.members for light in lights.values()))
+        self.assertIn("worldMatrix", {semantic.semantic for semantic in mxgen.semantics()})
+
     def test_files(self):
         shader = self.context.load(common.EXAMPLES / "lamp.mtlx").generate("glsl")
         self.assertEqual([pathlib.Path(file).name for file in shader.files], ["lamp.ies"])
@@ -186,19 +233,20 @@ class Catalogues(unittest.TestCase):
         self.assertEqual(mxgen.library_version(), mxgen.__version__)
 
     def test_records_have_every_member(self):
-        omitted = {"mxg_part": {"source_size"}}
+        omitted = {"mxg_part": {"source_size"}, "mxg_light_type": {"num_members"}}
         for cls, ctype in ((mxgen.Target, "mxg_target"), (mxgen.Option, "mxg_option"), (mxgen.DiagnosticKind, "mxg_diagnostic_kind"),
                            (mxgen.Diagnostic, "mxg_diagnostic"), (mxgen.Port, "mxg_port"), (mxgen.NodeDef, "mxg_nodedef"),
                            (mxgen.Variable, "mxg_variable"), (mxgen.Tile, "mxg_tile"), (mxgen.Part, "mxg_part"),
                            (mxgen.CompiledInput, "mxg_compiled_input"), (mxgen.ShaderInfo, "mxg_shader_info"),
-                           (mxgen.Renderable, "mxg_renderable"), (mxgen.Connection, "mxg_connection")):
+                           (mxgen.Renderable, "mxg_renderable"),
+                           (mxgen.Semantic, "mxg_semantic"), (mxgen.BlockInfo, "mxg_block_info"), (mxgen.LightType, "mxg_light_type"), (mxgen.Connection, "mxg_connection")):
             native = {name for name, _ in ffi.typeof(ctype).fields} - {"size"} - omitted.get(ctype, set())
-            self.assertEqual({field.name for field in fields(cls) if not field.name.startswith("_")}, native, ctype)
+            self.assertEqual({field.name for field in fields(cls) if not field.name.startswith("_")} - {"members"}, native, ctype)
 
     def test_enumerations_have_every_member(self):
         for cls, ctype in ((mxgen.Severity, "mxg_severity"), (mxgen.Stage, "mxg_stage"), (mxgen.Block, "mxg_block"),
                            (mxgen.Alpha, "mxg_alpha"), (mxgen.View, "mxg_view"), (mxgen.OptionType, "mxg_option_type"),
-                           (mxgen.Rewriting, "mxg_rewriting")):
+                           (mxgen.Rewriting, "mxg_rewriting"), (mxgen.InputState, "mxg_input_state"), (mxgen.Change, "mxg_change")):
             names = [name for name in ffi.typeof(ctype).relements if not re.search(r"_MAX_ENUM$|^MXG_NUM_", name)]
             self.assertEqual(sorted(int(member) for member in cls), sorted(getattr(lib, name) for name in names), ctype)
             for member in cls:
