@@ -74,8 +74,8 @@ static void report_dangling(const struct library *lib, elem_id asker, uint32_t n
     else
         text_str(&who, "the document");
     struct diag_guess suggestion;
-    bool may_walk = diag_guess_begin(&suggestion, diags, text_of(lib, name));
-    if (may_walk)
+    bool may_walk = diag_may_guess(diags);
+    if (diag_guess_begin(&suggestion, diags, text_of(lib, name)))
         for_inputs(lib, graph, nodedef, guess, &suggestion);
     diag_add(diags, DIAG_ID_dangling_interfacename,
              doc_attr_place(&lib->doc, asker, STR_interfacename), text_cstr(&who),

@@ -683,7 +683,7 @@ static void check_infinities(const struct target *target)
         fixture_close(&f);
         return;
     }
-    REQUIRE(!"a target without a spelling of infinity");
+    REQUIRE(false); /* no target has a spelling of infinity */
 }
 
 static void test_targets(void)
