@@ -106,6 +106,15 @@ size_t frame_file(const char *file, const struct frame_sequence *sequence, int32
 /* reflect.c: the user interface data of a variable; user_data is the mxg_result. */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
 
+/*
+ * undefined.c: false, after a diagnostic, if the roots, or the effects of a shader, need a value
+ * that is undefined. `where` is the element of the message if the value comes from none.
+ */
+bool generation_is_defined(struct generation *g, const struct ir_graph *graph, const ir_ref *roots,
+                           uint32_t num_roots, elem_id where);
+bool generation_effects_are_defined(struct generation *g, const struct shader *shader,
+                                    elem_id where);
+
 /* globs.c: warns about patterns in options that match nothing. */
 void generation_check_globs(struct generation *g);
 

@@ -109,6 +109,7 @@ static uint64_t attribute(struct hasher *h, ir_ref ref)
 {
     const struct ir_node *node = ir_get(h->shader->graph, ref);
     switch (node->op) {
+    case IR_POISON: /* an origin */
     case IR_CONST: return 0;
     case IR_CONTEXT:
     case IR_UNIFORM:
