@@ -107,10 +107,12 @@ uint64_t cli_hash(uint64_t hash, const char *text);
  */
 char *cli_copy(const char *text, size_t len);
 
-/* generate.c, check/check.c, inspect.c, library.c, validate.c, render.c, explain.c, format.c */
+/* generate.c, check/check.c, inspect.c, bind.c, library.c, validate.c, render.c, explain.c,
+ * format.c */
 int command_generate(const struct command *command, int argc, char **argv);
 int command_check(const struct command *command, int argc, char **argv);
 int command_inspect(const struct command *command, int argc, char **argv);
+int command_bind(const struct command *command, int argc, char **argv);
 int command_library(const struct command *command, int argc, char **argv);
 int command_validate(const struct command *command, int argc, char **argv);
 int command_explain(const struct command *command, int argc, char **argv);

@@ -21,6 +21,8 @@ static const struct command commands[] = {
      command_check},
     {"inspect", "inspect FILE [--graph | --dot | --ir | --closures | --statistics] [options]",
      "Prints elements, graph, IR, closures or statistics of a document.", command_inspect},
+    {"bind", "bind FILE --stage PATHS [--look LOOK] [--json FILE | --geom PATH] [options]",
+     "Finds the layers of materials of each primitive of a scene under a look.", command_bind},
     {"validate", "validate FILE...",
      "Checks documents against the specification and the node library.", command_validate},
     {"format", "format FILE... [--in-place | --check | -o FILE]",

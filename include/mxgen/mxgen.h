@@ -19,6 +19,9 @@
  *     library    node definitions; immutable, reference-counted    until the last mxg_library_unref
  *     document   a loaded document; immutable; holds its library   until mxg_document_destroy
  *     options    values by key; belongs to the caller              until mxg_options_destroy
+ *     scene      paths of primitives                               until mxg_scene_destroy
+ *     bindings   the layers of each primitive under a look;        until mxg_bindings_destroy
+ *                immutable; holds its document and its scene
  *     result     source, reflection and diagnostics of one call;   until mxg_result_destroy
  *                immutable; holds its document
  * An accessor returns data of its object: the data lives as long as the object. The caller frees
@@ -102,6 +105,8 @@ typedef struct mxg_library mxg_library;
 typedef struct mxg_document mxg_document;
 typedef struct mxg_options mxg_options;
 typedef struct mxg_result mxg_result;
+typedef struct mxg_scene mxg_scene;
+typedef struct mxg_bindings mxg_bindings;
 
 /* ---- Context ---- */
 
@@ -257,6 +262,8 @@ MXG_API mxg_status mxg_get_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *
 MXG_API const mxg_diagnostics *mxg_library_diagnostics(const mxg_library *library);
 MXG_API const mxg_diagnostics *mxg_document_diagnostics(const mxg_document *document);
 MXG_API const mxg_diagnostics *mxg_result_diagnostics(const mxg_result *result);
+MXG_API const mxg_diagnostics *mxg_scene_diagnostics(const mxg_scene *scene);
+MXG_API const mxg_diagnostics *mxg_bindings_diagnostics(const mxg_bindings *bindings);
 
 /* ---- Library ---- */
 
@@ -367,6 +374,8 @@ MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_documen
 
 /* The elements of documents, edits, and documents as text. */
 #include <mxgen/document.h>
+/* Scenes, and the layers of materials of their primitives. */
+#include <mxgen/scene.h>
 
 /* ---- Targets and options ---- */
 

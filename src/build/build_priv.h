@@ -251,6 +251,9 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family);
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
 
+/* film.c: a thin film on a BSDF, as inputs of its microfacet leaves. `node` is the film node. */
+ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, elem_id node);
+
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
 

@@ -251,6 +251,12 @@ static ir_ref build_multiply(const struct call *c)
     return build_op(c, IR_CLOSURE_SCALE, args, 2);
 }
 
+static ir_ref thin_film(const struct call *c)
+{
+    return build_film(c->b, arg(c, STR_thickness), arg(c, STR_ior), arg(c, STR_base),
+                      c->frame->node.element);
+}
+
 static ir_ref measured_edf(const struct call *c)
 {
     return build_measured_edf(c->b, arg(c, STR_color), arg(c, STR_normal), arg(c, STR_file),
@@ -370,6 +376,10 @@ static const struct dynamic_node {
      {{STR_bg, SAME}, {STR_fg, SAME}, {STR_mix, OF(FLOAT)}}},
     {STR_add, build_add, CLOSURES, {{STR_in1, SAME}, {STR_in2, SAME}}},
     {STR_multiply, build_multiply, CLOSURES, {{STR_in1, SAME}, {STR_in2, OF(FLOAT) | OF(VEC3)}}},
+    {STR_thinfilmbsdf,
+     thin_film,
+     OF(BSDF),
+     {{STR_thickness, OF(FLOAT)}, {STR_ior, OF(FLOAT)}, {STR_base, OF(BSDF)}}},
     {STR_measured_edf,
      measured_edf,
      OF(EDF),

@@ -41,7 +41,7 @@ static bool is_product(const struct ir_graph *g, ir_ref ref)
         return false;
     for (unsigned i = 0; i < 2; i++) {
         ir_type_id type = ir_type_of(g, ir_arg(g, ref, i));
-        if (type != IR_TYPE_VEC3 && (type != IR_TYPE_FLOAT || !(node->flags & IR_NODE_LOOP)))
+        if (type != IR_TYPE_VEC3 && type != IR_TYPE_FLOAT)
             return false;
     }
     return true;

@@ -71,7 +71,7 @@ static void add_part(struct emitter *e, enum closure_place place, const struct c
 {
     if (value)
         vec_push(e->shader->arena, &e->lit.at[place].parts,
-                 (struct closure_part){leaf->leaf, leaf->scalar, value, false});
+                 (struct closure_part){leaf->leaf, leaf->scalar, value, false, false});
 }
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
@@ -105,40 +105,47 @@ static void comment_leaves(struct emitter *e, const struct closure_part *parts, 
         comment(e, str_intern(e->shader->strings, names.data, names.len));
 }
 
+/* Parts [begin, end) as one statement; guard 0: unconditionally. */
+static void accumulate_parts(struct emitter *e, const struct closure_part *parts, uint32_t count,
+                             ir_ref guard, ir_ref factor)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref sum = 0;
+    for (uint32_t i = 0; i < count; i++)
+        sum = add(e, sum, parts[i].value);
+    comment_leaves(e, parts, count);
+    if (guard) {
+        ir_ref condition = ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f));
+        closure_name(e->shader, condition, parts->leaf, "visible");
+        effect(e, EFFECT_IF, 0, condition);
+    }
+    accumulate(e, factor, sum);
+    if (guard)
+        effect(e, EFFECT_END, 0, 0);
+}
+
 /*
- * color += factor · Σ parts. Unguarded leaves share one line; the others stand behind their guards.
+ * color += factor · Σ parts. Leaves without branch and loop share one line, which comes first:
+ * their weights need no registers in the loops. Neighbours with the same guard share a branch.
  */
 static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref factor)
 {
-    struct ir_graph *g = e->graph;
-    struct closure_parts *list = &e->lit.at[place];
-    struct closure_parts unguarded = {0};
-    ir_ref always = 0;
+    struct closure_parts *list = &e->lit.at[place], plain = {0}, dear = {0};
     closure_find_guarded(e->shader, list, place != PLACE_WHOLE);
-    for (uint32_t i = 0; i < list->parts.len;) {
-        const struct closure_part *first = &list->parts.items[i];
-        uint32_t begin = i;
-        ir_ref guard = first->scalar, sum = 0;
-        do
-            sum = add(e, sum, list->parts.items[i++].value);
-        while (i < list->parts.len && list->parts.items[i].scalar == guard
-               && list->parts.items[i].is_guarded == first->is_guarded);
-        if (!first->is_guarded || ir_is_const(g, guard)) {
-            always = add(e, always, sum);
-            for (uint32_t k = begin; k < i; k++)
-                vec_push(e->shader->arena, &unguarded.parts, list->parts.items[k]);
-            continue;
-        }
-        comment_leaves(e, first, i - begin);
-        ir_ref condition = ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f));
-        closure_name(e->shader, condition, first->leaf, "visible");
-        effect(e, EFFECT_IF, 0, condition);
-        accumulate(e, factor, sum);
-        effect(e, EFFECT_END, 0, 0);
+    for (uint32_t i = 0; i < list->parts.len; i++) {
+        struct closure_part *part = &list->parts.items[i];
+        part->is_guarded &= !ir_is_const(e->graph, part->scalar);
+        bool is_plain = !part->is_guarded && !part->has_loop;
+        vec_push(e->shader->arena, is_plain ? &plain.parts : &dear.parts, *part);
     }
-    if (always) {
-        comment_leaves(e, unguarded.parts.items, unguarded.parts.len);
-        accumulate(e, factor, always);
+    if (plain.parts.len)
+        accumulate_parts(e, plain.parts.items, plain.parts.len, 0, factor);
+    for (uint32_t i = 0, end; i < dear.parts.len; i = end) {
+        const struct closure_part *first = &dear.parts.items[i];
+        for (end = i + 1; end < dear.parts.len && first->is_guarded; end++)
+            if (dear.parts.items[end].scalar != first->scalar)
+                break;
+        accumulate_parts(e, first, end - i, first->is_guarded ? first->scalar : 0, factor);
     }
 }
 

@@ -513,6 +513,14 @@ elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum eleme
     return child && doc_element(doc, child)->kind == kind ? child : 0;
 }
 
+elem_id doc_top_level(const struct document *doc, enum element_kind kind, str_id name)
+{
+    elem_id found = 0;
+    for (; doc && !found; doc = doc->base)
+        found = doc_child_of_kind(doc, doc->root, kind, name);
+    return found;
+}
+
 /* A top-level name prefixed with the namespace of the root; 0: no such string exists. */
 static str_id qualified(const struct document *doc, const char *name, size_t len)
 {

@@ -266,6 +266,8 @@ str_id doc_inherited_attr(const struct document *doc, elem_id element, str_id na
 elem_id doc_child(const struct document *doc, elem_id parent, str_id name);
 elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum element_kind kind,
                           str_id name);
+/* A top-level element of a kind in this layer or the next one below that has it; 0: none. */
+elem_id doc_top_level(const struct document *doc, enum element_kind kind, str_id name);
 
 /*
  * Finds an element by path: "NG_marble1/out", "/NG_marble1/out"; 0: none. Searches this layer

@@ -37,7 +37,7 @@ static const struct {
     [KIND_COLLECTION] = {IN(MATERIALX), true, {0}},
     [KIND_LOOK] = {IN(MATERIALX), true, {0}},
     [KIND_LOOKGROUP] = {IN(MATERIALX), true, {STR_looks}},
-    [KIND_MATERIALASSIGN] = {IN(LOOK), false, {STR_material}},
+    [KIND_MATERIALASSIGN] = {IN(LOOK), false, {0}},
     [KIND_PROPERTY] = {IN(PROPERTYSET), true, {STR_type}},
     [KIND_PROPERTYSET] = {IN(MATERIALX), true, {0}},
     [KIND_PROPERTYASSIGN] = {IN(LOOK), false, {STR_property, STR_type}},
@@ -143,15 +143,6 @@ static void check_required(struct validation *v, elem_id element)
                  text_of(v, e->category), "type");
 }
 
-/* The <typedef> of a type in any layer; 0: none. */
-static elem_id find_typedef(const struct document *doc, str_id type)
-{
-    elem_id found = 0;
-    for (; doc && !found; doc = doc->base)
-        found = doc_child_of_kind(doc, doc->root, KIND_TYPEDEF, type);
-    return found;
-}
-
 static const char *suggest_type(const struct document *doc, const char *type,
                                 struct diag_list *diags)
 {
@@ -206,7 +197,7 @@ static void check_type_and_values(struct validation *v, elem_id element)
     const struct element *e = doc_element(v->doc, element);
     str_id name = doc_attr_value(v->doc, element, STR_type);
     doc_type type = doc_type_of(name);
-    if (name && !type && !find_typedef(v->doc, name))
+    if (name && !type && !doc_top_level(v->doc, KIND_TYPEDEF, name))
         doc_report_type(v->doc, element, v->diags);
     if (!type || e->kind == KIND_NODE)
         return;

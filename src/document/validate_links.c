@@ -9,15 +9,6 @@ static const char *text_of(const struct validation *v, str_id id)
     return str_text(v->doc->strings, id);
 }
 
-/* A top-level element of a kind in any layer; 0: none. */
-static elem_id find_top_level(const struct document *doc, enum element_kind kind, str_id name)
-{
-    elem_id found = 0;
-    for (; doc && !found; doc = doc->base)
-        found = doc_child_of_kind(doc, doc->root, kind, name);
-    return found;
-}
-
 /* Attributes that refer to top-level elements; lists have commas. */
 static const struct {
     enum element_kind kind;
@@ -45,8 +36,8 @@ static void check_reference(struct validation *v, elem_id element, str_id attr,
     for (text += strspn(text, ", "); *text; text += strspn(text, ", ")) {
         size_t len = strcspn(text, ", ");
         str_id name = str_find(doc->strings, text, len);
-        bool graph_has_material = target == KIND_NODE && find_top_level(doc, KIND_NODEGRAPH, name);
-        if ((!name || !find_top_level(doc, target, name)) && !graph_has_material)
+        bool graph_has_material = target == KIND_NODE && doc_top_level(doc, KIND_NODEGRAPH, name);
+        if ((!name || !doc_top_level(doc, target, name)) && !graph_has_material)
             diag_add(v->diags, DIAG_ID_dangling_reference, doc_attr_place(doc, element, attr),
                      text_of(v, attr), arena_strndup(v->arena, text, len));
         text += len;
@@ -79,7 +70,7 @@ static void check_inheritance(struct validation *v, elem_id element, elem_id *ma
         str_id base = doc_attr_value(doc, e, STR_inherit);
         if (!base)
             return;
-        elem_id next = find_top_level(doc, (enum element_kind)start->kind, base);
+        elem_id next = doc_top_level(doc, (enum element_kind)start->kind, base);
         if (!next) {
             diag_add(v->diags, DIAG_ID_inherit_missing, doc_attr_place(doc, e, STR_inherit),
                      text_of(v, doc_element(doc, e)->name), text_of(v, base));

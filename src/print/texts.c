@@ -44,7 +44,7 @@ static const char *watch_type(void *user_data, ir_type_id type)
 }
 
 /* few shaders have longer functions, and in the same room the image has many short ones */
-enum { MAX_TEXT = 1024 };
+enum { MAX_TEXT = 660 };
 
 void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, struct arena *arena)
 {

@@ -2,15 +2,10 @@
 // Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 2 closures · 0 textures
 
 struct mx_GgxLobe {
-    mat3 frame;
-    vec3 stretch;
-    float area;
-    vec3 v;
+    vec3 N;
+    vec3 x;
+    vec2 alpha;
     float masking;
-    vec3 cap;
-    float step;
-    float weight;
-    float level;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -44,48 +39,30 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine)
 {
-    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, sqrt(mix(v.z * v.z, 1.0, 0.0016)),
-        normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0);
-}
-
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    return sqrt(mix(cosine * cosine, 1.0, 0.0016));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), vec2(0.04), mx_ggx_masking(max(dot(N, V), 1e-8)));
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(const vec3 e, const float area)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
-{
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -110,16 +87,16 @@ void main()
     mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(facing, normalize(vd.tangentWorld), V);
     vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75
         * vec3(0.6, 0.1, 0.05);
-    for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
+    for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
         float intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;
-        vec3 H = normalize(V - u_lightData[i].direction);
-        float fresnel = mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0));
+        float v_dot_l = dot(V, L);
+        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
         float cos_l = max(dot(L, facing), 1e-8);
         vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.1415927 * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = ggx_compensation * mx_ggx_light(coat_ggx_lobe, L, H) * fresnel + paint_response;
+            * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        vec3 sum = ggx_compensation * mx_ggx_light(coat_ggx_lobe, V, L) * fresnel + paint_response;
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * sum;
     }
     out1 = vec4(color, 1.0);

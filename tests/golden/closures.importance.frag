@@ -2,12 +2,18 @@
 // Varnish · surfacematerial · mxgen 0.1 · vulkan · complete · 2 closures · 0 textures
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    mat3 to_map;
     vec3 stretch;
     float area;
     vec3 v;
     float masking;
-    vec3 cap;
+    vec3 top;
     float step;
     float weight;
     float level;
@@ -63,51 +69,30 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine)
 {
-    float masking = sqrt(mix(v.z * v.z, 1.0, 0.0016));
-    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = step_ * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, masking, normalize(v * vec3(0.04, 0.04, 1.0)), step_,
-        weight * u_envLightIntensity, weight * 0.0016 * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
-}
-
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    return sqrt(mix(cosine * cosine, 1.0, 0.0016));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), vec2(0.04), mx_ggx_masking(max(dot(N, V), 1e-8)));
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(const vec3 e, const float area)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
-{
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -119,55 +104,86 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
-// 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 L, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h.
-vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level)
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    vec3 l = reflect(-lobe.v, h);
-    return vec4(mx_ggx_visibility(lobe, max(l.z, 1e-8)) * mx_filtered_light(lobe.frame * l, level),
-        clamp(dot(lobe.v, h), 1e-8, 1.0));
+    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
+// over that of the first.
+vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread)
+{
+    float cosine = dot(s.v, h);
+    vec3 l = 2.0 * shrink * cosine * h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, spread * spread * s.level), clamp(cosine * sqrt(shrink), 1e-8, 1.0));
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi)
+vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth)
 {
-    vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
-    vec3 h = cap * lobe.stretch;
-    float s = dot(cap, cap) / dot(h, h);
-    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level);
+    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap));
+}
+
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+{
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    float area = lobe.alpha.x * lobe.alpha.y;
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi);
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth);
         sum += mx_fresnel_dielectric(light.w) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 void main()
@@ -181,9 +197,8 @@ void main()
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 N = faceforward(normal_N, -V, normal_N);
     mx_GgxLobe lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
-    float paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    vec3 scaled_paint_weight = paint_weight * vec3(0.6, 0.1, 0.05);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75 * vec3(0.6, 0.1, 0.05);
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // coat, paint
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
@@ -197,20 +212,22 @@ void main()
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
-        vec3 H = normalize(V + L);
-        float fresnel = mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0));
+        float v_dot_l = dot(V, L);
+        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
         float cos_l = max(dot(L, N), 1e-8);
         vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.1415927 * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = scale * mx_ggx_light(lobe, L, H) * fresnel + paint_response;
+            * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        vec3 sum = scale * mx_ggx_light(lobe, V, L) * fresnel + paint_response;
         color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum;
     }
     // environment
-    // coat, paint
+    // paint
+    vec3 paint_product = scaled_paint_weight
+        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz;
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_product = paint_weight * clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
-    vec3 paint_response_2 = textureLod(u_envIrradiance, mx_latlong(N), 0.0).xyz * u_envLightIntensity * paint_product;
-    color += scale * mx_ggx_gather_dielectric(lobe) + paint_response_2;
+    color += paint_product * (clamp(fit.x / fit.y, 0.0, 1.0) * u_envLightIntensity);
+    // coat
+    color += scale * mx_ggx_gather_dielectric(lobe, V);
     // opacity
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;

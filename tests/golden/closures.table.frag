@@ -2,15 +2,10 @@
 // Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 2 closures · 0 textures
 
 struct mx_GgxLobe {
-    mat3 frame;
-    vec3 stretch;
-    float area;
-    vec3 v;
+    vec3 N;
+    vec3 x;
+    vec2 alpha;
     float masking;
-    vec3 cap;
-    float step;
-    float weight;
-    float level;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -46,48 +41,30 @@ vec2 mx_ggx_albedo(const float c)
     return vec2(sum, scales.y / sum);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine)
 {
-    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, sqrt(mix(v.z * v.z, 1.0, 0.0016)),
-        normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0);
-}
-
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    return sqrt(mix(cosine * cosine, 1.0, 0.0016));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), vec2(0.04), mx_ggx_masking(max(dot(N, V), 1e-8)));
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(const vec3 e, const float area)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
-{
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -99,11 +76,24 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+}
+
+vec3 mx_environment_radiance(const vec3 direction, const float lod)
+{
+    return textureLod(u_envRadiance, mx_map_point(normalize((u_envMatrix * vec4(direction, 0.0)).xyz)), lod).xyz
+        * u_envLightIntensity;
 }
 
 // A map whose mip levels are filtered for rising roughness.
@@ -111,8 +101,7 @@ vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
     return mix(vec3(0.033735953), vec3(1.0), albedo.y) * albedo.x
-        * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2
-        * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
+        * mx_environment_radiance(reflect(-V, faceforward(N, -V, N)), 0.2 * float(u_envRadianceMips - 1));
 }
 
 void main()
@@ -126,9 +115,8 @@ void main()
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 h = faceforward(N, -V, N);
     mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(h, normalize(vd.tangentWorld), V);
-    float paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    vec3 scaled_paint_weight = paint_weight * vec3(0.6, 0.1, 0.05);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75 * vec3(0.6, 0.1, 0.05);
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // coat, paint
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
@@ -142,19 +130,20 @@ void main()
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
-        vec3 H = normalize(V + L);
-        float fresnel = mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0));
+        float v_dot_l = dot(V, L);
+        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
         float cos_l = max(dot(L, h), 1e-8);
         vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.1415927 * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = scale * mx_ggx_light(coat_ggx_lobe, L, H) * fresnel + paint_response;
+            * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        vec3 sum = scale * mx_ggx_light(coat_ggx_lobe, V, L) * fresnel + paint_response;
         color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum;
     }
     // environment
     // coat, paint
+    vec3 paint_product = scaled_paint_weight
+        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)), 0.0).xyz;
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_product = paint_weight * clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
-    vec3 paint_response_2 = textureLod(u_envIrradiance, mx_latlong(h), 0.0).xyz * u_envLightIntensity * paint_product;
+    vec3 paint_response_2 = paint_product * (clamp(fit.x / fit.y, 0.0, 1.0) * u_envLightIntensity);
     color += scale * mx_ggx_prefiltered(N, V) + paint_response_2;
     out1 = vec4(color, 1.0);
 }

@@ -28,11 +28,18 @@ float mx_line(float2 p)
     return distance(from, float2(0.5, 0.5) * clamp(dot(from, float2(0.5, 0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-float2 mx_latlong(float3 direction)
+// The point of the picture for a unit direction in it.
+float2 mx_map_point(float3 d)
 {
-    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
-    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+    float2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
 void main(
@@ -51,6 +58,7 @@ void main(
     float3 facet_direction_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
     float3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
     color += u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_latlong(faceforward(N, -normalize(u_viewPosition - P_sum), N)), 0.0).xyz * (u_envLightIntensity * 0.18);
+        mx_map_point(normalize(mul(float4(faceforward(N, -normalize(u_viewPosition - P_sum), N), 0.0),
+        u_envMatrix).xyz)), 0.0).xyz * (u_envLightIntensity * 0.18);
     out1 = float4(color, 1.0);
 }

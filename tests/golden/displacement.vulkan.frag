@@ -25,11 +25,18 @@ float mx_line(const vec2 p)
     return distance(from, vec2(0.5) * clamp(dot(from, vec2(0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
 void main()
@@ -45,7 +52,8 @@ void main()
     vec3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
     vec3 facet_direction_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
     vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
-    color += textureLod(u_envIrradiance, mx_latlong(faceforward(N, -normalize(u_viewPosition - P_sum), N)), 0.0).xyz
-        * (u_envLightIntensity * 0.18);
+    color += textureLod(u_envIrradiance,
+        mx_map_point(normalize((u_envMatrix * vec4(faceforward(N, -normalize(u_viewPosition - P_sum), N), 0.0)).xyz)),
+        0.0).xyz * (u_envLightIntensity * 0.18);
     out1 = vec4(color, 1.0);
 }

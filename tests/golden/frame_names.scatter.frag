@@ -107,7 +107,7 @@ void scatter()
     vec3 light = vec3(0.0);
     vec3 L_2 = vec3(0.0);
     float distance_ = 0.0;
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;

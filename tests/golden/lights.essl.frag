@@ -28,7 +28,7 @@ void main()
     // lights
     vec3 N = normalize(vd_normalWorld);
     vec3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd_positionWorld), N);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // bsdf
         bool bulb_is_equal = u_lightData[i].type == 1;
         vec3 d = u_lightData[i].position - vd_positionWorld;

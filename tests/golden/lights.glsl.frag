@@ -23,7 +23,7 @@ void main()
     // lights
     vec3 N = normalize(vd.normalWorld);
     vec3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // bsdf
         vec3 difference = u_lightData[i].position - vd.positionWorld;
         float magnitude = length(difference);

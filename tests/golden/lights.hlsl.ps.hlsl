@@ -34,7 +34,7 @@ void main(
     // lights
     float3 N = normalize(vd.normalWorld);
     float3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // bsdf
         float3 difference = u_lightData[i].position - vd.positionWorld;
         float magnitude = length(difference);

@@ -5,12 +5,18 @@ precision highp int;
 precision highp sampler2D;
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    mat3 to_map;
     vec3 stretch;
     float area;
     vec3 v;
     float masking;
-    vec3 cap;
+    vec3 top;
     float step;
     float weight;
     float level;
@@ -54,12 +60,6 @@ in vec3 vd_tangentWorld;
 in vec3 vd_bitangentWorld;
 out vec4 out1;
 
-vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
-{
-    float x = 1.0 - cosine;
-    return mix(f0, f90, x * x * x * x * x);
-}
-
 // A texel of zeros is a missing map, and means the normal itself.
 vec3 mx_normalmap(const vec3 texel, const vec3 normal, const vec3 tangent, const vec3 bitangent)
 {
@@ -83,52 +83,37 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec2 alpha, const vec3 v)
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
 {
-    float area = alpha.x * alpha.y;
-    float masking = sqrt(mix(v.z * v.z, 1.0, area));
-    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = step_ * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(alpha, 1.0), area, v, masking, normalize(v * vec3(alpha, 1.0)), step_, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    float x = 1.0 - cosine;
+    return mix(f0, f90, x * x * x * x * x);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
 {
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    return sqrt(mix(cosine * cosine, 1.0, area));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, clamp(roughness, vec2(1e-8), vec2(1.0)), max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(const vec3 e, const float area)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
-{
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
@@ -142,43 +127,54 @@ void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 io
 }
 
 // The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-void mx_fresnel_refract(const float cosine, const vec3 n, const vec3 k, out vec3 u, out vec3 v)
+vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
 {
-    vec3 t = n * n - k * k + (cosine * cosine - 1.0);
-    vec3 norm = sqrt(t * t + 4.0 * n * n * k * k);
-    u = sqrt(max(0.5 * (norm + t), vec3(0.0)));
-    v = sqrt(max(0.5 * (norm - t), vec3(0.0)));
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
 // |(x + iy - u - iv) / (x + iy + u + iv)|^2
-vec3 mx_fresnel_ratio(const vec3 x, const vec3 y, const vec3 u, const vec3 v)
+float mx_fresnel_ratio(const vec2 x, const vec2 u)
 {
-    return ((x - u) * (x - u) + (y - v) * (y - v)) / ((x + u) * (x + u) + (y + v) * (y + v));
+    return dot(x - u, x - u) / dot(x + u, x + u);
 }
 
 // Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
 // perpendicular part, (n + ik)^2 times the cosine in the parallel part.
+float mx_fresnel_conductor(const float cosine, const float n, const float k)
+{
+    vec2 u = mx_fresnel_refract(cosine, n, k);
+    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u)
+        + mx_fresnel_ratio(cosine * vec2(n * n - k * k, 2.0 * n * k), u));
+}
+
+// One channel after the other, which needs a third of the registers.
 vec3 mx_fresnel_conductor(const float cosine, const vec3 n, const vec3 k)
 {
-    vec3 u;
-    vec3 v;
-    mx_fresnel_refract(cosine, n, k, u, v);
-    return 0.5 * (mx_fresnel_ratio(vec3(cosine), vec3(0.0), u, v)
-        + mx_fresnel_ratio(cosine * (n * n - k * k), 2.0 * cosine * n * k, u, v));
+    return vec3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
+        mx_fresnel_conductor(cosine, n.z, k.z));
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
-// 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 L, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -188,56 +184,83 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h.
-vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level, const float refract_ior)
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    vec3 l = reflect(-lobe.v, h);
-    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
+// over that of the first.
+vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread,
+    const float refract_ior)
+{
+    float cosine = dot(s.v, h);
+    vec3 l = 2.0 * shrink * cosine * h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
     if (refract_ior > 0.0) {
-        l = mx_refract_sphere(lobe.v, h, refract_ior);
-        weight = 0.5 / lobe.v.z;
+        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
+        weight = 0.5 / s.v.z;
     }
-    return vec4(weight * mx_filtered_light(lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
+        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi, const float refract_ior)
+vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
 {
-    vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
-    vec3 h = cap * lobe.stretch;
-    float s = dot(cap, cap) / dot(h, h);
-    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 f0, const vec3 f90)
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
 {
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    float area = lobe.alpha.x * lobe.alpha.y;
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+}
+
+vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const vec3 f0, const vec3 f90)
+{
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const vec3 n, const vec3 k)
+vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const vec3 V, const vec3 n, const vec3 k)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -250,67 +273,68 @@ float mx_fresnel_dielectric(const float cosine, const float ior)
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior, const float ior)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float refract_ior, const float ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 void main()
 {
     vec3 color = SR_UsdPreviewSurface_emissiveColor;
     // lights
-    // SR_UsdPreviewSurface
-    float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
-    float coating_n = max(amplitude * amplitude, 0.0);
-    vec3 blended_fresnel = mix(mx_fresnel_schlick(1.0, vec3(coating_n), vec3(1.0)), vec3(1.0), 0.04761905);
-    float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
-        1e-8, 1.0);
     vec3 tangent_direction = normalize(vd_tangentWorld);
+    // SR_UsdPreviewSurface
     vec3 shading_normal = mx_normalmap(SR_UsdPreviewSurface_normal * 0.5 + vec3(0.5), normalize(vd_normalWorld),
         tangent_direction, normalize(vd_bitangentWorld));
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
+    vec3 N = faceforward(shading_normal, -V, shading_normal);
+    float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
+    float coating_n = max(amplitude * amplitude, 0.0);
+    float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
+        1e-8, 1.0);
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
+    vec3 blended_fresnel = mix(mx_fresnel_schlick(1.0, vec3(coating_n), vec3(1.0)), vec3(1.0), 0.04761905);
     vec3 coating_scale = blended_fresnel * (1.0 / coating_albedo.x - 1.0) + vec3(1.0);
-    vec3 coating_product = SR_UsdPreviewSurface_clearcoat * coating_scale;
-    vec3 N = faceforward(shading_normal, -V, shading_normal);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), N, tangent_direction, V);
-    bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
-    float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
-    float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
-    vec2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
-    float difference = 1.0 / albedo.x - 1.0;
-    vec3 metal_ior, metal_extinction;
-    mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
         * dot(mix(coating_n, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale, vec3(0.33333334));
-    vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, metal_ior, metal_extinction), vec3(1.0),
-        0.04761905) + vec3(1.0)) * (metal_weight * coating_difference);
-    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), N, tangent_direction, V);
-    float diffuse_weight = 1.0 - metal_weight;
+    bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
     vec3 grazing_metallic = mix(vec3(1.0), SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_metallic);
     vec3 reflection_n = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor
         : mix(amplitude * amplitude * grazing_metallic, grazing_metallic, SR_UsdPreviewSurface_metallic), 0.0);
     vec3 f90 = max(is_equal_useSpecularWorkflow ? vec3(1.0) : grazing_metallic, 0.0);
+    float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
+    vec2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
     vec3 reflection_scale = mix(mx_fresnel_schlick(1.0, reflection_n, f90), f90, 0.04761905) * difference + vec3(1.0);
-    vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     float body_weight = coating_difference
         * (1.0 - dot(mix(reflection_n, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
+    float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
+    float diffuse_weight = 1.0 - metal_weight;
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
     float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
     vec3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // coating
+    vec3 coating_product = SR_UsdPreviewSurface_clearcoat * coating_scale;
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), N, tangent_direction, V);
+    vec3 metal_ior, metal_extinction;
+    mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
+    vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, metal_ior, metal_extinction), vec3(1.0),
+        0.04761905) + vec3(1.0)) * (metal_weight * coating_difference);
+    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), N, tangent_direction, V);
+    vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd_positionWorld;
@@ -324,41 +348,41 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
-        vec3 H = normalize(V + L);
-        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
+        // coating
+        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_UsdPreviewSurface_clearcoat > 0.0) {
             vec3 fresnel = mx_fresnel_schlick(cosine, vec3(coating_n), vec3(1.0));
-            color += light * (coating_product * (mx_ggx_light(coating_lobe, L, H) * fresnel));
+            color += light * (coating_product * (mx_ggx_light(coating_lobe, V, L) * fresnel));
         }
         // metal
-        float ggx_light = mx_ggx_light(lobe, L, H);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_weight > 0.0)
             color += light * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, metal_ior, metal_extinction)));
         // reflection
         if (diffuse_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_n, f90)));
-        // diffuse
-        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
     }
     // environment
     // coating
     if (SR_UsdPreviewSurface_clearcoat > 0.0)
         color += SR_UsdPreviewSurface_clearcoat
-            * (coating_scale * mx_ggx_gather_schlick(coating_lobe, vec3(coating_n), vec3(1.0)));
+            * (coating_scale * mx_ggx_gather_schlick(coating_lobe, V, vec3(coating_n), vec3(1.0)));
     // metal
     if (metal_weight > 0.0)
-        color += metal_product * mx_ggx_gather_conductor(lobe, metal_ior, metal_extinction);
+        color += metal_product * mx_ggx_gather_conductor(lobe, V, metal_ior, metal_extinction);
     // reflection
     if (diffuse_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, reflection_n, f90);
+        color += reflection_product * mx_ggx_gather_schlick(lobe, V, reflection_n, f90);
     // diffuse
     if (diffuse_weight_2 > 0.0)
-        color += diffuse_product * (textureLod(u_envIrradiance, mx_latlong(N), 0.0).xyz * u_envLightIntensity);
+        color += u_envLightIntensity * (diffuse_product
+            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz);
     // refraction
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
         mx_GgxLobe refraction_lobe = mx_ggx_lobe(vec2(0.0), N, tangent_direction, V);
-        color += mx_ggx_gather_dielectric(refraction_lobe, SR_UsdPreviewSurface_ior, SR_UsdPreviewSurface_ior)
+        color += mx_ggx_gather_dielectric(refraction_lobe, V, SR_UsdPreviewSurface_ior, SR_UsdPreviewSurface_ior)
             * (body_weight * refraction_weight);
     }
     // opacity

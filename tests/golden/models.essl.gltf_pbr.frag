@@ -5,12 +5,18 @@ precision highp int;
 precision highp sampler2D;
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    mat3 to_map;
     vec3 stretch;
     float area;
     vec3 v;
     float masking;
-    vec3 cap;
+    vec3 top;
     float step;
     float weight;
     float level;
@@ -78,92 +84,33 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec2 alpha, const vec3 v)
-{
-    float area = alpha.x * alpha.y;
-    float masking = sqrt(mix(v.z * v.z, 1.0, area));
-    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = step_ * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(alpha, 1.0), area, v, masking, normalize(v * vec3(alpha, 1.0)), step_, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
-}
-
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
-}
-
-// N faces V.
-mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
-{
-    mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, clamp(roughness, vec2(1e-8), vec2(1.0)), max(V * frame, vec3(-1.0, -1.0, 1e-8)));
-}
-
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(const vec3 e, const float area)
-{
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
-{
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
-}
-
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
-float mx_fresnel_dielectric(const float cosine, const float ior)
-{
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, ior * ior);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
-}
-
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
 {
     float x = 1.0 - cosine;
     return mix(f0, f90, x * x * x * x * x);
 }
 
-// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
-// transform of the CIE sensitivities, a sum of Gaussians.
-vec3 mx_film_response(const float d, const vec3 re)
+// A channel after interference, the mean of both polarisations.
+float mx_film_channel(const vec2 a, const vec2 re, const vec2 terms)
 {
-    vec4 xyzx = vec4(0.84659, 1.000222, 1.001122, 0.153868)
-        * exp(vec4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
-        * (vec4(re, re.x) * cos(vec4(1.681, 1.7953, 2.2084, 2.2399) * d));
-    return xyzx.xyz + vec3(xyzx.w, 0.0, 0.0);
+    vec2 r23 = re * re;
+    vec2 t = vec2(1.0) - a * a;
+    vec2 even = t * t * r23 / (vec2(1.0) - a * a * r23);
+    vec2 both = a * a + even + 2.0 * (even - t) * terms;
+    return 0.5 * (both.x + both.y);
 }
 
-// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
-// and re + i im of the one below; two terms of the series (section 3.3).
-vec3 mx_film_series(const float a, const vec3 re, const float d)
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
+vec2 mx_film_terms(const vec2 a, const vec2 re, const float d, const vec3 gauss)
 {
-    vec3 r23 = re * re;
-    float r12 = a * a;
-    float t = 1.0 - r12;
-    vec3 constant = t * t * r23 / (vec3(1.0) - r12 * r23);
-    return r12 + constant + 2.0 * (constant - t)
-        * (r12 * mx_film_response(2.0 * d, re * re) - a * mx_film_response(d, re));
+    float decay = exp(gauss.z * d * d);
+    vec2 x = re * cos(gauss.x * d);
+    vec2 y = re * sin(gauss.x * d);
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of the film's own interface.
 vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
 {
     vec2 x = vec2(cosine, ior * cosine);
@@ -180,8 +127,15 @@ vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const fl
     float d = 0.012566372 * ior * c * film;
     vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, f90), vec3(0.0)));
+    vec2 re = vec2(-r.x, r.x);
+    float x = mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, d, vec3(2.2399, 0.153868, -0.0045282)));
+    re = vec2(-r.y, r.y);
+    float y = mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(1.7953, 1.000222, -0.0093046)));
+    re = vec2(-r.z, r.z);
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * (mx_film_series(a.x, -r, d) + mx_film_series(a.y, r, d))), vec3(0.0), vec3(1.0));
+        1.0093968) * vec3(x, y, mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(2.2084, 1.001122, -0.0066121)))),
+        vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)
@@ -191,6 +145,42 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float fi
     return mx_fresnel_schlick(cosine, n, f90);
 }
 
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(mix(cosine * cosine, 1.0, area));
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(const float cosine, const float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    vec2 a = cosine * vec2(1.0, ior * ior);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
 // Rodrigues' formula; the axis has unit length.
 vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
 {
@@ -198,18 +188,25 @@ vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
-// 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 L, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -219,107 +216,149 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h.
-vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level, const float refract_ior)
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    vec3 l = reflect(-lobe.v, h);
-    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
+// over that of the first.
+vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread,
+    const float refract_ior)
+{
+    float cosine = dot(s.v, h);
+    vec3 l = 2.0 * shrink * cosine * h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
     if (refract_ior > 0.0) {
-        l = mx_refract_sphere(lobe.v, h, refract_ior);
-        weight = 0.5 / lobe.v.z;
+        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
+        weight = 0.5 / s.v.z;
     }
-    return vec4(weight * mx_filtered_light(lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
+        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi, const float refract_ior)
+vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
 {
-    vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
-    vec3 h = cap * lobe.stretch;
-    float s = dot(cap, cap) / dot(h, h);
-    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+}
+
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+{
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    float area = lobe.alpha.x * lobe.alpha.y;
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior, const float ior)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float refract_ior, const float ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const float limit, const vec3 n, const vec3 f90, const float film,
-    const float film_ior)
+vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const vec3 f90,
+    const float film, const float film_ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_schlick(light.w, n, f90, film, film_ior) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const float limit, const vec3 f0, const vec3 f90)
+vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 f0, const vec3 f90)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 void main()
 {
     vec3 color = SR_gltf_pbr_emissive * SR_gltf_pbr_emissive_strength;
     // lights
-    // SR_gltf_pbr
-    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
     vec3 N = normalize(vd_normalWorld);
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
-    float cos_v = max(abs(dot(N, V)), 1e-8);
-    vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
-    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    // SR_gltf_pbr
     vec3 Nf = faceforward(N, -V, N);
-    vec3 X = normalize(vd_tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), Nf, X, V);
-    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
-    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
-    float s = 1.0 / max(sheen_rough, 0.005);
-    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
-        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
-    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
+    vec3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
+    vec3 f90 = vec3(max(SR_gltf_pbr_specular, 0.0));
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
     vec2 specular_roughness = clamp(vec2(mix(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
         * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
     vec2 alpha = clamp(specular_roughness, 1e-8, 1.0);
     float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    vec3 product = mix(n, f90, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
-    vec3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
+    vec3 reflection_scale = difference * mix(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905) + vec3(1.0);
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
+    vec3 reflection_film_scale = mix(mx_fresnel(1.0, n, f90, SR_gltf_pbr_iridescence_thickness,
+        SR_gltf_pbr_iridescence_ior), f90, 0.04761905) * difference + vec3(1.0);
+    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
+    vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
+        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
+    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
     float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (sheen_rough + 0.2)), 0.0, 1.0);
     float substrate_weight = coating_difference * (1.0 - sheen_weight * sheen_albedo);
+    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
+        SR_gltf_pbr_iridescence) * substrate_weight;
+    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
+    vec3 diffuse_product = SR_gltf_pbr_base_color
+        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
+    vec3 X = normalize(vd_tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), Nf, X, V);
+    float s = 1.0 / max(sheen_rough, 0.005);
+    float v_dot_nf = dot(V, Nf);
+    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
+    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    vec3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
     vec3 metal_film_product = (difference
         * mix(mx_fresnel(1.0, limited_base_color, vec3(1.0), SR_gltf_pbr_iridescence_thickness,
         SR_gltf_pbr_iridescence_ior), vec3(1.0), 0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
@@ -329,26 +368,13 @@ void main()
     vec3 metal_bare_product = (difference
         * mix(mx_fresnel_schlick(1.0, limited_base_color, vec3(1.0)), vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
-    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
     bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
-    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
-    vec3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
-    vec3 f90 = vec3(max(SR_gltf_pbr_specular, 0.0));
-    vec3 reflection_film_scale = mix(mx_fresnel(1.0, n, f90, SR_gltf_pbr_iridescence_thickness,
-        SR_gltf_pbr_iridescence_ior), f90, 0.04761905) * difference + vec3(1.0);
     vec3 reflection_film_product = reflection_film_scale
         * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
     float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
-    vec3 reflection_scale = difference * mix(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905) + vec3(1.0);
     vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
-    vec3 product = mix(n, f90, albedo.y) * albedo.x;
-    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
-    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
-        SR_gltf_pbr_iridescence) * substrate_weight;
-    vec3 diffuse_product = SR_gltf_pbr_base_color
-        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // coating
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd_positionWorld;
@@ -362,20 +388,25 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
-        vec3 H = normalize(V + L);
-        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        color += light * (cos_l / 3.1415927 * diffuse_product);
+        // coating
+        float v_dot_l = dot(V, L);
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0)
             color += light * (SR_gltf_pbr_clearcoat * coating_scale
-                * (mx_ggx_light(coating_lobe, L, H) * mx_fresnel_dielectric(cosine, 1.5)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
         // fuzz
-        float cos_l = max(dot(L, Nf), 1e-8);
         if (sheen_weight > 0.0) {
-            float cos_h = dot(H, Nf);
-            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
+            float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
+            float fuzz_product_2 = cos_l
+                * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
+                / 6.2831855);
             color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
         }
         // metal_film
-        float ggx_light = mx_ggx_light(lobe, L, H);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
             color += light * (metal_film_product
                 * (ggx_light * mx_fresnel(cosine, limited_base_color, vec3(1.0), SR_gltf_pbr_iridescence_thickness,
@@ -392,51 +423,48 @@ void main()
         // reflection
         if (reflection_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
-        // diffuse
-        color += light * (cos_l / 3.1415927 * diffuse_product);
     }
     // environment
+    // diffuse
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    color += u_envLightIntensity * (diffuse_product * part);
     // coating
     if (SR_gltf_pbr_clearcoat > 0.0)
-        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, 0.0, 1.5);
+        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, V, 0.0, 1.5);
     // fuzz
-    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(Nf), 0.0).xyz * u_envLightIntensity;
     if (sheen_weight > 0.0)
-        color += environment_irradiance * (SR_gltf_pbr_sheen_color / sheen_weight
-            * (sheen_albedo * (sheen_weight * coating_difference)));
+        color += fuzz_product * part * (sheen_albedo * u_envLightIntensity);
     // metal_film
     bool has_iridescence_thickness = SR_gltf_pbr_iridescence_thickness > 0.0;
     float filmed = has_iridescence_thickness ? 1.0 : 0.0;
     float limit = has_iridescence_thickness ? 0.0 : 1.0;
     if (metal_film_weight > 0.0) {
-        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, limited_base_color, vec3(1.0),
+        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, limited_base_color, vec3(1.0),
             SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior);
         color += metal_film_product * (has_iridescence_thickness ? metal_film_ggx_gather_film
-            : mx_ggx_gather_schlick(lobe, limit, limited_base_color, vec3(1.0)));
+            : mx_ggx_gather_schlick(lobe, V, limit, limited_base_color, vec3(1.0)));
     }
     // metal_bare
     if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, limited_base_color, vec3(1.0));
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, limited_base_color, vec3(1.0));
     // reflection_film
     if (reflection_film_visible) {
-        vec3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, f90,
+        vec3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, f90,
             SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior);
         color += reflection_film_product
             * (has_iridescence_thickness ? reflection_film_ggx_gather_film
-            : mx_ggx_gather_schlick(lobe, limit, n, f90));
+            : mx_ggx_gather_schlick(lobe, V, limit, n, f90));
     }
     // reflection
     if (reflection_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, 1.0, n, f90);
+        color += reflection_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, f90);
     // refraction
     if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
-        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
+        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
         vec3 dielectric_bsdf_transmission = limited_base_color * (u_refractionTwoSided ? limited_base_color : vec3(1.0))
             * ggx_refraction;
         color += dielectric_bsdf_transmission * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
     }
-    // diffuse
-    color += diffuse_product * environment_irradiance;
     // opacity
     float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
     float opacity = 1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3 > SR_gltf_pbr_alpha_mode

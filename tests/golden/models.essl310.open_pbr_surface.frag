@@ -5,12 +5,18 @@ precision highp int;
 precision highp sampler2D;
 
 struct mx_GgxLobe {
-    mat3 frame;
+    vec3 N;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    mat3 to_map;
     vec3 stretch;
     float area;
     vec3 v;
     float masking;
-    vec3 cap;
+    vec3 top;
     float step;
     float weight;
     float level;
@@ -82,34 +88,6 @@ layout(location = 1) in vec3 vd_normalWorld;
 layout(location = 2) in vec3 vd_tangentWorld;
 layout(location = 0) out vec4 out1;
 
-// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
-vec2 mx_sheen_transform(const float c, const float r)
-{
-    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c) * (r - 1.0)
-        * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
-}
-
-// Into the tangent space around N with x along the unit tangent `x`, and out of it.
-vec3 mx_enter_frame(const vec3 w, const vec3 N, const vec3 x)
-{
-    return vec3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
-}
-
-// Unit tangent along X.
-vec3 mx_tangent(const vec3 N, const vec3 X)
-{
-    return normalize(X - dot(X, N) * N);
-}
-
-float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, const float r)
-{
-    vec2 m = mx_sheen_transform(c, r);
-    vec3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
-    vec3 w = vec3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
-    float scale = m.x / dot(w, w);
-    return max(w.z, 0.0) / 3.1415927 * scale * scale;
-}
-
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(const float cosine, const float ior)
 {
@@ -142,52 +120,135 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec2 alpha, const vec3 v)
+// A channel after interference, the mean of both polarisations.
+float mx_film_channel(const vec2 a, const vec2 re, const vec2 im, const vec2 terms)
 {
-    float area = alpha.x * alpha.y;
-    float masking = sqrt(mix(v.z * v.z, 1.0, area));
-    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = step_ * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(alpha, 1.0), area, v, masking, normalize(v * vec3(alpha, 1.0)), step_, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    vec2 r23 = re * re + im * im;
+    vec2 t = vec2(1.0) - a * a;
+    vec2 even = t * t * r23 / (vec2(1.0) - a * a * r23);
+    vec2 both = a * a + even + 2.0 * (even - t) * terms;
+    return 0.5 * (both.x + both.y);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
+vec2 mx_film_terms(const vec2 a, const vec2 re, const vec2 im, const float d, const vec3 gauss)
 {
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    vec2 x = re * c - im * s;
+    vec2 y = re * s + im * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+}
+
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
+{
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
+}
+
+// Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
+void mx_film_base(const float cosine, const float n, const float k, out vec2 re, out vec2 im)
+{
+    vec2 u = mx_fresnel_refract(cosine, n, k);
+    vec2 x = cosine * vec2(1.0, n * n - k * k);
+    vec2 y = vec2(0.0, 2.0 * cosine * n * k);
+    vec2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
+    re = (x * x + y * y - dot(u, u)) / norm;
+    im = 2.0 * (y * u.x - x * u.y) / norm;
+}
+
+// Amplitudes of the film's own interface.
+vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+{
+    vec2 x = vec2(cosine, ior * cosine);
+    vec2 u = vec2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on the index n + ik.
+vec3 mx_film_index(const float cosine, const vec3 n, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    vec2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    vec2 re;
+    vec2 im;
+    mx_film_base(c, n.x / ior, 0.0 / ior, re, im);
+    float x = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, im, d, vec3(2.2399, 0.153868, -0.0045282)));
+    mx_film_base(c, n.y / ior, 0.0 / ior, re, im);
+    float y = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(1.7953, 1.000222, -0.0093046)));
+    mx_film_base(c, n.z / ior, 0.0 / ior, re, im);
+    float z = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(2.2084, 1.001122, -0.0066121)));
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * vec3(x, y, z), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, film, film_ior);
+    return vec3(mx_fresnel_dielectric(cosine, n.x));
+}
+
+// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+vec2 mx_sheen_transform(const float c, const float r)
+{
+    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c) * (r - 1.0)
+        * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+}
+
+// Into the tangent space around N with x along the unit tangent `x`, and out of it.
+vec3 mx_enter_frame(const vec3 w, const vec3 N, const vec3 x)
+{
+    return vec3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
+}
+
+// Unit tangent along X.
+vec3 mx_tangent(const vec3 N, const vec3 X)
+{
+    return normalize(X - dot(X, N) * N);
+}
+
+float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, const float r)
+{
+    vec2 m = mx_sheen_transform(c, r);
+    vec3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
+    vec3 w = vec3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
+    float scale = m.x / dot(w, w);
+    return max(w.z, 0.0) / 3.1415927 * scale * scale;
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(mix(cosine * cosine, 1.0, area));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, clamp(roughness, vec2(1e-8), vec2(1.0)), max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(const vec3 e, const float area)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
-{
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
@@ -195,37 +256,6 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
     float x = 1.0 - cosine;
     float x3 = x * x * x;
     return mix(f0, vec3(1.0), x3 * x * x) - bend * (cosine * x3 * x3);
-}
-
-// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
-// transform of the CIE sensitivities, a sum of Gaussians.
-vec3 mx_film_response(const float d, const vec3 re, const vec3 im)
-{
-    vec4 a = vec4(1.681, 1.7953, 2.2084, 2.2399) * d;
-    vec4 xyzx = vec4(0.84659, 1.000222, 1.001122, 0.153868)
-        * exp(vec4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
-        * (vec4(re, re.x) * cos(a) - vec4(im, im.x) * sin(a));
-    return xyzx.xyz + vec3(xyzx.w, 0.0, 0.0);
-}
-
-// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
-// and re + i im of the one below; two terms of the series (section 3.3).
-vec3 mx_film_series(const float a, const vec3 re, const vec3 im, const float d)
-{
-    vec3 r23 = re * re + im * im;
-    float r12 = a * a;
-    float t = 1.0 - r12;
-    vec3 constant = t * t * r23 / (vec3(1.0) - r12 * r23);
-    vec3 terms = r12 * mx_film_response(2.0 * d, re * re - im * im, 2.0 * re * im) - a * mx_film_response(d, re, im);
-    return r12 + constant + 2.0 * (constant - t) * terms;
-}
-
-// Amplitudes of the film's own interface: perpendicular, parallel.
-vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
-{
-    vec2 x = vec2(cosine, ior * cosine);
-    vec2 u = vec2(ior * inside, inside);
-    return (x - u) / (x + u);
 }
 
 // A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
@@ -237,9 +267,15 @@ vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 bend, const f
     float d = 0.012566372 * ior * c * film;
     vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), vec3(0.0)));
+    vec2 re = vec2(-r.x, r.x);
+    float x = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, vec2(0.0), d, vec3(2.2399, 0.153868, -0.0045282)));
+    re = vec2(-r.y, r.y);
+    float y = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.7953, 1.000222, -0.0093046)));
+    re = vec2(-r.z, r.z);
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * (mx_film_series(a.x, -r, vec3(0.0), d) + mx_film_series(a.y, r, vec3(0.0), d))), vec3(0.0),
-        vec3(1.0));
+        1.0093968) * vec3(x, y, mx_film_channel(a, re, vec2(0.0),
+        mx_film_terms(a, re, vec2(0.0), d, vec3(2.2084, 1.001122, -0.0066121)))), vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
@@ -249,57 +285,21 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film
     return mx_fresnel_schlick(cosine, n, k);
 }
 
-// The same with the amplitude (x + iy - u - iv) / (x + iy + u + iv).
-vec3 mx_film_polarized(const float a, const vec3 x, const vec3 y, const vec3 u, const vec3 v, const float d)
-{
-    vec3 norm = (x + u) * (x + u) + (y + v) * (y + v);
-    return mx_film_series(a, (x * x + y * y - u * u - v * v) / norm, 2.0 * (y * u - x * v) / norm, d);
-}
-
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-void mx_fresnel_refract(const float cosine, const vec3 n, const vec3 k, out vec3 u, out vec3 v)
-{
-    vec3 t = n * n - k * k + (cosine * cosine - 1.0);
-    vec3 norm = sqrt(t * t + 4.0 * n * n * k * k);
-    u = sqrt(max(0.5 * (norm + t), vec3(0.0)));
-    v = sqrt(max(0.5 * (norm - t), vec3(0.0)));
-}
-
-// A film on the index n + ik.
-vec3 mx_film_index(const float cosine, const vec3 n, const float film, const float film_ior)
-{
-    float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    vec2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    vec3 m = n / ior;
-    vec3 l = vec3(0.0) / ior;
-    vec3 u;
-    vec3 v;
-    mx_fresnel_refract(c, m, l, u, v);
-    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * (mx_film_polarized(a.x, vec3(c), vec3(0.0), u, v, d)
-        + mx_film_polarized(a.y, c * (m * m - l * l), 2.0 * c * m * l, u, v, d))), vec3(0.0), vec3(1.0));
-}
-
-vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)
-{
-    if (film > 0.0)
-        return mx_film_index(cosine, n, film, film_ior);
-    return vec3(mx_fresnel_dielectric(cosine, n.x));
-}
-
 vec3 mx_subsurface_light(const vec3 falloff, const float cos_l)
 {
-    float theta = acos(cos_l);
+    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
     vec3 light = vec3(0.0);
     vec3 sum = vec3(0.0);
-    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
-        float d = abs(sin(0.5 * x));
+    vec2 middle = vec2(0.9987955, 0.04906767);
+    while (middle.x > 0.0) {
+        float d = middle.y;
         vec3 e = exp(falloff * d);
         vec3 profile = (e + e * e * e) / d;
-        light += profile * max(cos(theta + x), 0.0);
-        sum += profile;
+        float along = cos_l * (1.0 - 2.0 * d * d);
+        float across = sin_l * (2.0 * d * middle.x);
+        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
+        sum += 2.0 * profile;
+        middle = mat2(0.9951847, 0.09801714, -0.09801714, 0.9951847) * middle;
     }
     return light / (3.1415927 * sum);
 }
@@ -313,18 +313,25 @@ float mx_fujii_albedo(const float cosine, const float r)
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
-// 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 L, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -334,86 +341,116 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h.
-vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level, const float refract_ior)
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    vec3 l = reflect(-lobe.v, h);
-    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
+// over that of the first.
+vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread,
+    const float refract_ior)
+{
+    float cosine = dot(s.v, h);
+    vec3 l = 2.0 * shrink * cosine * h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
     if (refract_ior > 0.0) {
-        l = mx_refract_sphere(lobe.v, h, refract_ior);
-        weight = 0.5 / lobe.v.z;
+        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
+        weight = 0.5 / s.v.z;
     }
-    return vec4(weight * mx_filtered_light(lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
+        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi, const float refract_ior)
+vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
 {
-    vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
-    vec3 h = cap * lobe.stretch;
-    float s = dot(cap, cap) / dot(h, h);
-    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+}
+
+mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+{
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    float area = lobe.alpha.x * lobe.alpha.y;
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float limit, const float refract_ior, const float ior)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float limit, const float refract_ior,
+    const float ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const float limit, const vec3 n, const vec3 k, const float film,
-    const float film_ior)
+vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const vec3 k,
+    const float film, const float film_ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_schlick(light.w, n, k, film, film_ior) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const float limit, const vec3 f0, const vec3 bend)
+vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 f0, const vec3 bend)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_schlick(light.w, f0, bend) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // A film on an index of refraction, reflection alone: what most films are.
-vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const float limit, const vec3 n, const float film,
+vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const float film,
     const float film_ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_index(light.w, n, film, film_ior) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // Albedo of what the lobe scatters more than once, relative to `color`.
@@ -430,20 +467,44 @@ void main()
     vec3 N = normalize(vd_normalWorld);
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     float absolute = abs(dot(N, V));
-    vec3 color = SR_open_pbr_surface_emission_luminance * SR_open_pbr_surface_emission_color
+    vec3 color = SR_open_pbr_surface_emission_luminance
+        * (SR_open_pbr_surface_emission_color
         * (1.0 - coat_weight + SR_open_pbr_surface_coat_color
-        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0)))));
+        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
-    vec3 Nf = faceforward(N, -V, N);
+    vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
+    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
+    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
+    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
+    float ior_relative = mix(SR_open_pbr_surface_specular_ior,
+        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
+    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
+        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
+    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
+    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
+    vec2 roughness = mx_open_pbr_anisotropy(mix(SR_open_pbr_surface_specular_roughness,
+        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
+        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
+    vec2 alpha = clamp(roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(absolute, 1e-8);
-    float limited_cos_v = min(cos_v, 1.0);
+    vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float product = mix(fresnel_bare, 1.0, albedo.y) * albedo.x;
+    float difference = 1.0 / albedo.x - 1.0;
+    float reflection_scale = difference * mix(fresnel_bare, 1.0, 0.04761905) + 1.0;
+    vec3 reflection_throughput = vec3(1.0 - product * reflection_scale);
+    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
+    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
+    vec3 reflection_film_scale = mix(mx_fresnel(1.0, vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
+        * difference + vec3(1.0);
     float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
     float x = (cos_v - r * (r * (r * (1.7932 - r * (r * 0.95943)) - 1.14885) - 0.193854) / (r + 0.046391)) / width;
     float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
     float fuzz_product = r * (r * (r * 0.119681 - 0.0207818) + 0.000654023);
-    float sheen_albedo = max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
-    vec3 fuzz_product_2 = SR_open_pbr_surface_fuzz_color * (SR_open_pbr_surface_fuzz_weight * sheen_albedo);
+    float fuzz_product_2 = SR_open_pbr_surface_fuzz_weight
+        * max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
     float coating_fresnel_bare = mx_fresnel_dielectric(1.0, coat_ior);
     vec2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
         SR_open_pbr_surface_coat_roughness_anisotropy);
@@ -451,25 +512,7 @@ void main()
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     float coating_scale = mix(coating_fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float fuzz_difference = 1.0 - SR_open_pbr_surface_fuzz_weight * sheen_albedo;
-    float coating_product = coating_scale * (coat_weight * fuzz_difference);
-    vec3 X = normalize(vd_tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
-    float metal_film_weight = SR_open_pbr_surface_specular_weight
-        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
-    vec2 roughness = mx_open_pbr_anisotropy(mix(SR_open_pbr_surface_specular_roughness,
-        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
-        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
-    vec2 alpha = clamp(roughness, 1e-8, 1.0);
-    float a = sqrt(alpha.x * alpha.y);
-    vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
-    float difference = 1.0 / albedo.x - 1.0;
-    vec3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
-    vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
-    vec3 schlick_bend = mix(n, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
-    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
-    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
-    float coated_weight = fuzz_difference
+    float coated_weight = (1.0 - fuzz_product_2)
         * (1.0 - coat_weight * (mix(coating_fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
     vec3 substrate_darkened_weight = coated_weight
         * clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0);
@@ -480,6 +523,30 @@ void main()
         SR_open_pbr_surface_base_metalness) * (1.0 - coat_escape));
     vec3 substrate_weight = substrate_darkened_weight
         * clamp(mix(vec3(1.0), darkening, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
+    vec3 body_weight = mix(reflection_throughput, vec3(1.0) - product * reflection_film_scale,
+        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
+    vec3 sheet_front_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0,
+        1.0)));
+    vec3 Nf = faceforward(N, -V, N);
+    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
+    vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
+        / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
+    vec3 sheet_back_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
+        1.0)));
+    float limited_cos_v = min(cos_v, 1.0);
+    vec3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
+    float coating_product = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
+    vec3 X = normalize(vd_tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
+    float metal_film_weight = SR_open_pbr_surface_specular_weight
+        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
+    vec3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
+    vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
+    vec3 schlick_bend = mix(n, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
     vec3 metal_film_product = (difference
         * mix(mx_fresnel(1.0, n, schlick_bend, film_thickness, thin_film_ior), vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_film_weight);
@@ -488,57 +555,29 @@ void main()
         * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
     vec3 metal_bare_product = (difference * mix(mx_fresnel_schlick(1.0, n, schlick_bend), vec3(1.0), 0.04761905)
         + vec3(1.0)) * (substrate_weight * metal_bare_weight);
-    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
     bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
-    float ior_relative = mix(SR_open_pbr_surface_specular_ior,
-        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
-    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
-        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
-    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
-    vec3 reflection_film_scale = mix(mx_fresnel(1.0, vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
-        * difference + vec3(1.0);
     vec3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
     float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
-    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
-    float reflection_scale = difference * mix(fresnel_bare, 1.0, 0.04761905) + 1.0;
     vec3 reflection_product = limited_specular_color * (substrate_weight * reflection_weight);
-    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
-    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
     float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd_positionWorld)), 0.01) * 3.0;
     vec3 subsurface_falloff = vec3(-2.0)
         / (scaled_curvature * max(SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale,
         0.1));
-    vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
-    float product = mix(fresnel_bare, 1.0, albedo.y) * albedo.x;
-    vec3 reflection_throughput = vec3(1.0 - product * reflection_scale);
-    vec3 body_weight = mix(reflection_throughput, vec3(1.0) - product * reflection_film_scale,
-        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
     vec3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
     float diffuse_weight = SR_open_pbr_surface_base_weight
         * (opaque_weight * (1.0 - SR_open_pbr_surface_subsurface_weight));
     vec3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
     vec3 diffuse_product = base_positive * (body_weight * diffuse_weight);
-    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
     float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
     float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
     vec3 fujii_multiple = base_positive * mean / (vec3(1.0) - base_positive * max(1.0 - mean, 0.0));
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
     float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
     float diffuse_greater_2 = max(1.0 - mean, 1e-8);
-    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
-    vec3 sheet_front_weight = scaled_sheet_weight
-        * (body_weight * clamp(SR_open_pbr_surface_subsurface_color
-        * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0, 1.0));
-    vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
-        / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
-    vec3 sheet_back_product = subsurface_positive
-        * (scaled_sheet_weight * (body_weight
-        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
-        1.0)));
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // fuzz
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // sheet_front, sheet_back
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd_positionWorld;
@@ -552,16 +591,23 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        float v_dot_l = dot(V, L);
+        float s = v_dot_l - cos_v * cos_l;
+        float greater = max(cos_l, cos_v);
+        vec3 sheet_front_response = sheet_front_product * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
+        // fuzz
         if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_2);
+            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
         // coating
-        vec3 H = normalize(V + L);
-        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat_weight > 0.0)
             color += light * (coating_product
-                * (mx_ggx_light(coating_lobe, L, H) * mx_fresnel_dielectric(cosine, coat_ior)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
         // metal_film
-        float ggx_light = mx_ggx_light(lobe, L, H);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
             color += light * (metal_film_product
                 * (ggx_light * mx_fresnel(cosine, n, schlick_bend, film_thickness, thin_film_ior)));
@@ -576,13 +622,9 @@ void main()
         if (reflection_weight > 0.0)
             color += light * (reflection_scale * reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
         // scatter
-        float l_dot_nf = dot(L, Nf);
         if (scatter_weight > 0.0)
             color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
         // diffuse
-        float cos_l = max(l_dot_nf, 1e-8);
-        float s = dot(V, L) - cos_v * cos_l;
-        float greater = max(cos_l, cos_v);
         if (diffuse_weight > 0.0) {
             float diffuse_s = s / greater;
             vec3 diffuse_product_2 = fujii_multiple
@@ -592,41 +634,45 @@ void main()
                 * (cos_l / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
                 + diffuse_product_2)));
         }
-        // sheet_front, sheet_back
-        vec3 sheet_front_response = subsurface_positive * sheet_front_weight
-            * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
     }
     // environment
+    // fuzz, sheet_front, scatter
+    float envLightIntensity = u_envLightIntensity;
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
+        * vec2(1.4385, 2.0315)) + vec2(1.0);
+    vec3 sheet_front_response_2 = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    vec3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response_2;
+    color += envLightIntensity * (scatter_product * part) + sum;
     // coating
     if (coat_weight > 0.0)
-        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, 1.0, 0.0, coat_ior);
+        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, V, 1.0, 0.0, coat_ior);
     // metal_film
     float filmed = film_thickness > 0.0 ? 1.0 : 0.0;
     float limit = film_thickness > 0.0 ? 0.0 : 1.0;
     if (metal_film_weight > 0.0) {
-        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, schlick_bend, film_thickness,
+        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, schlick_bend, film_thickness,
             thin_film_ior);
-        vec3 metal_film_bare = mx_ggx_gather_schlick(lobe, limit, n, schlick_bend);
+        vec3 metal_film_bare = mx_ggx_gather_schlick(lobe, V, limit, n, schlick_bend);
         color += metal_film_product * (film_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
     }
     // metal_bare
     if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, n, schlick_bend);
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, schlick_bend);
     // reflection_film
     if (reflection_film_visible) {
-        vec3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, vec3(ior), film_thickness,
-            thin_film_ior);
-        vec3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, limit, 0.0, ior);
+        vec3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, vec3(ior),
+            film_thickness, thin_film_ior);
+        vec3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, V, limit, 0.0, ior);
         color += reflection_film_product
             * (film_thickness > 0.0 ? reflection_film_ggx_gather_film_index : reflection_film_bare);
     }
     // reflection
     if (reflection_weight > 0.0)
-        color += reflection_product * (reflection_scale * mx_ggx_gather_dielectric(lobe, 1.0, 0.0, ior));
+        color += reflection_scale * (reflection_product * mx_ggx_gather_dielectric(lobe, V, 1.0, 0.0, ior));
     // refraction
     if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
-        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, 1.0, ior, ior);
+        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, 1.0, ior, ior);
         vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);
         vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
@@ -638,20 +684,12 @@ void main()
     }
     // sheet_back
     if (scaled_sheet_weight > 0.0)
-        color += sheet_back_product * (u_envLightIntensity * textureLod(u_envIrradiance, mx_latlong(-Nf), 0.0).xyz);
+        color += envLightIntensity * (sheet_back_product
+            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(-Nf, 0.0)).xyz)), 0.0).xyz);
     // diffuse
-    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(Nf), 0.0).xyz * u_envLightIntensity;
     if (diffuse_weight > 0.0)
-        color += mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
-            * (diffuse_product * environment_irradiance);
-    // fuzz, sheet_front, scatter
-    vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
-        * vec2(1.4385, 2.0315)) + vec2(1.0);
-    vec3 sheet_front_response_2 = subsurface_positive * clamp(fit.x / fit.y, 0.0, 1.0)
-        * (sheet_front_weight * environment_irradiance);
-    color += scatter_product * environment_irradiance
-        + (SR_open_pbr_surface_fuzz_weight * (SR_open_pbr_surface_fuzz_color * sheen_albedo * environment_irradiance)
-        + sheet_front_response_2);
+        color += envLightIntensity * (mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
+            * (diffuse_product * part));
     // opacity
     if (SR_open_pbr_surface_geometry_opacity < u_alphaThreshold)
         discard;

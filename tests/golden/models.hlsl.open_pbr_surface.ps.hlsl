@@ -2,12 +2,18 @@
 // shader model 6.0
 
 struct mx_GgxLobe {
-    float3x3 frame;
+    float3 N;
+    float3 x;
+    float2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    float3x3 to_map;
     float3 stretch;
     float area;
     float3 v;
     float masking;
-    float3 cap;
+    float3 top;
     float step;
     float weight;
     float level;
@@ -88,48 +94,30 @@ struct VertexData {
     float3 tangentWorld : TEXCOORD2;
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3x3 frame, float3 stretch, float area, float3 v, float masking, float3 cap, float step,
-    float weight, float level)
+mx_GgxLobe make_mx_GgxLobe(float3 N, float3 x, float2 alpha, float masking)
 {
     mx_GgxLobe made;
-    made.frame = frame;
+    made.N = N;
+    made.x = x;
+    made.alpha = alpha;
+    made.masking = masking;
+    return made;
+}
+
+mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 top,
+    float step, float weight, float level)
+{
+    mx_GgxSamples made;
+    made.to_map = to_map;
     made.stretch = stretch;
     made.area = area;
     made.v = v;
     made.masking = masking;
-    made.cap = cap;
+    made.top = top;
     made.step = step;
     made.weight = weight;
     made.level = level;
     return made;
-}
-
-// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
-float2 mx_sheen_transform(float c, float r)
-{
-    return float2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c)
-        * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
-}
-
-// Into the tangent space around N with x along the unit tangent `x`, and out of it.
-float3 mx_enter_frame(float3 w, float3 N, float3 x)
-{
-    return float3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
-}
-
-// Unit tangent along X.
-float3 mx_tangent(float3 N, float3 X)
-{
-    return normalize(X - dot(X, N) * N);
-}
-
-float mx_sheen_zeltner(float3 N, float3 V, float3 L, float c, float r)
-{
-    float2 m = mx_sheen_transform(c, r);
-    float3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
-    float3 w = float3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
-    float scale = m.x / dot(w, w);
-    return max(w.z, 0.0) / 3.1415927 * scale * scale;
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -165,52 +153,136 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
         * x);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(float3x3 frame, float2 alpha, float3 v)
+// A channel after interference, the mean of both polarisations.
+float mx_film_channel(float2 a, float2 re, float2 im, float2 terms)
 {
-    float area = alpha.x * alpha.y;
-    float masking = sqrt(lerp(v.z * v.z, 1.0, area));
-    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = step_ * (v.z + masking);
-    return make_mx_GgxLobe(frame, float3(alpha, 1.0), area, v, masking, normalize(v * float3(alpha, 1.0)), step_, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    float2 r23 = re * re + im * im;
+    float2 t = 1.0 - a * a;
+    float2 even = t * t * r23 / (1.0 - a * a * r23);
+    float2 both = a * a + even + 2.0 * (even - t) * terms;
+    return 0.5 * (both.x + both.y);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-float3x3 mx_frame(float3 N, float3 X)
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
+float2 mx_film_terms(float2 a, float2 re, float2 im, float d, float3 gauss)
 {
-    float3x3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    float2 x = re * c - im * s;
+    float2 y = re * s + im * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+}
+
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+float2 mx_fresnel_refract(float cosine, float n, float k)
+{
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
+}
+
+// Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
+void mx_film_base(float cosine, float n, float k, out float2 re, out float2 im)
+{
+    float2 u = mx_fresnel_refract(cosine, n, k);
+    float2 x = cosine * float2(1.0, n * n - k * k);
+    float2 y = float2(0.0, 2.0 * cosine * n * k);
+    float2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
+    re = (x * x + y * y - dot(u, u)) / norm;
+    im = 2.0 * (y * u.x - x * u.y) / norm;
+}
+
+// Amplitudes of the film's own interface.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on the index n + ik.
+float3 mx_film_index(float cosine, float3 n, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float2 re;
+    float2 im;
+    mx_film_base(c, n.x / ior, 0.0 / ior, re, im);
+    float x = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, im, d, float3(2.2399, 0.153868, -0.0045282)));
+    mx_film_base(c, n.y / ior, 0.0 / ior, re, im);
+    float y = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(1.7953, 1.000222, -0.0093046)));
+    mx_film_base(c, n.z / ior, 0.0 / ior, re, im);
+    float z = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(2.2084, 1.001122, -0.0066121)));
+    return clamp(mul(float3(x, y, z), float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949,
+        -0.4706338, 0.0885814, 1.0093968)), 0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, film, film_ior);
+    return (float3)mx_fresnel_dielectric(cosine, n.x);
+}
+
+// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+float2 mx_sheen_transform(float c, float r)
+{
+    return float2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c)
+        * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+}
+
+// Into the tangent space around N with x along the unit tangent `x`, and out of it.
+float3 mx_enter_frame(float3 w, float3 N, float3 x)
+{
+    return float3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
+}
+
+// Unit tangent along X.
+float3 mx_tangent(float3 N, float3 X)
+{
+    return normalize(X - dot(X, N) * N);
+}
+
+float mx_sheen_zeltner(float3 N, float3 V, float3 L, float c, float r)
+{
+    float2 m = mx_sheen_transform(c, r);
+    float3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
+    float3 w = float3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
+    float scale = m.x / dot(w, w);
+    return max(w.z, 0.0) / 3.1415927 * scale * scale;
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(float cosine, float area)
+{
+    return sqrt(lerp(cosine * cosine, 1.0, area));
 }
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
-    float3x3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, clamp(roughness, 1e-8, 1.0), max(mul(frame, V), float3(-1.0, -1.0, 1e-8)));
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    return make_mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(float3 e, float area)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(mx_GgxLobe lobe, float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(lerp(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(mx_GgxLobe lobe, float3 L, float3 H)
-{
-    return 0.5 * mx_ggx_distribution(mul(lobe.frame, H) / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    float3 H = V + L;
+    float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (max(dot(lobe.N, V), 1e-8) * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
@@ -218,37 +290,6 @@ float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
     float x = 1.0 - cosine;
     float x3 = x * x * x;
     return lerp(f0, float3(1.0, 1.0, 1.0), x3 * x * x) - bend * (cosine * x3 * x3);
-}
-
-// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
-// transform of the CIE sensitivities, a sum of Gaussians.
-float3 mx_film_response(float d, float3 re, float3 im)
-{
-    float4 a = float4(1.681, 1.7953, 2.2084, 2.2399) * d;
-    float4 xyzx = float4(0.84659, 1.000222, 1.001122, 0.153868)
-        * exp(float4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
-        * (float4(re, re.x) * cos(a) - float4(im, im.x) * sin(a));
-    return xyzx.xyz + float3(xyzx.w, 0.0, 0.0);
-}
-
-// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
-// and re + i im of the one below; two terms of the series (section 3.3).
-float3 mx_film_series(float a, float3 re, float3 im, float d)
-{
-    float3 r23 = re * re + im * im;
-    float r12 = a * a;
-    float t = 1.0 - r12;
-    float3 constant = t * t * r23 / (1.0 - r12 * r23);
-    float3 terms = r12 * mx_film_response(2.0 * d, re * re - im * im, 2.0 * re * im) - a * mx_film_response(d, re, im);
-    return r12 + constant + 2.0 * (constant - t) * terms;
-}
-
-// Amplitudes of the film's own interface: perpendicular, parallel.
-float2 mx_film_amplitudes(float cosine, float inside, float ior)
-{
-    float2 x = float2(cosine, ior * cosine);
-    float2 u = float2(ior * inside, inside);
-    return (x - u) / (x + u);
 }
 
 // A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
@@ -260,8 +301,16 @@ float3 mx_film_schlick(float cosine, float3 f0, float3 bend, float film, float f
     float d = 0.012566372 * ior * c * film;
     float3 r = (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), 0.0));
-    return clamp(mul(0.5 * (mx_film_series(a.x, -r, float3(0.0, 0.0, 0.0), d)
-        + mx_film_series(a.y, r, float3(0.0, 0.0, 0.0), d)),
+    float2 re = float2(-r.x, r.x);
+    float x = mx_film_channel(a, re, float2(0.0, 0.0),
+        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, float2(0.0, 0.0), d, float3(2.2399, 0.153868, -0.0045282)));
+    re = float2(-r.y, r.y);
+    float y = mx_film_channel(a, re, float2(0.0, 0.0),
+        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(1.7953, 1.000222, -0.0093046)));
+    re = float2(-r.z, r.z);
+    return clamp(mul(float3(x, y, mx_film_channel(a, re, float2(0.0, 0.0),
+        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(2.2084, 1.001122, -0.0066121)))),
         float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
         0.0, 1.0);
 }
@@ -273,58 +322,21 @@ float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
     return mx_fresnel_schlick(cosine, n, k);
 }
 
-// The same with the amplitude (x + iy - u - iv) / (x + iy + u + iv).
-float3 mx_film_polarized(float a, float3 x, float3 y, float3 u, float3 v, float d)
-{
-    float3 norm = (x + u) * (x + u) + (y + v) * (y + v);
-    return mx_film_series(a, (x * x + y * y - u * u - v * v) / norm, 2.0 * (y * u - x * v) / norm, d);
-}
-
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-void mx_fresnel_refract(float cosine, float3 n, float3 k, out float3 u, out float3 v)
-{
-    float3 t = n * n - k * k + (cosine * cosine - 1.0);
-    float3 norm = sqrt(t * t + 4.0 * n * n * k * k);
-    u = sqrt(max(0.5 * (norm + t), 0.0));
-    v = sqrt(max(0.5 * (norm - t), 0.0));
-}
-
-// A film on the index n + ik.
-float3 mx_film_index(float cosine, float3 n, float film, float film_ior)
-{
-    float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    float2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    float3 m = n / ior;
-    float3 l = float3(0.0, 0.0, 0.0) / ior;
-    float3 u;
-    float3 v;
-    mx_fresnel_refract(c, m, l, u, v);
-    return clamp(mul(0.5 * (mx_film_polarized(a.x, (float3)c, float3(0.0, 0.0, 0.0), u, v, d)
-        + mx_film_polarized(a.y, c * (m * m - l * l), 2.0 * c * m * l, u, v, d)),
-        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
-        0.0, 1.0);
-}
-
-float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
-{
-    if (film > 0.0)
-        return mx_film_index(cosine, n, film, film_ior);
-    return (float3)mx_fresnel_dielectric(cosine, n.x);
-}
-
 float3 mx_subsurface_light(float3 falloff, float cos_l)
 {
-    float theta = acos(cos_l);
+    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
     float3 light = float3(0.0, 0.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
-        float d = abs(sin(0.5 * x));
+    float2 middle = float2(0.9987955, 0.04906767);
+    while (middle.x > 0.0) {
+        float d = middle.y;
         float3 e = exp(falloff * d);
         float3 profile = (e + e * e * e) / d;
-        light += profile * max(cos(theta + x), 0.0);
-        sum += profile;
+        float along = cos_l * (1.0 - 2.0 * d * d);
+        float across = sin_l * (2.0 * d * middle.x);
+        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
+        sum += 2.0 * profile;
+        middle = mul(middle, float2x2(0.9951847, 0.09801714, -0.09801714, 0.9951847));
     }
     return light / (3.1415927 * sum);
 }
@@ -338,19 +350,26 @@ float mx_fujii_albedo(float cosine, float r)
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-float2 mx_latlong(float3 direction)
+// The point of the picture for a unit direction in it.
+float2 mx_map_point(float3 d)
 {
-    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
-    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+    float2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
-// 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 L, float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float level)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_latlong(L),
-        max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -360,84 +379,112 @@ float3 mx_refract_sphere(float3 v, float3 h, float ior)
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h.
-float4 mx_ggx_sample_at(mx_GgxLobe lobe, float3 h, float level, float refract_ior)
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
-    float3 l = reflect(-lobe.v, h);
-    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    return 1.0 / (cos_v * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
+// over that of the first.
+float4 mx_ggx_sample_at(mx_GgxSamples s, float3 h, float shrink, float spread, float refract_ior)
+{
+    float cosine = dot(s.v, h);
+    float3 l = 2.0 * shrink * cosine * h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
     if (refract_ior > 0.0) {
-        l = mx_refract_sphere(lobe.v, h, refract_ior);
-        weight = 0.5 / lobe.v.z;
+        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
+        weight = 0.5 / s.v.z;
     }
-    return float4(weight * mx_filtered_light(mul(l, lobe.frame), level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+    return float4(weight * mx_filtered_light(mul(l, s.to_map), spread * spread * s.level),
+        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top.
-float3 mx_ggx_cap(float2 around, float depth, float3 v)
+// cap is below its top, `top` = v + z.
+float3 mx_ggx_cap(float2 around, float depth, float3 top)
 {
-    return float3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-float4 mx_ggx_sample(mx_GgxLobe lobe, float2 around, float xi, float refract_ior)
+float4 mx_ggx_sample(mx_GgxSamples s, float2 around, float depth, float refract_ior)
 {
-    float3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
-    float3 h = cap * lobe.stretch;
-    float s = dot(cap, cap) / dot(h, h);
-    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+    float3 cap = mx_ggx_cap(around, depth, s.top);
+    float3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+}
+
+mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, float3 V)
+{
+    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
+        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior, float ior)
+float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float3 V, float limit, float refract_ior, float ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        float4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        float4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
         around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // Any other: on a colour, or what it lets through.
-float3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float3 n, float3 k, float film, float film_ior)
+float3 mx_ggx_gather_film(mx_GgxLobe lobe, float3 V, float limit, float3 n, float3 k, float film, float film_ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_schlick(light.w, n, k, film, film_ior) * light.xyz;
         around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
-float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float limit, float3 f0, float3 bend)
+float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float3 V, float limit, float3 f0, float3 bend)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_schlick(light.w, f0, bend) * light.xyz;
         around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // A film on an index of refraction, reflection alone: what most films are.
-float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, float3 n, float film, float film_ior)
+float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float3 V, float limit, float3 n, float film, float film_ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     float2 around = float2(1.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
-        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
+        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_index(light.w, n, film, film_ior) * light.xyz;
         around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // Albedo of what the lobe scatters more than once, relative to `color`.
@@ -456,20 +503,44 @@ void main(
     float3 N = normalize(vd.normalWorld);
     float3 V = normalize(u_viewPosition - vd.positionWorld);
     float absolute = abs(dot(N, V));
-    float3 color = SR_open_pbr_surface_emission_luminance * SR_open_pbr_surface_emission_color
+    float3 color = SR_open_pbr_surface_emission_luminance
+        * (SR_open_pbr_surface_emission_color
         * (1.0 - coat_weight + SR_open_pbr_surface_coat_color
-        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0)))));
+        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
-    float3 Nf = faceforward(N, -V, N);
+    float3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
+    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
+    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
+    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
+    float ior_relative = lerp(SR_open_pbr_surface_specular_ior,
+        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
+    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
+        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
+    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
+    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
+    float2 roughness = mx_open_pbr_anisotropy(lerp(SR_open_pbr_surface_specular_roughness,
+        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
+        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(absolute, 1e-8);
-    float limited_cos_v = min(cos_v, 1.0);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float product = lerp(fresnel_bare, 1.0, albedo.y) * albedo.x;
+    float difference = 1.0 / albedo.x - 1.0;
+    float reflection_scale = difference * lerp(fresnel_bare, 1.0, 0.04761905) + 1.0;
+    float3 reflection_throughput = (float3)(1.0 - product * reflection_scale);
+    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
+    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
+    float3 reflection_film_scale = lerp(mx_fresnel(1.0, (float3)ior, film_thickness, thin_film_ior),
+        float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
     float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
     float x = (cos_v - r * (r * (r * (1.7932 - r * (r * 0.95943)) - 1.14885) - 0.193854) / (r + 0.046391)) / width;
     float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
     float fuzz_product = r * (r * (r * 0.119681 - 0.0207818) + 0.000654023);
-    float sheen_albedo = max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
-    float3 fuzz_product_2 = SR_open_pbr_surface_fuzz_color * (SR_open_pbr_surface_fuzz_weight * sheen_albedo);
+    float fuzz_product_2 = SR_open_pbr_surface_fuzz_weight
+        * max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
     float coating_fresnel_bare = mx_fresnel_dielectric(1.0, coat_ior);
     float2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
         SR_open_pbr_surface_coat_roughness_anisotropy);
@@ -477,26 +548,7 @@ void main(
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     float coating_scale = lerp(coating_fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float fuzz_difference = 1.0 - SR_open_pbr_surface_fuzz_weight * sheen_albedo;
-    float coating_product = coating_scale * (coat_weight * fuzz_difference);
-    float3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
-    float metal_film_weight = SR_open_pbr_surface_specular_weight
-        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
-    float2 roughness = mx_open_pbr_anisotropy(lerp(SR_open_pbr_surface_specular_roughness,
-        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
-        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
-    float2 alpha = clamp(roughness, 1e-8, 1.0);
-    float a = sqrt(alpha.x * alpha.y);
-    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
-    float difference = 1.0 / albedo.x - 1.0;
-    float3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
-    float3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
-    float3 schlick_bend = lerp(n, float3(1.0, 1.0, 1.0), 0.4626644) * (float3(1.0, 1.0, 1.0) - limited_specular_color)
-        * 17.651384;
-    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
-    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
-    float coated_weight = fuzz_difference
+    float coated_weight = (1.0 - fuzz_product_2)
         * (1.0 - coat_weight * (lerp(coating_fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
     float3 substrate_darkened_weight = coated_weight
         * clamp(lerp(float3(1.0, 1.0, 1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0);
@@ -507,6 +559,31 @@ void main(
         SR_open_pbr_surface_base_metalness) * (1.0 - coat_escape));
     float3 substrate_weight = substrate_darkened_weight
         * clamp(lerp(float3(1.0, 1.0, 1.0), darkening, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
+    float3 body_weight = lerp(reflection_throughput, float3(1.0, 1.0, 1.0) - product * reflection_film_scale,
+        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
+    float3 sheet_front_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0,
+        1.0)));
+    float3 Nf = faceforward(N, -V, N);
+    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
+    float2 ab = base_diffuse_roughness * base_diffuse_roughness * float2(-0.5, 0.45)
+        / (base_diffuse_roughness * base_diffuse_roughness + float2(0.33, 0.09)) + float2(1.0, 0.0);
+    float3 sheet_back_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
+        1.0)));
+    float limited_cos_v = min(cos_v, 1.0);
+    float3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
+    float coating_product = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
+    float3 X = normalize(vd.tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
+    float metal_film_weight = SR_open_pbr_surface_specular_weight
+        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
+    float3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
+    float3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
+    float3 schlick_bend = lerp(n, float3(1.0, 1.0, 1.0), 0.4626644) * (float3(1.0, 1.0, 1.0) - limited_specular_color)
+        * 17.651384;
     float3 metal_film_product = (difference
         * lerp(mx_fresnel(1.0, n, schlick_bend, film_thickness, thin_film_ior), float3(1.0, 1.0, 1.0), 0.04761905)
         + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
@@ -516,57 +593,29 @@ void main(
     float3 metal_bare_product = (difference
         * lerp(mx_fresnel_schlick(1.0, n, schlick_bend), float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0))
         * (substrate_weight * metal_bare_weight);
-    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
     bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
-    float ior_relative = lerp(SR_open_pbr_surface_specular_ior,
-        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
-    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
-        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
-    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
-    float3 reflection_film_scale = lerp(mx_fresnel(1.0, (float3)ior, film_thickness, thin_film_ior),
-        float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
     float3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
     float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
-    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
-    float reflection_scale = difference * lerp(fresnel_bare, 1.0, 0.04761905) + 1.0;
     float3 reflection_product = limited_specular_color * (substrate_weight * reflection_weight);
-    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
-    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
     float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
     float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
         / (scaled_curvature * max(SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale,
         0.1));
-    float3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
-    float product = lerp(fresnel_bare, 1.0, albedo.y) * albedo.x;
-    float3 reflection_throughput = (float3)(1.0 - product * reflection_scale);
-    float3 body_weight = lerp(reflection_throughput, float3(1.0, 1.0, 1.0) - product * reflection_film_scale,
-        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
     float3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
     float diffuse_weight = SR_open_pbr_surface_base_weight
         * (opaque_weight * (1.0 - SR_open_pbr_surface_subsurface_weight));
     float3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
     float3 diffuse_product = base_positive * (body_weight * diffuse_weight);
-    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
     float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
     float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
     float3 fujii_multiple = base_positive * mean / (float3(1.0, 1.0, 1.0) - base_positive * max(1.0 - mean, 0.0));
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
     float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
     float diffuse_greater_2 = max(1.0 - mean, 1e-8);
-    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
-    float3 sheet_front_weight = scaled_sheet_weight
-        * (body_weight * clamp(SR_open_pbr_surface_subsurface_color
-        * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0, 1.0));
-    float2 ab = base_diffuse_roughness * base_diffuse_roughness * float2(-0.5, 0.45)
-        / (base_diffuse_roughness * base_diffuse_roughness + float2(0.33, 0.09)) + float2(1.0, 0.0);
-    float3 sheet_back_product = subsurface_positive
-        * (scaled_sheet_weight * (body_weight
-        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
-        1.0)));
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        // fuzz
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // sheet_front, sheet_back
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
         float3 d = u_lightData[i].position - vd.positionWorld;
@@ -580,16 +629,23 @@ void main(
         float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         float3 directional_light_to_light = -u_lightData[i].direction;
         float3 L = type == 1 ? directional_light_to_light : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        float v_dot_l = dot(V, L);
+        float s = v_dot_l - cos_v * cos_l;
+        float greater = max(cos_l, cos_v);
+        float3 sheet_front_response = sheet_front_product * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
+        // fuzz
         if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_2);
+            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
         // coating
-        float3 H = normalize(V + L);
-        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat_weight > 0.0)
             color += light * (coating_product
-                * (mx_ggx_light(coating_lobe, L, H) * mx_fresnel_dielectric(cosine, coat_ior)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
         // metal_film
-        float ggx_light = mx_ggx_light(lobe, L, H);
+        float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
             color += light * (metal_film_product
                 * (ggx_light * mx_fresnel(cosine, n, schlick_bend, film_thickness, thin_film_ior)));
@@ -604,13 +660,9 @@ void main(
         if (reflection_weight > 0.0)
             color += light * (reflection_scale * reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
         // scatter
-        float l_dot_nf = dot(L, Nf);
         if (scatter_weight > 0.0)
             color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
         // diffuse
-        float cos_l = max(l_dot_nf, 1e-8);
-        float s = dot(V, L) - cos_v * cos_l;
-        float greater = max(cos_l, cos_v);
         if (diffuse_weight > 0.0) {
             float diffuse_s = s / greater;
             float3 diffuse_product_2 = fujii_multiple
@@ -620,41 +672,46 @@ void main(
                 * (cos_l / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
                 + diffuse_product_2)));
         }
-        // sheet_front, sheet_back
-        float3 sheet_front_response = subsurface_positive * sheet_front_weight
-            * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
     }
     // environment
+    // fuzz, sheet_front, scatter
+    float envLightIntensity = u_envLightIntensity;
+    float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+    float2 fit = base_diffuse_roughness * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076)
+        + base_diffuse_roughness * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
+    float3 sheet_front_response_2 = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    float3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response_2;
+    color += envLightIntensity * (scatter_product * part) + sum;
     // coating
     if (coat_weight > 0.0)
-        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, 1.0, 0.0, coat_ior);
+        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, V, 1.0, 0.0, coat_ior);
     // metal_film
     float filmed = film_thickness > 0.0 ? 1.0 : 0.0;
     float limit = film_thickness > 0.0 ? 0.0 : 1.0;
     if (metal_film_weight > 0.0) {
-        float3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, schlick_bend, film_thickness,
+        float3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, schlick_bend, film_thickness,
             thin_film_ior);
-        float3 metal_film_bare = mx_ggx_gather_schlick(lobe, limit, n, schlick_bend);
+        float3 metal_film_bare = mx_ggx_gather_schlick(lobe, V, limit, n, schlick_bend);
         color += metal_film_product * (film_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
     }
     // metal_bare
     if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, n, schlick_bend);
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, schlick_bend);
     // reflection_film
     if (reflection_film_visible) {
-        float3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, (float3)ior,
+        float3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, (float3)ior,
             film_thickness, thin_film_ior);
-        float3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, limit, 0.0, ior);
+        float3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, V, limit, 0.0, ior);
         color += reflection_film_product
             * (film_thickness > 0.0 ? reflection_film_ggx_gather_film_index : reflection_film_bare);
     }
     // reflection
     if (reflection_weight > 0.0)
-        color += reflection_product * (reflection_scale * mx_ggx_gather_dielectric(lobe, 1.0, 0.0, ior));
+        color += reflection_scale * (reflection_product * mx_ggx_gather_dielectric(lobe, V, 1.0, 0.0, ior));
     // refraction
     if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
-        float3 ggx_refraction = mx_ggx_gather_dielectric(lobe, 1.0, ior, ior);
+        float3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, 1.0, ior, ior);
         float3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? float3(1.0, 1.0, 1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);
         float3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
@@ -667,22 +724,13 @@ void main(
     }
     // sheet_back
     if (scaled_sheet_weight > 0.0)
-        color += sheet_back_product * (u_envLightIntensity
-            * u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(-Nf), 0.0).xyz);
+        color += envLightIntensity * (sheet_back_product
+            * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+            mx_map_point(normalize(mul(float4(-Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz);
     // diffuse
-    float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(Nf), 0.0).xyz
-        * u_envLightIntensity;
     if (diffuse_weight > 0.0)
-        color += lerp(mx_fujii_multiple(base_positive, mean), float3(1.0, 1.0, 1.0), diffuse_fujii_albedo)
-            * (diffuse_product * environment_irradiance);
-    // fuzz, sheet_front, scatter
-    float2 fit = base_diffuse_roughness * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076)
-        + base_diffuse_roughness * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
-    float3 sheet_front_response_2 = subsurface_positive * clamp(fit.x / fit.y, 0.0, 1.0)
-        * (sheet_front_weight * environment_irradiance);
-    color += scatter_product * environment_irradiance
-        + (SR_open_pbr_surface_fuzz_weight * (SR_open_pbr_surface_fuzz_color * sheen_albedo * environment_irradiance)
-        + sheet_front_response_2);
+        color += envLightIntensity * (lerp(mx_fujii_multiple(base_positive, mean), float3(1.0, 1.0, 1.0),
+            diffuse_fujii_albedo) * (diffuse_product * part));
     // opacity
     if (SR_open_pbr_surface_geometry_opacity < u_alphaThreshold)
         discard;

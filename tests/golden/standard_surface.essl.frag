@@ -24,11 +24,18 @@ in vec3 vd_positionWorld;
 in vec3 vd_normalWorld;
 out vec4 out1;
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
 void main()
@@ -40,7 +47,7 @@ void main()
     // SR_clay
     vec3 N = faceforward(direction, -V, direction);
     float cos_v = max(abs(dot(direction, V)), 1e-8);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
@@ -62,8 +69,8 @@ void main()
     // environment
     // diffuse
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.8631, 1.2189)) * 0.6 + vec2(1.0);
-    vec3 oren_nayar_diffuse_bsdf_albedo = clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15);
-    color += oren_nayar_diffuse_bsdf_albedo
-        * (textureLod(u_envIrradiance, mx_latlong(N), 0.0).xyz * u_envLightIntensity);
+    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)),
+        0.0).xyz * u_envLightIntensity;
+    color += clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15) * environment_irradiance;
     out1 = vec4(color, 1.0);
 }

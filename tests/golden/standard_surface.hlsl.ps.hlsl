@@ -33,11 +33,18 @@ struct VertexData {
     [[vk::location(1)]] float3 normalWorld : TEXCOORD1;
 };
 
-// Where the light from a direction of the world lies in the environment's picture.
-float2 mx_latlong(float3 direction)
+// The point of the picture for a unit direction in it.
+float2 mx_map_point(float3 d)
 {
-    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
-    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+    float2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
 void main(
@@ -51,7 +58,7 @@ void main(
     // SR_clay
     float3 N = faceforward(direction, -V, direction);
     float cos_v = max(abs(dot(direction, V)), 1e-8);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
@@ -74,8 +81,8 @@ void main(
     // diffuse
     float2 fit = (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + float2(0.8631, 1.2189)) * 0.6
         + float2(1.0, 1.0);
-    float3 oren_nayar_diffuse_bsdf_albedo = clamp(fit.x / fit.y, 0.0, 1.0) * float3(0.5, 0.25, 0.15);
-    color += oren_nayar_diffuse_bsdf_albedo
-        * (u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(N), 0.0).xyz * u_envLightIntensity);
+    float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_map_point(normalize(mul(float4(N, 0.0), u_envMatrix).xyz)), 0.0).xyz * u_envLightIntensity;
+    color += clamp(fit.x / fit.y, 0.0, 1.0) * float3(0.5, 0.25, 0.15) * environment_irradiance;
     out1 = float4(color, 1.0);
 }

@@ -35,7 +35,7 @@ void main()
     vec3 color = depth_product * path_blend * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
     // lights
     vec3 smoke_product = path_blend * (one_minus_st_outx * depth_product * 1.2);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // smoke
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;

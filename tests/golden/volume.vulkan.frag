@@ -30,11 +30,18 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
 void main()
@@ -50,7 +57,7 @@ void main()
     vec3 color = depth_product * path_blend * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
     // lights
     vec3 smoke_product = path_blend * (one_minus_st_outx * depth_product * 1.2);
-    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // smoke
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
@@ -70,10 +77,11 @@ void main()
     // environment
     // smoke
     if (one_minus_st_outx > 0.0) {
-        vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(-V), 0.0).xyz * u_envLightIntensity;
-        vec3 anisotropic_vdf_environment = mix(environment_irradiance, u_envLightIntensity
-            * textureLod(u_envIrradiance, mx_latlong(V), 0.0).xyz, 0.2) * 1.2;
-        color += path_blend * (one_minus_st_outx * depth_product) * anisotropic_vdf_environment;
+        vec3 environment_irradiance = textureLod(u_envIrradiance,
+            mx_map_point(normalize((u_envMatrix * vec4(-V, 0.0)).xyz)), 0.0).xyz * u_envLightIntensity;
+        vec3 smoke_blend = mix(environment_irradiance, u_envLightIntensity
+            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(V, 0.0)).xyz)), 0.0).xyz, 0.2);
+        color += path_blend * (one_minus_st_outx * depth_product) * smoke_blend * 1.2;
     }
     out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
 }

@@ -1,12 +1,26 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Documents that compile for all targets. Arguments: mxgen-compile, the documents.
+# Documents that compile for all targets, and films on BSDFs. Arguments: mxgen, mxgen-compile, the document of films, more documents.
 here=$(cd "$(dirname "$0")" && pwd)
-compile=$(realpath "$1")
-shift
+mxgen=$(realpath "$1") compile=$(realpath "$2") films=$(realpath "$3")
+shift 3
 . "$here/common.sh"
-for document in "$@"; do
+for document in "$@" "$films"; do
     check "${document##*/}" exits 0 "$compile" "$document"
     check "${document##*/} has shaders" test -s out
 done
+
+functions() { grep -o '\<mx_[a-z_]*(' "$1" | sort -u; } # FILE
+for target in glsl osl; do
+    check "films for $target" exits 0 "$mxgen" "$films" --target $target --interface reduced --names neutral --no-comments -o $target
+    for over in $target/Over_*; do
+        own=${over/Over_/Own_}
+        case $over in
+            *varnished*) check "${over#*/} has the functions of ${own#*/}" diff <(functions "$over") <(functions "$own") ;; # in another order
+            *) check "${over#*/} is ${own#*/}" diff <(sed 's/Over_/Own_/g' "$over") "$own" ;;
+        esac
+    done
+done
+check 'the film is there' grep -q mx_ggx_gather_film glsl/Over_varnished.frag
+check 'no film is below' grep -q mx_ggx_gather_conductor glsl/Over_varnished.frag
 finish shaderx-compile

@@ -241,11 +241,12 @@ static void test_statements(void)
         (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}),
         f->shader.rules.neutral_names = true;
         effect(f, EFFECT_VAR, f->color, v); use_twice(f, sine(f, "n", v)););
-    STATEMENTS("    vec3 color = v;\n    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) "
-               "{\n        color += u_lightData[i].direction;\n    }\n",
-               &plain, effect(f, EFFECT_VAR, f->color, v);
-               effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
-               effect(f, EFFECT_END, 0, 0););
+    STATEMENTS(
+        "    vec3 color = v;\n    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) "
+        "{\n        color += u_lightData[i].direction;\n    }\n",
+        &plain, effect(f, EFFECT_VAR, f->color, v);
+        effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
+        effect(f, EFFECT_END, 0, 0););
 }
 
 /* The whole pixel stage, from `from` on. */
@@ -378,7 +379,7 @@ static const char *const lit_main =
     "void main()\n{\n    vec3 base = texture(image_file, @texcoord_0).xyz * base_color;\n    vec3 "
     "color = base * noise(@texcoord_0);\n"
     "    vec3 N = normalize(@normalWorld);\n"
-    "    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n"
+    "    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {\n"
     "        color += u_lightData[i].color * (base * dot(N, u_lightData[i].direction));\n    }\n"
     "    if (bool(@geomprop_flag))\n        color += N;\n    out1 = vec4(color, 1.0);\n}\n";
 

@@ -121,9 +121,8 @@ vec3 mx_burley_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, vec3 V, ve
 {
     float cos_l = mx_facing_cosine(N, V, L);
     float cos_v = mx_view_cosine(N, V);
-    float cos_d = dot(L, normalize(L + V));
     vec2 x = 1.0 - vec2(cos_l, cos_v);
-    vec2 f = 1.0 + (2.0 * roughness * cos_d * cos_d - 0.5) * (x * x * x * x * x);
+    vec2 f = 1.0 + (roughness + roughness * dot(L, V) - 0.5) * (x * x * x * x * x); // cos^2 of half the angle is (1 + cos) / 2
     return color * (f.x * f.y * cos_l / MX_PI / mx_burley_excess(mx_burley_albedo(cos_v, roughness)));
 }
 
@@ -201,17 +200,21 @@ vec3 mx_subsurface_falloff(vec3 radius, vec3 n, vec3 P)
 
 vec3 mx_subsurface_light(vec3 falloff, float cos_l)
 {
-    const float STEP = MX_PI / 16.0;
-    float theta = acos(cos_l);
+    const mat2 TURN = mat2(0.99518473, 0.09801714, -0.09801714, 0.99518473); // by 1/64 of the circle
+    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
     vec3 light = vec3(0.0);
     vec3 sum = vec3(0.0);
-    for (float x = 0.5 * STEP - MX_PI; x < MX_PI; x += STEP)
+    vec2 middle = vec2(0.9987955, 0.04906767); // cosine and sine of half the angle from L's point of view, both ways around
+    while (middle.x > 0.0)
     {
-        float d = abs(sin(0.5 * x)); // the chord, in diameters
+        float d = middle.y; // the chord, in diameters
         vec3 e = exp(falloff * d);
         vec3 profile = (e + e * e * e) / d;
-        light += profile * max(cos(theta + x), 0.0);
-        sum += profile;
+        float along = cos_l * (1.0 - 2.0 * d * d);
+        float across = sin_l * (2.0 * d * middle.x);
+        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
+        sum += 2.0 * profile;
+        middle = TURN * middle;
     }
     return light / (MX_PI * sum);
 }

@@ -22,28 +22,33 @@ float mx_fresnel_dielectric(float cosine, float ior)
 }
 
 // The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-void mx_fresnel_refract(float cosine, vec3 n, vec3 k, out vec3 u, out vec3 v)
+vec2 mx_fresnel_refract(float cosine, float n, float k)
 {
-    vec3 t = n * n - k * k + (cosine * cosine - 1.0);
-    vec3 norm = sqrt(t * t + 4.0 * n * n * k * k);
-    u = sqrt(max(0.5 * (norm + t), 0.0));
-    v = sqrt(max(0.5 * (norm - t), 0.0));
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * vec2(norm + t, norm - t), 0.0));
 }
 
 // |(x + iy - u - iv) / (x + iy + u + iv)|^2
-vec3 mx_fresnel_ratio(vec3 x, vec3 y, vec3 u, vec3 v)
+float mx_fresnel_ratio(vec2 x, vec2 u)
 {
-    return ((x - u) * (x - u) + (y - v) * (y - v)) / ((x + u) * (x + u) + (y + v) * (y + v));
+    return dot(x - u, x - u) / dot(x + u, x + u);
 }
 
 // Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
 // perpendicular part, (n + ik)^2 times the cosine in the parallel part.
+float mx_fresnel_conductor(float cosine, float n, float k)
+{
+    vec2 u = mx_fresnel_refract(cosine, n, k);
+    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u)
+                + mx_fresnel_ratio(cosine * vec2(n * n - k * k, 2.0 * n * k), u));
+}
+
+// One channel after the other, which needs a third of the registers.
 vec3 mx_fresnel_conductor(float cosine, vec3 n, vec3 k)
 {
-    vec3 u, v;
-    mx_fresnel_refract(cosine, n, k, u, v);
-    return 0.5 * (mx_fresnel_ratio(vec3(cosine), vec3(0.0), u, v)
-                + mx_fresnel_ratio(cosine * (n * n - k * k), 2.0 * cosine * n * k, u, v));
+    return vec3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
+                mx_fresnel_conductor(cosine, n.z, k.z));
 }
 
 // What bends Schlick's curve towards f82 at cos = 1/7 (Hoffman 2019, "Fresnel Equations Considered Harmful"): the factor of cos (1 - cos)^6.
@@ -63,34 +68,36 @@ vec3 mx_fresnel_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float expone
 // ---- thin films -----------------------------------------------------------------------------------------------------
 // Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence".
 
-// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier transform
-// of the CIE sensitivities, a sum of Gaussians.
-vec3 mx_film_response(float d, vec3 re, vec3 im)
+// The channels of XYZ come one after the other, which needs a third of the registers. In each vec2 stand both polarisations:
+// perpendicular, parallel.
+
+// The CIE sensitivities, sums of Gaussians, after a Fourier transform: (frequency, height, -1 / width). X has two.
+const vec3 MX_FILM_X = vec3(1.6810, 0.846590, -0.0043278);
+const vec3 MX_FILM_X2 = vec3(2.2399, 0.153868, -0.0045282);
+const vec3 MX_FILM_Y = vec3(1.7953, 1.000222, -0.0093046);
+const vec3 MX_FILM_Z = vec3(2.2084, 1.001122, -0.0066121);
+
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind is -a, and
+// re + i im of the one below, and light that goes further by d / (2 pi) micrometre. The second term is of the first one's square:
+// its distance is twice as long.
+vec2 mx_film_terms(vec2 a, vec2 re, vec2 im, float d, vec3 gauss)
 {
-    vec4 a = vec4(1.6810, 1.7953, 2.2084, 2.2399) * d;
-    vec4 g = vec4(0.846590, 1.000222, 1.001122, 0.153868)
-           * exp(vec4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d));
-    vec4 xyzx = g * (vec4(re, re.x) * cos(a) - vec4(im, im.x) * sin(a));
-    return xyzx.xyz + vec3(xyzx.w, 0.0, 0.0);
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    vec2 x = re * c - im * s;
+    vec2 y = re * s + im * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a, and
-// re + i im of the one below; two terms of the series (section 3.3).
-vec3 mx_film_series(float a, vec3 re, vec3 im, float d)
+// A channel after interference, the mean of both polarisations.
+float mx_film_channel(vec2 a, vec2 re, vec2 im, vec2 terms)
 {
-    vec3 r23 = re * re + im * im;
-    float r12 = a * a;
-    float t = 1.0 - r12;
-    vec3 constant = t * t * r23 / (1.0 - r12 * r23);
-    vec3 terms = r12 * mx_film_response(2.0 * d, re * re - im * im, 2.0 * re * im) - a * mx_film_response(d, re, im);
-    return r12 + constant + 2.0 * (constant - t) * terms;
-}
-
-// The same with the amplitude (x + iy - u - iv) / (x + iy + u + iv).
-vec3 mx_film_polarized(float a, vec3 x, vec3 y, vec3 u, vec3 v, float d)
-{
-    vec3 norm = (x + u) * (x + u) + (y + v) * (y + v);
-    return mx_film_series(a, (x * x + y * y - u * u - v * v) / norm, 2.0 * (y * u - x * v) / norm, d);
+    vec2 r23 = re * re + im * im;
+    vec2 t = 1.0 - a * a;
+    vec2 even = t * t * r23 / (1.0 - a * a * r23);
+    vec2 both = a * a + even + 2.0 * (even - t) * terms;
+    return 0.5 * (both.x + both.y);
 }
 
 // Cosine inside of the film.
@@ -99,7 +106,7 @@ float mx_film_cosine(float cosine, float ior)
     return sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of the film's own interface.
 vec2 mx_film_amplitudes(float cosine, float inside, float ior)
 {
     vec2 x = vec2(cosine, ior * cosine);
@@ -107,12 +114,22 @@ vec2 mx_film_amplitudes(float cosine, float inside, float ior)
     return (x - u) / (x + u);
 }
 
-// Mean of both polarisations.
-vec3 mx_film_rgb(vec3 perpendicular, vec3 parallel)
+// Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
+void mx_film_base(float cosine, float n, float k, out vec2 re, out vec2 im)
+{
+    vec2 u = mx_fresnel_refract(cosine, n, k);
+    vec2 x = cosine * vec2(1.0, n * n - k * k);
+    vec2 y = vec2(0.0, 2.0 * cosine * n * k);
+    vec2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
+    re = (x * x + y * y - dot(u, u)) / norm;
+    im = 2.0 * (y * u.x - x * u.y) / norm;
+}
+
+vec3 mx_film_rgb(vec3 xyz)
 {
     const mat3 XYZ_TO_RGB = mat3(2.3706743, -0.5138850, 0.0052982, -0.9000405, 1.4253036, -0.0146949,
                                  -0.4706338, 0.0885814, 1.0093968);
-    return clamp(XYZ_TO_RGB * (0.5 * (perpendicular + parallel)), 0.0, 1.0);
+    return clamp(XYZ_TO_RGB * xyz, 0.0, 1.0);
 }
 
 // A film on the index n + ik.
@@ -122,12 +139,14 @@ vec3 mx_film_index(float cosine, vec3 n, vec3 k, float film, float film_ior)
     float c = mx_film_cosine(cosine, ior);
     vec2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.004 * MX_PI * ior * c * film;
-    vec3 m = n / ior;
-    vec3 l = k / ior;
-    vec3 u, v;
-    mx_fresnel_refract(c, m, l, u, v);
-    return mx_film_rgb(mx_film_polarized(a.x, vec3(c), vec3(0.0), u, v, d),
-                       mx_film_polarized(a.y, c * (m * m - l * l), 2.0 * c * m * l, u, v, d));
+    vec2 re, im;
+    mx_film_base(c, n.x / ior, k.x / ior, re, im);
+    float x = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, MX_FILM_X) + mx_film_terms(a, re, im, d, MX_FILM_X2));
+    mx_film_base(c, n.y / ior, k.y / ior, re, im);
+    float y = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, MX_FILM_Y));
+    mx_film_base(c, n.z / ior, k.z / ior, re, im);
+    float z = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, MX_FILM_Z));
+    return mx_film_rgb(vec3(x, y, z));
 }
 
 // A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
@@ -139,7 +158,13 @@ vec3 mx_film_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float exponent,
     float d = 0.004 * MX_PI * ior * c * film;
     vec3 turn = 1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), vec3((ior - 1.0) / (ior + 1.0)));
     vec3 r = turn * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend, f90, exponent), 0.0));
-    return mx_film_rgb(mx_film_series(a.x, -r, vec3(0.0), d), mx_film_series(a.y, r, vec3(0.0), d));
+    vec2 none = vec2(0.0);
+    vec2 re = vec2(-r.x, r.x);
+    float x = mx_film_channel(a, re, none, mx_film_terms(a, re, none, d, MX_FILM_X) + mx_film_terms(a, re, none, d, MX_FILM_X2));
+    re = vec2(-r.y, r.y);
+    float y = mx_film_channel(a, re, none, mx_film_terms(a, re, none, d, MX_FILM_Y));
+    re = vec2(-r.z, r.z);
+    return mx_film_rgb(vec3(x, y, mx_film_channel(a, re, none, mx_film_terms(a, re, none, d, MX_FILM_Z))));
 }
 
 // ---- all of them ----------------------------------------------------------------------------------------------------

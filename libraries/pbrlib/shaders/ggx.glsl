@@ -40,42 +40,26 @@ vec3 mx_ggx_local(mat3 frame, vec3 V)
     return max(V * frame, vec3(-1.0, -1.0, MX_EPSILON));
 }
 
-// The lobe as lights and samples of the environment see it. Its frame faces the viewer.
+// The lobe as lights see it: five numbers beside the normal.
 struct mx_GgxLobe {
-    mat3 frame;
-    vec3 stretch;  // roughness along x and y, 1
-    float area;    // product of both
-    vec3 v;        // direction to the viewer, in the frame
-    float masking; // of v
-    vec3 cap;      // v, stretched
-    float step;    // between samples of the environment: 1 / their number
-    float weight;  // of one
-    float level;   // where their mip levels begin
+    vec3 N;        // faces the viewer
+    vec3 x;        // unit tangent
+    vec2 alpha;    // roughness along x and across
+    float masking; // of the viewer
 };
-
-mx_GgxLobe mx_ggx_lobe_at(mat3 frame, vec2 alpha, vec3 v)
-{
-    float area = alpha.x * alpha.y;
-    float masking = mx_ggx_masking(v.z, area);
-    float step = option_environment == 2 ? 1.0 / float(max(u_envRadianceSamples, 1)) : 0.0;
-    float weight = step * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(alpha, 1.0), area, v, masking, normalize(v * vec3(alpha, 1.0)), step,
-                      option_environment == 2 ? weight * u_envLightIntensity : 0.0,
-                      option_environment == 2
-                          ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)) : 0.0);
-}
 
 // N faces V.
 mx_GgxLobe mx_ggx_lobe(vec2 roughness, vec3 N, vec3 X, vec3 V)
 {
-    mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, mx_ggx_alpha(roughness), mx_ggx_local(frame, V));
+    vec2 alpha = mx_ggx_alpha(roughness);
+    return mx_GgxLobe(N, mx_tangent(N, X), alpha, mx_ggx_masking(max(dot(N, V), MX_EPSILON), alpha.x * alpha.y));
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the reflection model.
-float mx_ggx_visibility(mx_GgxLobe lobe, float cos_l)
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor of the reflection
+// model.
+float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
-    return cos_l / (lobe.v.z * mx_ggx_masking(cos_l, lobe.area) + cos_l * lobe.masking);
+    return 1.0 / (cos_v * mx_ggx_masking(cos_l, area) + cos_l * masking);
 }
 
 const int option_albedo = 0; // 0 by a fit, 1 from the host's table
@@ -130,11 +114,25 @@ vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, string model, vec3 n, ve
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
 
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(mx_GgxLobe lobe, vec3 L, vec3 H)
+// Cosine between V and the normal of the facet that reflects L to it.
+float mx_half_cosine(vec3 V, vec3 L)
 {
-    vec3 e = H * lobe.frame / lobe.stretch;
-    return 0.5 * mx_ggx_distribution(e, lobe.area) * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), MX_EPSILON));
+    return sqrt(clamp(0.5 + 0.5 * dot(V, L), MX_EPSILON, 1.0));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor. The facet's normal V + L has any length. Its
+// cross product with N serves all lobes of one normal.
+float mx_ggx_light(mx_GgxLobe lobe, vec3 V, vec3 L)
+{
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_v = max(dot(lobe.N, V), MX_EPSILON);
+    float cos_l = max(dot(lobe.N, L), MX_EPSILON);
+    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (2.0 * MX_PI * area * e * e * (cos_v * mx_ggx_masking(cos_l, area) + cos_l * lobe.masking));
 }
 
 // ---- masking by direction -------------------------------------------------------------------------------------------
@@ -151,21 +149,20 @@ float mx_ggx_smith_visibility(vec3 v, vec3 l, vec2 alpha)
     return 0.5 * l.z / (v.z * mx_ggx_smith(l, alpha) + l.z * mx_ggx_smith(v, alpha));
 }
 
-float mx_ggx_smith_lobe(vec2 roughness, mat3 frame, vec3 V, vec3 L, vec3 H)
+float mx_ggx_smith_lobe(vec2 roughness, mat3 frame, vec3 V, vec3 L)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
-    return mx_ggx_distribution(H * frame / vec3(alpha, 1.0), alpha.x * alpha.y)
+    return mx_ggx_distribution(normalize(V + L) * frame / vec3(alpha, 1.0), alpha.x * alpha.y)
          * mx_ggx_smith_visibility(mx_ggx_local(frame, V), mx_ggx_local(frame, L), alpha);
 }
 
 vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                  float film_ior)
 {
-    vec3 H = normalize(V + L);
     return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, exponent, film, film_ior)
-         * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L, H)
-                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_facing(N, V), X, V), L, H))
-         * mx_fresnel(clamp(dot(V, H), MX_EPSILON, 1.0), model, n, k, f90, exponent, film, film_ior);
+         * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
+                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_facing(N, V), X, V), V, L))
+         * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior);
 }
 
 // ---- environment ----------------------------------------------------------------------------------------------------
@@ -196,141 +193,180 @@ vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, strin
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and Benyoub 2023, "Sampling
-// Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the cap is below its top. Times `stretch` it is
-// one of the rough surface.
-vec3 mx_ggx_cap(vec2 around, float depth, vec3 v)
+// Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the cap is below its top, `top` = v + z. Times
+// `stretch` it is one of the rough surface.
+vec3 mx_ggx_cap(vec2 around, float depth, vec3 top)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h. A visible normal weighs G2 / G1 where it reflects, and 1 / G1
-// where it refracts.
-vec4 mx_ggx_sample_at(mx_GgxLobe lobe, vec3 h, float level, float refract_ior)
+// The lobe as samples of the environment see it.
+struct mx_GgxSamples {
+    mat3 to_map;   // from the frame into the environment's picture
+    vec3 stretch;  // roughness along x and y, 1
+    float area;    // product of both
+    vec3 v;        // direction to the viewer, in the frame
+    float masking; // of v
+    vec3 top;      // of the cap of visible normals; its z is the depth of the cap
+    float step;    // between the depths of samples
+    float weight;  // of one
+    float level;   // where their mip levels begin
+};
+
+mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, vec3 V)
 {
-    vec3 l = reflect(-lobe.v, h);
-    float weight = mx_ggx_visibility(lobe, max(l.z, MX_EPSILON));
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = mx_ggx_local(frame, V);
+    float area = lobe.alpha.x * lobe.alpha.y;
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float share = option_environment == 2 ? 1.0 / float(max(u_envRadianceSamples, 1)) : 0.0;
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, top, share * top.z,
+                         option_environment == 2 ? weight * u_envLightIntensity : 0.0,
+                         option_environment == 2
+                             ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)) : 0.0);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level over that of the
+// first. A visible normal weighs G2 / G1 where it reflects, and 1 / G1 where it refracts.
+vec4 mx_ggx_sample_at(mx_GgxSamples s, vec3 h, float shrink, float spread, float refract_ior)
+{
+    float cosine = dot(s.v, h);
+    vec3 l = 2.0 * shrink * cosine * h - s.v;
+    float cos_l = max(l.z, MX_EPSILON);
+    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
     if (refract_ior > 0.0)
     {
-        l = mx_refract_sphere(lobe.v, h, refract_ior);
-        weight = 0.5 / lobe.v.z;
+        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
+        weight = 0.5 / s.v.z;
     }
-    return vec4(weight * mx_filtered_light(lobe.frame * l, level), clamp(dot(lobe.v, h), MX_EPSILON, 1.0));
+    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
+                clamp(cosine * sqrt(shrink), MX_EPSILON, 1.0));
 }
 
-vec4 mx_ggx_sample(mx_GgxLobe lobe, vec2 around, float xi, float refract_ior)
+vec4 mx_ggx_sample(mx_GgxSamples s, vec2 around, float depth, float refract_ior)
 {
-    vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
-    vec3 h = cap * lobe.stretch;
-    float s = dot(cap, cap) / dot(h, h);
-    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before.
 const mat2 MX_GOLDEN_TURN = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
 // A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior, float ior)
+vec3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, float ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
-        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
         around = MX_GOLDEN_TURN * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float limit, vec3 n, vec3 k)
+vec3 mx_ggx_gather_conductor(mx_GgxLobe lobe, vec3 V, float limit, vec3 n, vec3 k)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
         around = MX_GOLDEN_TURN * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float limit, float refract_ior, vec3 f0, vec3 bend, vec3 f90, float exponent)
+vec3 mx_ggx_gather_schlick(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, vec3 f0, vec3 bend, vec3 f90, float exponent)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
-        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         vec3 f = mx_fresnel_schlick(light.w, f0, bend, f90, exponent);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
         around = MX_GOLDEN_TURN * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
-vec3 mx_ggx_gather(mx_GgxLobe lobe, float limit, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent)
+vec3 mx_ggx_gather(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent)
 {
     if (model == "dielectric")
-        return mx_ggx_gather_dielectric(lobe, limit, refract_ior, n.x);
-    return model == "conductor" ? mx_ggx_gather_conductor(lobe, limit, n, k)
-                                : mx_ggx_gather_schlick(lobe, limit, refract_ior, n, k, f90, exponent);
+        return mx_ggx_gather_dielectric(lobe, V, limit, refract_ior, n.x);
+    return model == "conductor" ? mx_ggx_gather_conductor(lobe, V, limit, n, k)
+                                : mx_ggx_gather_schlick(lobe, V, limit, refract_ior, n, k, f90, exponent);
 }
 
 // A film on an index of refraction, reflection alone: what most films are.
-vec3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, vec3 n, vec3 k, float film, float film_ior)
+vec3 mx_ggx_gather_film_index(mx_GgxLobe lobe, vec3 V, float limit, vec3 n, vec3 k, float film, float film_ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
-        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
         sum += mx_film_index(light.w, n, k, film, film_ior) * light.xyz;
         around = MX_GOLDEN_TURN * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float refract_ior, bool is_index, vec3 n, vec3 k, vec3 f90, float exponent,
+vec3 mx_ggx_gather_film(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, bool is_index, vec3 n, vec3 k, vec3 f90, float exponent,
                         float film, float film_ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
     {
-        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
         vec3 f = is_index ? mx_film_index(light.w, n, k, film, film_ior)
                           : mx_film_schlick(light.w, n, k, f90, exponent, film, film_ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
         around = MX_GOLDEN_TURN * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // What goes through a solid sphere with `--integrator path`: wherever it meets the other side as much is reflected as on its way in, f, since
 // the angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets all leave at once, as MaterialX does.
-vec3 mx_ggx_gather_solid(mx_GgxLobe lobe, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
+vec3 mx_ggx_gather_solid(mx_GgxLobe lobe, vec3 V, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                          float film_ior)
 {
+    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
-    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step)
+    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step)
     {
-        vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
-        vec3 h = cap * lobe.stretch;
-        float s = dot(cap, cap) / dot(h, h);
-        h = normalize(h);
-        vec4 light = mx_ggx_sample_at(lobe, h, s * s * lobe.level, ior);
-        vec3 inside = refract(-lobe.v, h, 1.0 / ior);
-        vec3 turned = reflect(-lobe.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
+        vec3 cap = mx_ggx_cap(around, depth, samples.top);
+        vec3 h = cap * samples.stretch;
+        float shrink = 1.0 / dot(h, h);
+        float spread = shrink * dot(cap, cap);
+        vec4 light = mx_ggx_sample_at(samples, h, shrink, spread, ior);
+        h *= sqrt(shrink);
+        vec3 inside = refract(-samples.v, h, 1.0 / ior);
+        vec3 turned = reflect(-samples.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
         vec3 f = mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
         sum += (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
-             * mix(light.xyz, 0.5 / lobe.v.z * mx_filtered_light(lobe.frame * turned, s * s * lobe.level), f / (1.0 + f));
+             * mix(light.xyz, 0.5 / samples.v.z * mx_filtered_light(samples.to_map * turned, spread * spread * samples.level),
+                   f / (1.0 + f));
         around = MX_GOLDEN_TURN * around;
     }
-    return lobe.weight * sum;
+    return samples.weight * sum;
 }
 
 // What the lobe reflects of all directions.
@@ -345,10 +381,10 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, ve
     // A loop that no pixel needs is over at once, a branch that none takes may not be: both loops stand side by side, one of them empty.
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
     float filmed = film > 0.0 ? 1.0 : 0.0;
-    vec3 bare = mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent);
+    vec3 bare = mx_ggx_gather(lobe, V, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent);
     if (model == "schlick")
-        return scale * (film > 0.0 ? mx_ggx_gather_film(lobe, filmed, 0.0, false, n, k, f90, exponent, film, film_ior) : bare);
-    return scale * (film > 0.0 ? mx_ggx_gather_film_index(lobe, filmed, n, k, film, film_ior) : bare);
+        return scale * (film > 0.0 ? mx_ggx_gather_film(lobe, V, filmed, 0.0, false, n, k, f90, exponent, film, film_ior) : bare);
+    return scale * (film > 0.0 ? mx_ggx_gather_film_index(lobe, V, filmed, n, k, film, film_ior) : bare);
 }
 
 // What it refracts.
@@ -361,7 +397,7 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, int mo
         return mx_ggx_prefiltered(roughness, N, V, ior, model, n, k, f90, exponent, film, film_ior);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
     if (option_integrator == 1)
-        return mx_ggx_gather_solid(lobe, ior, mode, model, n, k, f90, exponent, film, film_ior);
-    return film > 0.0 ? mx_ggx_gather_film(lobe, film > 0.0 ? 1.0 : 0.0, ior, model != "schlick", n, k, f90, exponent, film, film_ior)
-                      : mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, ior, model, n, k, f90, exponent);
+        return mx_ggx_gather_solid(lobe, V, ior, mode, model, n, k, f90, exponent, film, film_ior);
+    return film > 0.0 ? mx_ggx_gather_film(lobe, V, film > 0.0 ? 1.0 : 0.0, ior, model != "schlick", n, k, f90, exponent, film, film_ior)
+                      : mx_ggx_gather(lobe, V, film > 0.0 ? 0.0 : 1.0, ior, model, n, k, f90, exponent);
 }

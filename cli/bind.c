@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mxgen bind: the layers of each primitive of a stage under a look. */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/cli.h"
+#include "cli/files.h"
+#include "cli/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+struct bind {
+    struct cli cli;
+    const char *look, *stage, *json, *geom;
+    struct arg_list solo, mute;
+};
+
+static bool put(void *user_data, const char *data, size_t size)
+{
+    return fwrite(data, 1, size, user_data) == size;
+}
+
+static void write_json(struct bind *bind, const mxg_bindings *bindings)
+{
+    struct files_stream stream;
+    const char *reason = files_begin(&stream, bind->json);
+    if (!reason) {
+        report_status(&bind->cli.report,
+                      mxg_bindings_write(bindings, MXG_BINDINGS_JSON, put, stream.out));
+        reason = files_end(&stream, true);
+    }
+    if (reason)
+        report_error(&bind->cli.report, "output-failed", "cannot write '%s': %s", bind->json,
+                     reason);
+}
+
+/* The path of a primitive, which the caller frees. */
+static char *path_of(const mxg_scene *scene, uint32_t primitive)
+{
+    size_t size = mxg_scene_path(scene, primitive, NULL, 0) + 1;
+    char *path = memory_alloc(size);
+    mxg_scene_path(scene, primitive, path, size);
+    return path;
+}
+
+static void report_unknown(struct bind *bind, const mxg_scene *scene)
+{
+    enum { MAX_GUESSES = 1000 };
+    uint32_t num = mxg_scene_num_primitives(scene);
+    struct arg_list paths = {0};
+    for (uint32_t i = 0; i < num && i < MAX_GUESSES; ++i)
+        args_append(&paths, path_of(scene, i));
+    const char *near = args_closest(bind->geom, paths.items, paths.len);
+    report_error(&bind->cli.report, "unknown-primitive", "the stage has no primitive '%s'%s%s%s",
+                 bind->geom, near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "");
+    args_free(&paths);
+}
+
+static void explain(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
+{
+    uint32_t primitive = mxg_scene_find(scene, bind->geom);
+    if (primitive == UINT32_MAX)
+        report_unknown(bind, scene);
+    else
+        report_status(&bind->cli.report, mxg_bindings_explain(bindings, primitive, put, stdout));
+}
+
+static void write_bindings(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
+{
+    if (bind->json)
+        write_json(bind, bindings);
+    if (bind->geom)
+        explain(bind, scene, bindings);
+    else if (!bind->json)
+        report_status(&bind->cli.report,
+                      mxg_bindings_write(bindings,
+                                         isatty(STDOUT_FILENO) ? MXG_BINDINGS_TABLE_COLOUR
+                                                               : MXG_BINDINGS_TABLE,
+                                         put, stdout));
+}
+
+static void bind_document(struct bind *bind, const mxg_document *document, mxg_scene *scene)
+{
+    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    mxg_bindings *bindings = NULL;
+    desc.look = bind->look;
+    desc.solo = bind->solo.items;
+    desc.num_solo = bind->solo.len;
+    desc.mute = bind->mute.items;
+    desc.num_mute = bind->mute.len;
+    mxg_status status = mxg_bind(bind->cli.context, document, scene, &desc, &bindings);
+    if (bindings)
+        report_list(&bind->cli.report, mxg_bindings_diagnostics(bindings));
+    if (report_status(&bind->cli.report, status))
+        write_bindings(bind, scene, bindings);
+    mxg_bindings_destroy(bindings);
+}
+
+static void bind_file(struct bind *bind, const char *path)
+{
+    mxg_scene *scene = NULL;
+    mxg_document *document = cli_load(&bind->cli, path);
+    if (!document)
+        return;
+    mxg_status status = mxg_scene_load(bind->cli.context, bind->stage, &scene);
+    if (scene)
+        report_list(&bind->cli.report, mxg_scene_diagnostics(scene));
+    if (report_status(&bind->cli.report, status))
+        bind_document(bind, document, scene);
+    mxg_scene_destroy(scene);
+    mxg_document_destroy(document);
+}
+
+int command_bind(const struct command *command, int argc, char **argv)
+{
+    struct bind bind = {0};
+    const struct arg args[] = {
+        {"look", 0, ARG_TEXT, "LOOK", "a look, or a look group with a default", &bind.look},
+        {"stage", 0, ARG_TEXT, "FILE", "the primitives: a list of paths, one in each line",
+         &bind.stage},
+        {"json", 0, ARG_TEXT, "FILE", "writes the layers of all primitives as JSON; '-': prints it",
+         &bind.json},
+        {"geom", 0, ARG_TEXT, "PATH", "explains the layers of one primitive", &bind.geom},
+        {"solo", 0, ARG_LIST, "SLOT", "shows only this slot, layer or override", &bind.solo},
+        {"mute", 0, ARG_LIST, "SLOT", "leaves out this slot, layer or override", &bind.mute},
+    };
+    int code;
+    if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT, argc, argv,
+                  &code)) {
+        if (!bind.stage || bind.cli.parser.inputs.len != 1) {
+            fprintf(stderr, "usage: mxgen %s\n", command->usage);
+            code = EXIT_USAGE;
+        } else {
+            bind_file(&bind, bind.cli.parser.inputs.items[0]);
+            code = bind.cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+        }
+    }
+    cli_finish(&bind.cli);
+    free(bind.solo.items);
+    free(bind.mute.items);
+    return code;
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Slots: several materials on one primitive of a scene (docs/slots.md of the project). mxgen.h
+ * includes this header; the rules at its top apply here, too.
+ */
+#ifndef MXGEN_SCENE_H
+#define MXGEN_SCENE_H
+
+#include <mxgen/mxgen.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Names of slots ---- */
+
+/*
+ * Slot names in USD: "050::010" is "_050:_:_010". Writes at most `capacity` bytes including a NUL;
+ * returns the full length without the NUL, or 0 if the input is no name.
+ */
+MXG_API size_t mxg_slot_encode(const char *name, char *buffer, size_t capacity);
+MXG_API size_t mxg_slot_decode(const char *identifiers, char *buffer, size_t capacity);
+
+/* ---- Scenes ---- */
+
+/*
+ * An empty scene, or the scene of a file: a list with one path in each line ('#' begins a comment).
+ * *out_scene is set whenever memory allows, also with MXG_ERROR_DOCUMENT: it has the diagnostics.
+ */
+MXG_API mxg_status mxg_scene_create(mxg_context *context, mxg_scene **out_scene);
+MXG_API mxg_status mxg_scene_load(mxg_context *context, const char *path, mxg_scene **out_scene);
+MXG_API void mxg_scene_destroy(mxg_scene *scene);
+/*
+ * Adds primitives by their paths, "/set/table", and those above them. MXG_ERROR_DOCUMENT if a path
+ * is none; the others are added. MXG_ERROR_ARGUMENT if bindings hold the scene.
+ */
+MXG_API mxg_status mxg_scene_add(mxg_scene *scene, const char *const *paths, size_t num_paths);
+
+typedef struct mxg_primitive {
+    size_t size; /* in */
+    /* of mxg_scene_primitive; UINT32_MAX: none */
+    uint32_t parent, first_child, next_sibling;
+    const char *name; /* name_len bytes, without a NUL */
+    size_t name_len;
+} mxg_primitive;
+/* Primitives have numbers from 0 on; a parent has a lower one than its children. */
+MXG_API uint32_t mxg_scene_num_primitives(const mxg_scene *scene);
+MXG_API mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primitive *out);
+/* The number of a primitive; UINT32_MAX: there is none of this path. */
+MXG_API uint32_t mxg_scene_find(const mxg_scene *scene, const char *path);
+/* Writes a path like mxg_slot_encode. */
+MXG_API size_t mxg_scene_path(const mxg_scene *scene, uint32_t index, char *buffer,
+                              size_t capacity);
+
+/* ---- Bindings ---- */
+
+typedef struct mxg_bind_desc {
+    size_t size;
+    const char *look; /* a look, or a look group with a default; NULL: the only look */
+    /* names that alone count, with all that hangs on them; names that do not count */
+    const char *const *solo, *const *mute;
+    size_t num_solo, num_mute;
+} mxg_bind_desc;
+#define MXG_BIND_DESC_INIT MXG_INIT(mxg_bind_desc)
+
+/*
+ * Finds the layers of each primitive of a scene. desc may be NULL: all defaults. *out_bindings is
+ * set whenever memory allows; with MXG_ERROR_DOCUMENT the faulty assignments are missing.
+ */
+MXG_API mxg_status mxg_bind(mxg_context *context, const mxg_document *document, mxg_scene *scene,
+                            const mxg_bind_desc *desc, mxg_bindings **out_bindings);
+MXG_API void mxg_bindings_destroy(mxg_bindings *bindings);
+
+typedef enum mxg_layer_kind {
+    MXG_LAYER,          /* a slot; the base comes first */
+    MXG_LAYER_PRODUCT,  /* a product that the layer before takes from a weaker assignment */
+    MXG_LAYER_OVERRIDE, /* of the layer before; a later one wins */
+    MXG_LAYER_VERTICAL, /* over the MXG_LAYER before */
+    MXG_LAYER_VOLUME,   /* beside the stack */
+    MXG_LAYER_LIGHT,
+    MXG_LAYER_MAX_ENUM = 0x7fffffff
+} mxg_layer_kind;
+
+typedef struct mxg_layer {
+    size_t size; /* in */
+    mxg_layer_kind kind;
+    const char *slot;     /* the whole name: "050::010" */
+    const char *material; /* the material, or the nodegraph if is_nodegraph */
+    bool is_nodegraph;
+    const char *product;       /* MXG_LAYER_PRODUCT: "mask"; else "" */
+    uint32_t from;             /* the primitive where the assignment stands; UINT32_MAX: "/" */
+    const char *look, *assign; /* the assignment; "" if it has no name */
+    const char *file;          /* of the assignment */
+    uint32_t line;
+} mxg_layer;
+/* The layers of a primitive, base first; a product, override or vertical layer follows its layer.
+ */
+MXG_API uint32_t mxg_bindings_num_layers(const mxg_bindings *bindings, uint32_t primitive);
+MXG_API mxg_status mxg_bindings_layer(const mxg_bindings *bindings, uint32_t primitive,
+                                      uint32_t index, mxg_layer *out);
+/* Primitives with equal layers have the same stack. UINT32_MAX: there is no such primitive. */
+MXG_API uint32_t mxg_bindings_num_stacks(const mxg_bindings *bindings);
+MXG_API uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive);
+
+typedef enum mxg_bindings_format {
+    MXG_BINDINGS_TABLE, /* a line for each primitive */
+    MXG_BINDINGS_TABLE_COLOUR,
+    MXG_BINDINGS_JSON,
+    MXG_BINDINGS_FORMAT_MAX_ENUM = 0x7fffffff
+} mxg_bindings_format;
+/* Writes all bindings as text, in pieces. Stops when `write` returns false. */
+MXG_API mxg_status mxg_bindings_write(const mxg_bindings *bindings, mxg_bindings_format format,
+                                      bool (*write)(void *user_data, const char *data, size_t size),
+                                      void *user_data);
+/* The same for the reasons of one primitive's layers: every assignment that was considered. */
+MXG_API mxg_status mxg_bindings_explain(const mxg_bindings *bindings, uint32_t primitive,
+                                        bool (*write)(void *user_data, const char *data,
+                                                      size_t size),
+                                        void *user_data);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

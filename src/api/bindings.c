@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Bindings: the layers of the primitives of a scene under a look. */
+#include "api/scene.h"
+
+#include <assert.h>
+
+struct mxg_bindings {
+    struct object object; /* keeps the document alive */
+    mxg_scene *scene;
+    const mxg_document *document;
+    struct bindings bindings;
+    bool is_resolved; /* a look was found */
+};
+
+struct bind_job {
+    mxg_bindings *result;
+    mxg_bind_desc desc;
+    struct arena scratch;
+};
+
+static void resolve(void *arg)
+{
+    struct bind_job *job = arg;
+    mxg_bindings *result = job->result;
+    struct object *object = &result->object;
+    const struct document *doc = &result->document->layer.doc;
+    const struct bind_options options = {.solo = job->desc.solo,
+                                         .mute = job->desc.mute,
+                                         .num_solo = job->desc.num_solo,
+                                         .num_mute = job->desc.num_mute};
+    elem_id look = look_choose(doc, job->desc.look, &object->diagnostics.list);
+    if (!look)
+        return;
+    bind_resolve(&result->bindings, doc, look, &result->scene->scene, &options, &object->arena,
+                 &job->scratch, &object->diagnostics.list);
+    result->is_resolved = true;
+}
+
+mxg_status mxg_bind(mxg_context *context, const mxg_document *document, mxg_scene *scene,
+                    const mxg_bind_desc *desc, mxg_bindings **out_bindings)
+{
+    struct bind_job job = {.desc = MXG_BIND_DESC_INIT};
+    if (out_bindings)
+        *out_bindings = NULL;
+    if (!context || !document || !scene || !out_bindings
+        || (desc && !struct_read(&job.desc, sizeof job.desc, desc)))
+        return MXG_ERROR_ARGUMENT;
+    struct object *below = (struct object *)(uintptr_t)&document->object; /* never const itself */
+    mxg_bindings *result = object_new(context, sizeof *result, below);
+    if (!result)
+        return MXG_ERROR_MEMORY;
+    result->document = document;
+    result->scene = scene;
+    object_ref(&scene->object);
+    scene->is_bound = true;
+    job.result = result;
+    arena_init(&job.scratch, &result->object.mem);
+    mxg_status status = object_run(&result->object, resolve, &job);
+    arena_finish(&job.scratch);
+    bindings_finish(&result->bindings);
+    object_settle(&result->object);
+    if (status != MXG_OK) {
+        mxg_bindings_destroy(result);
+        return status;
+    }
+    *out_bindings = result;
+    return object_status(&result->object);
+}
+
+void mxg_bindings_destroy(mxg_bindings *bindings)
+{
+    if (!bindings)
+        return;
+    mxg_scene *scene = bindings->scene;
+    object_unref(&bindings->object);
+    object_unref(&scene->object);
+}
+
+const mxg_diagnostics *mxg_bindings_diagnostics(const mxg_bindings *bindings)
+{
+    return bindings ? &bindings->object.diagnostics : NULL;
+}
+
+/* ---- Queries ---- */
+
+/* The state of a primitive by its number in the interface; NULL: there is none. */
+static const struct bind_state *state_of(const mxg_bindings *bindings, uint32_t primitive)
+{
+    if (!bindings || !bindings->is_resolved
+        || primitive >= mxg_scene_num_primitives(bindings->scene))
+        return NULL;
+    return bind_state_of(&bindings->bindings, primitive + 1);
+}
+
+uint32_t mxg_bindings_num_layers(const mxg_bindings *bindings, uint32_t primitive)
+{
+    const struct bind_state *state = state_of(bindings, primitive);
+    return state ? state->num_items : 0;
+}
+
+static mxg_layer describe(const struct bindings *b, prim_id prim, const struct bind_item *item)
+{
+    static const mxg_layer_kind kinds[] = {
+        [ITEM_LAYER] = MXG_LAYER,
+        [ITEM_PRODUCT] = MXG_LAYER_PRODUCT,
+        [ITEM_OVERRIDE] = MXG_LAYER_OVERRIDE,
+        [ITEM_VERTICAL] = MXG_LAYER_VERTICAL,
+        [ITEM_VOLUME] = MXG_LAYER_VOLUME,
+        [ITEM_LIGHT] = MXG_LAYER_LIGHT,
+    };
+    const struct document *doc = b->look.doc;
+    const struct look_assign *a = &b->look.assigns.items[item->assign];
+    struct diag_place place = doc_place(doc, a->element);
+    prim_id from = bind_prim_at(b, prim, item->level);
+    return (mxg_layer){
+        .kind = kinds[item->kind],
+        .slot = b->look.names.items[a->name].text,
+        .material = str_text(doc->strings, doc_element(doc, a->target)->name),
+        .is_nodegraph = a->kind == ASSIGN_GRAPH,
+        .product = item->kind == ITEM_PRODUCT ? bind_product_names[item->product] : "",
+        .from = from ? from - 1 : UINT32_MAX,
+        .look = str_text(doc->strings, doc_element(doc, a->look)->name),
+        .assign = str_text(doc->strings, doc_element(doc, a->element)->name),
+        .file = place.file,
+        .line = place.line,
+    };
+}
+
+mxg_status mxg_bindings_layer(const mxg_bindings *bindings, uint32_t primitive, uint32_t index,
+                              mxg_layer *out)
+{
+    if (index >= mxg_bindings_num_layers(bindings, primitive))
+        return MXG_ERROR_ARGUMENT;
+    const struct bindings *b = &bindings->bindings;
+    const struct bind_item *items = &b->items.items[state_of(bindings, primitive)->first_item];
+    mxg_layer full = describe(b, primitive + 1, &items[index]);
+    return struct_write(out, &full, sizeof full);
+}
+
+uint32_t mxg_bindings_num_stacks(const mxg_bindings *bindings)
+{
+    return bindings && bindings->is_resolved ? bindings->bindings.stacks.len : 0;
+}
+
+uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive)
+{
+    const struct bind_state *state = state_of(bindings, primitive);
+    return state ? state->stack : UINT32_MAX;
+}
+
+/* ---- Texts ---- */
+
+struct write_job {
+    const mxg_bindings *bindings;
+    mxg_bindings_format format;
+    uint32_t primitive;
+    bool (*write)(void *user_data, const char *data, size_t size);
+    void *user_data;
+    bool is_stopped;
+};
+
+static void flush_text(void *user_data, struct text *out)
+{
+    struct write_job *job = user_data;
+    if (!job->is_stopped && out->len)
+        job->is_stopped = !job->write(job->user_data, out->data, out->len);
+    out->len = 0;
+}
+
+static void write_all(void *arg, struct arena *scratch)
+{
+    struct write_job *job = arg;
+    struct text out;
+    text_init(&out, scratch);
+    struct bind_writer writer = {.b = &job->bindings->bindings,
+                                 .out = &out,
+                                 .scratch = scratch,
+                                 .flush = flush_text,
+                                 .user_data = job,
+                                 .colour = job->format == MXG_BINDINGS_TABLE_COLOUR};
+    bind_writer_init(&writer);
+    if (job->format == MXG_BINDINGS_JSON)
+        bind_write_json(&writer);
+    else
+        bind_write_table(&writer);
+    flush_text(job, &out);
+}
+
+mxg_status mxg_bindings_write(const mxg_bindings *bindings, mxg_bindings_format format,
+                              bool (*write)(void *user_data, const char *data, size_t size),
+                              void *user_data)
+{
+    if (!bindings || !bindings->is_resolved || !write || (unsigned)format > MXG_BINDINGS_JSON)
+        return MXG_ERROR_ARGUMENT;
+    struct write_job job = {bindings, format, 0, write, user_data, false};
+    return context_run(bindings->object.context, write_all, &job);
+}
+
+static void write_reasons(void *arg, struct arena *scratch)
+{
+    struct write_job *job = arg;
+    struct text out;
+    text_init(&out, scratch);
+    bind_explain(&job->bindings->bindings, job->primitive + 1, scratch, &out);
+    flush_text(job, &out);
+}
+
+mxg_status mxg_bindings_explain(const mxg_bindings *bindings, uint32_t primitive,
+                                bool (*write)(void *user_data, const char *data, size_t size),
+                                void *user_data)
+{
+    if (!state_of(bindings, primitive) || !write)
+        return MXG_ERROR_ARGUMENT;
+    struct write_job job = {bindings, MXG_BINDINGS_TABLE, primitive, write, user_data, false};
+    return context_run(bindings->object.context, write_reasons, &job);
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The objects of binding: scenes, and the layers of their primitives. */
+#ifndef MXG_API_SCENE_H
+#define MXG_API_SCENE_H
+
+#include "api/api.h"
+#include "bind/bind.h"
+
+struct mxg_scene {
+    struct object object;
+    struct scene scene;
+    bool is_bound; /* bindings refer to it, so it must not change */
+};
+
+#endif

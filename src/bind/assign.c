@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Reads assignments of materials, and of variants. */
+#include "base/hash.h"
+#include "bind/look.h"
+
+static const char *text_of(const struct bind_look *look, str_id id)
+{
+    return str_text(look->doc->strings, id);
+}
+
+static const char *category_of(const struct bind_look *look, elem_id element)
+{
+    return text_of(look, doc_element(look->doc, element)->category);
+}
+
+/* ---- Names ---- */
+
+/* The number of a name; adds it. */
+static uint32_t intern_name(struct bind_look *look, const struct slot_name *name, const char *text,
+                            size_t len)
+{
+    uint32_t hash = hash_bytes(text, len);
+    for (uint32_t at = hash, found; (found = table_next(&look->name_table, hash, &at));)
+        if (strcmp(look->names.items[found - 1].text, text) == 0)
+            return found - 1;
+    struct look_name added = {.name = *name, .text = text, .number = look->names.len};
+    vec_push(look->arena, &look->names, added);
+    table_add(&look->name_table, look->arena, hash, look->names.len);
+    return look->names.len - 1;
+}
+
+static bool read_name(struct bind_look *look, elem_id element, struct slot_name *out,
+                      const char **out_text)
+{
+    const struct attribute *slot = doc_attr(look->doc, element, STR_slot);
+    const char *text = slot ? text_of(look, slot->value) : SLOT_DEFAULT;
+    const char *fault = slot_parse(text, strlen(text), out);
+    *out_text = text;
+    if (fault)
+        diag_add(look->diags, DIAG_ID_bad_slot, doc_attr_place(look->doc, element, STR_slot), text,
+                 fault);
+    return !fault;
+}
+
+/* ---- Materials ---- */
+
+void look_report_unknown(struct bind_look *look, elem_id element, str_id attr, const char *what,
+                         enum element_kind kind)
+{
+    const struct document *doc = look->doc;
+    const char *name = text_of(look, doc_attr_value(doc, element, attr)), *near = "";
+    struct diag_guess guess;
+    if (diag_guess_begin(&guess, look->diags, name)) {
+        for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+            if (doc_element(doc, e)->kind == kind
+                && (kind != KIND_NODE || doc_attr_value(doc, e, STR_type) == STR_material))
+                diag_guess_add(&guess, text_of(look, doc_element(doc, e)->name));
+        near = diag_guess_text(&guess);
+    }
+    diag_add(look->diags, DIAG_ID_unknown_assigned, doc_attr_place(doc, element, attr), what, name,
+             near);
+}
+
+static bool is_given(const struct document *doc, elem_id input)
+{
+    return doc_attr(doc, input, STR_value) || doc_attr_value(doc, input, STR_nodename)
+           || doc_attr_value(doc, input, STR_nodegraph) || doc_attr_value(doc, input, STR_output);
+}
+
+/* A material with a shader of another kind and no surface binds beside the stack. */
+static uint8_t kind_of_material(const struct bind_look *look, elem_id material)
+{
+    const struct document *doc = look->doc;
+    bool has_surface = false, has_volume = false, has_light = false;
+    for (elem_id e = doc_element(doc, material)->first_child; e; e = doc_element(doc, e)->next) {
+        str_id type = doc_attr_value(doc, e, STR_type);
+        has_surface |= type == STR_surfaceshader || type == STR_displacementshader;
+        has_volume |= type == STR_volumeshader;
+        has_light |= type == STR_lightshader;
+    }
+    bool is_volume = doc_element(doc, material)->category == STR_volumematerial;
+    if (has_surface)
+        return ASSIGN_LAYER;
+    return has_volume || is_volume ? ASSIGN_VOLUME : has_light ? ASSIGN_LIGHT : ASSIGN_LAYER;
+}
+
+static uint8_t products_of(const struct bind_look *look, elem_id material)
+{
+    const struct document *doc = look->doc;
+    uint8_t products = 0;
+    for (elem_id e = doc_element(doc, material)->first_child; e; e = doc_element(doc, e)->next) {
+        const char *name = text_of(look, doc_element(doc, e)->name);
+        for (unsigned i = 0; i < NUM_PRODUCTS; i++)
+            if (strcmp(name, bind_product_names[i]) == 0 && is_given(doc, e))
+                products |= (uint8_t)(1u << i);
+    }
+    return products;
+}
+
+/* A nodegraph with a material as output; 0: none. */
+static elem_id graph_of_material(const struct document *doc, str_id name)
+{
+    elem_id graph = doc_top_level(doc, KIND_NODEGRAPH, name);
+    for (elem_id e = graph ? doc_element(doc, graph)->first_child : 0; e;
+         e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_OUTPUT
+            && doc_attr_value(doc, e, STR_type) == STR_material)
+            return graph;
+    return 0;
+}
+
+static bool find_material(struct bind_look *look, struct look_assign *assign)
+{
+    const struct document *doc = look->doc;
+    str_id name = doc_attr_value(doc, assign->element, STR_material);
+    if (!name)
+        return true;
+    elem_id found = doc_top_level(doc, KIND_NODE, name);
+    if (found && doc_attr_value(doc, found, STR_type) != STR_material)
+        found = 0;
+    else if (!found)
+        found = graph_of_material(doc, name);
+    if (!found) {
+        look_report_unknown(look, assign->element, STR_material, "material", KIND_NODE);
+        return false;
+    }
+    assign->target = found;
+    assign->kind = kind_of_material(look, found);
+    assign->products = products_of(look, found);
+    return true;
+}
+
+static bool find_graph(struct bind_look *look, struct look_assign *assign)
+{
+    str_id name = doc_attr_value(look->doc, assign->element, STR_nodegraph);
+    if (!name)
+        return true;
+    assign->target = doc_top_level(look->doc, KIND_NODEGRAPH, name);
+    assign->kind = ASSIGN_GRAPH;
+    if (!assign->target)
+        look_report_unknown(look, assign->element, STR_nodegraph, "nodegraph", KIND_NODEGRAPH);
+    return assign->target;
+}
+
+/* A material that makes no layer has no slot but the first. */
+static void move_beside(struct bind_look *look, const struct look_assign *assign,
+                        struct slot_name *name, const char **text)
+{
+    if (strcmp(*text, SLOT_DEFAULT) != 0)
+        diag_add(look->diags, DIAG_ID_beside_slot,
+                 doc_attr_place(look->doc, assign->element, STR_slot),
+                 category_of(look, assign->target), SLOT_DEFAULT);
+    *text = SLOT_DEFAULT;
+    slot_parse(*text, strlen(*text), name);
+}
+
+/* The material or nodegraph; false after an error. */
+static bool read_target(struct bind_look *look, struct look_assign *assign, struct slot_name *name,
+                        const char **text)
+{
+    const struct document *doc = look->doc;
+    elem_id element = assign->element;
+    bool is_override = name->parts[SLOT_OVERRIDE].len,
+         has_material = doc_attr(doc, element, STR_material),
+         has_graph = doc_attr(doc, element, STR_nodegraph);
+    assign->kind = ASSIGN_REMOVAL;
+    if (has_material && has_graph) {
+        diag_add(look->diags, DIAG_ID_assign_both, doc_place(doc, element), "material",
+                 "nodegraph");
+        return false;
+    }
+    if (has_graph && !is_override) {
+        diag_add(look->diags, DIAG_ID_override_needed, doc_attr_place(doc, element, STR_nodegraph),
+                 *text, *text);
+        return false;
+    }
+    if (!has_material && !has_graph)
+        diag_add(look->diags, DIAG_ID_assign_nothing, doc_place(doc, element), *text);
+    if (!(has_graph ? find_graph(look, assign) : find_material(look, assign)))
+        return false;
+    if (is_override && assign->target && !has_graph)
+        assign->kind = ASSIGN_LAYER;
+    if (assign->kind == ASSIGN_VOLUME || assign->kind == ASSIGN_LIGHT)
+        move_beside(look, assign, name, text);
+    return true;
+}
+
+/* ---- Places ---- */
+
+/* Where it stands: a list of geometry, or a collection; false after an error. */
+static bool read_place(struct bind_look *look, struct look_assign *assign)
+{
+    const struct document *doc = look->doc;
+    elem_id element = assign->element;
+    str_id geom = doc_attr_value(doc, element, STR_geom),
+           collection = doc_attr_value(doc, element, STR_collection);
+    if (geom && collection) {
+        diag_add(look->diags, DIAG_ID_assign_both, doc_place(doc, element), "geom", "collection");
+        return false;
+    }
+    if (!geom && !collection)
+        diag_add(look->diags, DIAG_ID_assign_nowhere, doc_place(doc, element));
+    if (geom)
+        look_read_geometry(
+            look, element, STR_geom,
+            (struct look_matcher){.owner = look->assigns.len, .kind = MATCHER_ASSIGN});
+    if (collection)
+        assign->collection = look_read_collection(look, collection, element, STR_collection);
+    return !collection || assign->collection;
+}
+
+static void read_exclusive(struct bind_look *look, struct look_assign *assign, bool is_override)
+{
+    const struct attribute *attr = doc_attr(look->doc, assign->element, STR_exclusive);
+    if (!attr || attr->value != STR_false)
+        return;
+    assign->is_shared = assign->target && !is_override;
+    if (!assign->is_shared)
+        diag_add(look->diags, DIAG_ID_useless_exclusive,
+                 doc_attr_place(look->doc, assign->element, STR_exclusive),
+                 is_override ? "an override" : "a removal");
+}
+
+void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal)
+{
+    const struct document *doc = look->doc;
+    struct look_assign assign = {.element = element,
+                                 .look = doc_element(doc, element)->parent,
+                                 .ordinal = ordinal,
+                                 .first_variant = look->variants.len};
+    struct slot_name name;
+    const char *text;
+    bool good = read_name(look, element, &name, &text);
+    good = good && read_target(look, &assign, &name, &text);
+    if (!good)
+        return;
+    read_exclusive(look, &assign, name.parts[SLOT_OVERRIDE].len);
+    for (elem_id e = doc_element(doc, element)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_VARIANTASSIGN)
+            look_read_variant(look, e);
+    assign.num_variants = look->variants.len - assign.first_variant;
+    /* last, because the matcher names the assignment */
+    if (!read_place(look, &assign))
+        return;
+    assign.name = intern_name(look, &name, text, strlen(text));
+    vec_push(look->arena, &look->assigns, assign);
+}
+
+void look_read_variant(struct bind_look *look, elem_id element)
+{
+    const struct document *doc = look->doc;
+    str_id set_name = doc_attr_value(doc, element, STR_variantset),
+           name = doc_attr_value(doc, element, STR_variant);
+    elem_id set = doc_top_level(doc, KIND_VARIANTSET, set_name);
+    if (!set) {
+        look_report_unknown(look, element, STR_variantset, "variantset", KIND_VARIANTSET);
+        return;
+    }
+    elem_id variant = doc_child_of_kind(doc_layer(doc, set), set, KIND_VARIANT, name);
+    if (!variant)
+        look_report_unknown(look, element, STR_variant, "variant", KIND_VARIANT);
+    else
+        vec_push(look->arena, &look->variants, (struct look_variant){set, variant});
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Binding: the layers of each primitive of a scene under a look (docs/slots.md).
+ *
+ * A walk down the scene keeps, for each matcher of the look, the deepest level where it matched:
+ * a *state*. Primitives with equal states share one, so a scene of many primitives has few. The
+ * layers follow from the state alone. States with equal layers have the same *stack*.
+ *
+ * A *level* counts from the root: 1 is "/", 2 is "/a"; 0 is none. It stands for the path above a
+ * primitive that has so many names.
+ */
+#ifndef MXG_BIND_BIND_H
+#define MXG_BIND_BIND_H
+
+#include "bind/look.h"
+#include "bind/scene.h"
+
+enum item_kind {
+    ITEM_LAYER,
+    ITEM_PRODUCT,  /* a product that the layer before takes from a weaker assignment */
+    ITEM_OVERRIDE, /* of the layer before; a higher one stands behind a lower one */
+    ITEM_VERTICAL, /* over the last ITEM_LAYER; products and overrides of its own follow */
+    ITEM_VOLUME,   /* beside the stack */
+    ITEM_LIGHT,
+};
+
+struct bind_item {
+    uint32_t assign, level;
+    uint8_t kind;    /* enum item_kind */
+    uint8_t product; /* ITEM_PRODUCT: enum bind_product */
+};
+
+struct bind_entry {
+    uint32_t matcher, level;
+};
+
+struct bind_state {
+    uint32_t first_entry, num_entries; /* sorted by matcher */
+    uint32_t first_item, num_items;    /* base first */
+    uint32_t stack;
+    prim_id first_prim; /* 0: no primitive has it */
+};
+
+struct bind_stack {
+    uint32_t state; /* one with its items */
+    uint32_t num_prims;
+    uint64_t hash; /* of the content: names, materials, variants; the same on every machine */
+};
+
+struct bindings {
+    struct arena *arena;
+    const struct scene *scene;
+    struct bind_look look;
+    VEC(struct bind_entry) entries;
+    VEC(struct bind_state) states;
+    VEC(struct bind_item) items;
+    VEC(struct bind_stack) stacks;
+    struct table stack_table;
+    uint32_t *state_of; /* by primitive */
+};
+
+struct bind_options {
+    const char *const *solo, *const *mute; /* names of slots, layers or overrides */
+    size_t num_solo, num_mute;
+};
+
+/*
+ * Binds a look, which look_choose gives, to a scene. The arena keeps the result; `scratch` may be
+ * freed afterwards, and the scene must stay. Call bindings_finish in the end, after a jump out of
+ * memory, too.
+ */
+void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
+                  const struct scene *scene, const struct bind_options *options,
+                  struct arena *arena, struct arena *scratch, struct diag_list *diags);
+void bindings_finish(struct bindings *b);
+
+/* The state of a primitive, and the path above it (or its own) at a level. */
+static inline const struct bind_state *bind_state_of(const struct bindings *b, prim_id prim)
+{
+    return &b->states.items[b->state_of[prim]];
+}
+prim_id bind_prim_at(const struct bindings *b, prim_id prim, uint32_t level);
+
+/* ---- stand.c: which assignments stand where, in a state ---- */
+
+struct stand {
+    uint32_t name, level, assign;
+};
+struct stands { /* zero at first; serves one state after the other */
+    struct stand *items;
+    uint32_t len, cap;
+    struct arena *scratch;
+    uint32_t *levels; /* of the collections */
+    /* for assignments at one path */
+    VEC(struct stand) rest;
+    VEC(uint32_t) behind;
+};
+/*
+ * The assignments that stand at a primitive of the state, sorted: by name, then the stronger first.
+ */
+void bind_stands(const struct bindings *b, const struct bind_state *state, struct stands *out);
+/* True if an exclusion of the collection holds the primitives of a state. */
+bool bind_is_excluded(const struct bindings *b, const struct bind_state *state,
+                      uint32_t collection);
+
+/* ---- stack.c: the layers of a state ---- */
+
+/* What the layers of all states say together, for warnings. */
+struct layer_notes {
+    uint32_t *sleeps_at; /* by name: 1 + a state where it sleeps */
+    bool *has_layer;     /* by layer number: a state has it */
+};
+/* Fills the items and the stack of a state. */
+void bind_layers(struct bindings *b, uint32_t state, struct stands *stands,
+                 struct layer_notes *notes);
+/* The variants that apply to an assignment's material, in order; a later one wins. */
+struct variant_list {
+    struct look_variant *items;
+    uint32_t len, cap;
+};
+void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *arena,
+                   struct variant_list *out);
+
+/* ---- explain.c, report.c ---- */
+
+/* Writes why each assignment that was considered for a primitive won, lost, removes or sleeps. */
+void bind_explain(const struct bindings *b, prim_id prim, struct arena *scratch, struct text *out);
+
+/*
+ * Writes reports in pieces: whenever `out` is long, bind_flush may empty it.
+ */
+struct bind_writer {
+    const struct bindings *b;
+    struct text *out;
+    struct arena *scratch;
+    void (*flush)(void *user_data, struct text *out); /* may empty `out` */
+    void *user_data;
+    bool colour;
+    struct text path, name; /* of the item at hand */
+};
+/* Sets up a writer for the functions below; the members before `path` are the caller's. */
+void bind_writer_init(struct bind_writer *writer);
+void bind_write_table(struct bind_writer *writer);
+void bind_write_json(struct bind_writer *writer);
+
+#endif

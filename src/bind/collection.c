@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Collections, and lists of geometry. */
+#include "base/hash.h"
+#include "bind/look.h"
+
+#include <assert.h>
+
+static const char *text_of(const struct bind_look *look, str_id id)
+{
+    return str_text(look->doc->strings, id);
+}
+
+/* ---- Lists of geometry ---- */
+
+struct list {
+    struct bind_look *look;
+    elem_id element;
+    str_id attr;
+    const char *prefix;
+    uint32_t matcher; /* 1 + number; 0: the list was empty so far */
+};
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+static void report_prefixed(const struct list *list, const char *name, const char *whole)
+{
+    diag_add(list->look->diags, DIAG_ID_prefixed_name,
+             doc_attr_place(list->look->doc, list->element, list->attr), name, list->prefix, whole);
+}
+
+/* The prefix is joined as plain text, before the pattern is read. */
+static void read_geometry_name(struct list *list, struct look_matcher matcher, const char *text,
+                               size_t len)
+{
+    struct bind_look *look = list->look;
+    struct text whole;
+    text_init(&whole, look->arena);
+    text_str(&whole, list->prefix);
+    text_mem(&whole, text, len);
+    if (*list->prefix && *text == '/')
+        report_prefixed(list, arena_strndup(look->arena, text, len), text_cstr(&whole));
+    if (!list->matcher) {
+        vec_push(look->arena, &look->matchers, matcher);
+        list->matcher = look->matchers.len;
+    }
+    const char *fault =
+        pattern_add(&look->patterns, text_cstr(&whole), whole.len, list->matcher - 1);
+    if (fault)
+        diag_add(look->diags, DIAG_ID_bad_pattern,
+                 doc_attr_place(look->doc, list->element, list->attr), text_cstr(&whole), fault);
+}
+
+uint32_t look_read_geometry(struct bind_look *look, elem_id element, str_id attr,
+                            struct look_matcher matcher)
+{
+    struct list list = {look, element, attr, .prefix = ""};
+    str_id prefix = doc_inherited_attr(look->doc, element, STR_geomprefix);
+    list.prefix = text_of(look, prefix);
+    for (const char *text = text_of(look, doc_attr_value(look->doc, element, attr)); *text;) {
+        const char *end = pattern_name_end(text), *last = end;
+        while (text < last && is_blank(*text))
+            text++;
+        while (text < last && is_blank(last[-1]))
+            last--;
+        if (text < last)
+            read_geometry_name(&list, matcher, text, (size_t)(last - text));
+        text = end + (*end == ',');
+    }
+    return list.matcher;
+}
+
+/* ---- Collections ---- */
+
+/* A collection whose nested ones are being read. */
+struct step {
+    elem_id element;
+    const char *rest; /* of its includecollection */
+    uint32_t number;  /* in `collections`, once it is read */
+    VEC(uint32_t) nested;
+};
+
+struct steps {
+    struct step *items;
+    uint32_t len, cap;
+};
+
+/* Its number from 1; 0: it is not read yet. */
+static uint32_t find_read(const struct bind_look *look, elem_id element)
+{
+    uint32_t hash = hash_pair(element, 0);
+    for (uint32_t at = hash, found; (found = table_next(&look->collection_table, hash, &at));)
+        if (look->collections.items[found - 1].element == element)
+            return found;
+    return 0;
+}
+
+static void report_cycle(struct bind_look *look, const struct steps *steps, elem_id again)
+{
+    struct text path;
+    text_init(&path, look->arena);
+    uint32_t i = steps->len;
+    while (steps->items[--i].element != again)
+        continue;
+    for (; i < steps->len; i++)
+        text_fmt(&path, "%s -> ",
+                 text_of(look, doc_element(look->doc, steps->items[i].element)->name));
+    const char *name = text_of(look, doc_element(look->doc, again)->name);
+    text_str(&path, name);
+    diag_add(look->diags, DIAG_ID_collection_cycle,
+             doc_attr_place(look->doc, vec_last(steps).element, STR_includecollection), name,
+             text_cstr(&path));
+}
+
+static bool is_open(const struct steps *steps, elem_id element)
+{
+    for (uint32_t i = 0; i < steps->len; i++)
+        if (steps->items[i].element == element)
+            return true;
+    return false;
+}
+
+static void enter(struct bind_look *look, struct steps *steps, elem_id element)
+{
+    const char *nested = text_of(look, doc_attr_value(look->doc, element, STR_includecollection));
+    vec_push(look->arena, steps, (struct step){.element = element, .rest = nested});
+}
+
+/* The last step has all its nested collections: adds it, and gives its number to its user. */
+static uint32_t leave(struct bind_look *look, struct steps *steps)
+{
+    struct step *step = &vec_last(steps);
+    struct look_collection added = {
+        .element = step->element, .first_nested = look->nested.len, .num_nested = step->nested.len};
+    uint32_t number = look->collections.len;
+    for (uint32_t i = 0; i < step->nested.len; i++)
+        vec_push(look->arena, &look->nested, step->nested.items[i]);
+    added.include = look_read_geometry(look, step->element, STR_includegeom,
+                                       (struct look_matcher){number, MATCHER_INCLUDE});
+    added.exclude = look_read_geometry(look, step->element, STR_excludegeom,
+                                       (struct look_matcher){number, MATCHER_EXCLUDE});
+    vec_push(look->arena, &look->collections, added);
+    table_add(&look->collection_table, look->arena, hash_pair(step->element, 0), number + 1);
+    (void)vec_pop(steps);
+    if (steps->len)
+        vec_push(look->arena, &vec_last(steps).nested, number);
+    return number + 1;
+}
+
+/* The next name of the last step's list. */
+static void read_nested(struct bind_look *look, struct steps *steps)
+{
+    struct step *step = &vec_last(steps);
+    step->rest += strspn(step->rest, ", \t\n");
+    size_t len = strcspn(step->rest, ", \t\n");
+    str_id name = len ? str_find(look->doc->strings, step->rest, len) : 0;
+    elem_id element = name ? doc_top_level(look->doc, KIND_COLLECTION, name) : 0;
+    step->rest += len;
+    uint32_t read = element ? find_read(look, element) : 0;
+    if (len && !element)
+        look_report_unknown(look, step->element, STR_includecollection, "collection",
+                            KIND_COLLECTION);
+    else if (read)
+        vec_push(look->arena, &step->nested, read - 1);
+    else if (element && is_open(steps, element))
+        report_cycle(look, steps, element);
+    else if (element)
+        enter(look, steps, element);
+}
+
+uint32_t look_read_collection(struct bind_look *look, str_id name, elem_id user, str_id attr)
+{
+    elem_id element = doc_top_level(look->doc, KIND_COLLECTION, name);
+    if (!element) {
+        look_report_unknown(look, user, attr, "collection", KIND_COLLECTION);
+        return 0;
+    }
+    uint32_t number = find_read(look, element);
+    struct steps steps = {0};
+    if (!number)
+        enter(look, &steps, element);
+    while (steps.len) {
+        if (vec_last(&steps).rest[strspn(vec_last(&steps).rest, ", \t\n")])
+            read_nested(look, &steps);
+        else
+            number = leave(look, &steps);
+    }
+    assert(number);
+    return number;
+}
+
+void look_close_collections(struct bind_look *look)
+{
+    uint32_t num = look->collections.len, words = (num + 63) / 64;
+    size_t size = (size_t)num * words;
+    if (!num)
+        return;
+    look->contains.items = ARENA_ARRAY(look->arena, uint64_t, size);
+    for (uint32_t i = 0; i < num; i++) {
+        const struct look_collection *c = &look->collections.items[i];
+        uint64_t *own = look->contains.items + (size_t)i * words;
+        for (uint32_t n = 0; n < c->num_nested; n++) {
+            uint32_t inner = look->nested.items[c->first_nested + n];
+            assert(inner < i);
+            own[inner / 64] |= (uint64_t)1 << inner % 64;
+            for (uint32_t w = 0; w < words; w++)
+                own[w] |= look->contains.items[(size_t)inner * words + w];
+        }
+    }
+}

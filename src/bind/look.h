@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A look for binding: its assignments with those of its parents, their names in the order of the
+ * layers, and everything that says where they stand.
+ */
+#ifndef MXG_BIND_LOOK_H
+#define MXG_BIND_LOOK_H
+
+#include "bind/name.h"
+#include "bind/pattern.h"
+#include "document/document.h"
+
+/* The products of a material that `exclusive` takes from a weaker assignment. */
+enum bind_product {
+#define PRODUCT(id, word) PRODUCT_##id,
+#include "bind/products.def"
+#undef PRODUCT
+    NUM_PRODUCTS
+};
+extern const char *const bind_product_names[NUM_PRODUCTS];
+
+enum assign_kind {
+    ASSIGN_REMOVAL,
+    ASSIGN_LAYER,  /* a material that makes a layer; of an override, the material */
+    ASSIGN_GRAPH,  /* a nodegraph, of an override */
+    ASSIGN_VOLUME, /* a material that binds beside the stack */
+    ASSIGN_LIGHT,
+};
+
+/* A name that the assignments of a look have. */
+struct look_name {
+    struct slot_name name;
+    const char *text;               /* "050::010" */
+    uint32_t ranks[NUM_SLOT_PARTS]; /* by the slotorder; UINT32_MAX: not in it */
+    uint32_t number;                /* as it was met */
+    uint32_t slot, layer;           /* numbers, equal for names of one slot, of one layer */
+    bool is_muted;
+};
+
+struct look_assign {
+    elem_id element, look;
+    uint32_t ordinal;    /* in its look, from 1 */
+    uint32_t name;       /* index in `names` */
+    elem_id target;      /* the material or nodegraph; 0: a removal */
+    uint32_t collection; /* 1 + index; 0: it has a geom, or stands nowhere */
+    uint32_t first_variant, num_variants;
+    uint8_t kind;     /* enum assign_kind */
+    uint8_t products; /* bits of enum bind_product: the inputs that the material has */
+    bool is_shared;   /* exclusive="false" */
+};
+
+struct look_variant {
+    elem_id set, variant;
+};
+
+struct look_collection {
+    elem_id element;
+    uint32_t first_nested, num_nested; /* in `nested` */
+    uint32_t include, exclude;         /* 1 + matcher; 0: none */
+};
+
+/* What a matcher of the patterns says about a path. */
+enum matcher_kind { MATCHER_ASSIGN, MATCHER_INCLUDE, MATCHER_EXCLUDE };
+struct look_matcher {
+    uint32_t owner; /* the assignment or the collection */
+    uint8_t kind;   /* enum matcher_kind */
+};
+
+struct bind_look {
+    const struct document *doc;
+    struct arena *arena;
+    struct diag_list *diags;
+    elem_id element; /* the look */
+    struct pattern_set patterns;
+    VEC(struct look_matcher) matchers;
+    VEC(struct look_assign) assigns; /* a stronger one stands behind a weaker one */
+    VEC(struct look_name) names;     /* sorted: base first; a slot, its overrides, its verticals */
+    struct table name_table;
+    VEC(struct look_collection) collections; /* a nested one stands before its users */
+    VEC(uint32_t) nested;
+    struct table collection_table;
+    VEC(uint64_t) contains;            /* bit sets: the collections in a collection, at any depth */
+    VEC(struct look_variant) variants; /* those of the looks, then those of the assignments */
+    uint32_t num_look_variants;
+    elem_id order; /* the look whose slotorder counts; 0: none */
+    VEC(struct text_word) order_parts;
+};
+
+/*
+ * The look of a name, or the only look of the document for NULL; the default look of a group. 0
+ * after a diagnostic.
+ */
+elem_id look_choose(const struct document *doc, const char *name, struct diag_list *diags);
+
+/*
+ * Reads a look with its parents. Errors leave an assignment out. The arena keeps everything. Call
+ * look_finish in the end.
+ */
+void look_read(struct bind_look *look, const struct document *doc, elem_id element,
+               struct arena *arena, struct diag_list *diags);
+void look_finish(struct bind_look *look);
+
+/* Checks the assignments of every look of a document, each once. */
+void look_check_all(const struct document *doc, struct arena *scratch, struct diag_list *diags);
+
+/* "day/dust", "day/#3" if it has no name. */
+void look_assign_name(const struct bind_look *look, uint32_t assign, struct text *out);
+
+/* True if collection `outer` includes collection `inner`, at any depth. Numbers from 1. */
+static inline bool look_contains(const struct bind_look *look, uint32_t outer, uint32_t inner)
+{
+    uint32_t words = (look->collections.len + 63) / 64;
+    return look->contains.items[(size_t)(outer - 1) * words + (inner - 1) / 64] >> (inner - 1) % 64
+           & 1;
+}
+
+/* ---- Shared by the files of the room that read a look ---- */
+
+/* assign.c: reads one <materialassign>, and one <variantassign>. */
+void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal);
+void look_read_variant(struct bind_look *look, elem_id element);
+/* Reports that the top-level element that an attribute names does not exist. */
+void look_report_unknown(struct bind_look *look, elem_id element, str_id attr, const char *what,
+                         enum element_kind kind);
+
+/* collection.c: the number of a collection, from 1; 0 after a diagnostic at the element's
+ * attribute. */
+uint32_t look_read_collection(struct bind_look *look, str_id name, elem_id user, str_id attr);
+/* Fills `contains`, after all collections are read. */
+void look_close_collections(struct bind_look *look);
+/*
+ * Adds the names of a list of geometry to the patterns, as a new matcher; gives 1 + its number, 0
+ * for an empty list. Reports faults at the attribute.
+ */
+uint32_t look_read_geometry(struct bind_look *look, elem_id element, str_id attr,
+                            struct look_matcher matcher);
+
+/* order.c: reads the slotorder of look->order into `order_parts`, and reports its faults. */
+void look_read_order(struct bind_look *look);
+/* The same, and sorts the names, with warnings about their order. */
+void look_sort_names(struct bind_look *look);
+
+#endif

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bind/scene.h"
+
+#include "base/hash.h"
+
+#include <assert.h>
+
+void scene_init(struct scene *scene, struct arena *arena)
+{
+    *scene = (struct scene){.arena = arena};
+    vec_push(arena, &scene->prims, (struct scene_prim){.name = ""});
+}
+
+static uint32_t child_hash(prim_id parent, const char *name, size_t len)
+{
+    return hash_pair(parent, hash_bytes(name, len));
+}
+
+static prim_id find_hashed(const struct scene *scene, prim_id parent, uint32_t hash,
+                           const char *name, size_t len)
+{
+    for (uint32_t at = hash, found; (found = table_next(&scene->table, hash, &at));) {
+        const struct scene_prim *prim = &scene->prims.items[found];
+        if (prim->parent == parent && prim->name_len == len && memcmp(prim->name, name, len) == 0)
+            return found;
+    }
+    return 0;
+}
+
+prim_id scene_find_child(const struct scene *scene, prim_id parent, const char *name, size_t len)
+{
+    return find_hashed(scene, parent, child_hash(parent, name, len), name, len);
+}
+
+/* Names are short, and a block of an arena is aligned: they share blocks. */
+static const char *keep_name(struct scene *scene, const char *name, size_t len)
+{
+    enum { BLOCK = 1 << 15 };
+    if (len > scene->names_left) {
+        scene->names_left = len > BLOCK ? len : BLOCK;
+        scene->names = arena_alloc(scene->arena, scene->names_left);
+    }
+    char *kept = memcpy(scene->names, name, len);
+    scene->names += len;
+    scene->names_left -= len;
+    return kept;
+}
+
+prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_t len)
+{
+    uint32_t hash = child_hash(parent, name, len);
+    prim_id found = find_hashed(scene, parent, hash, name, len);
+    if (found)
+        return found;
+    prim_id added = scene->prims.len;
+    struct scene_prim prim = {
+        .name = keep_name(scene, name, len), .name_len = (uint32_t)len, .parent = parent};
+    vec_push(scene->arena, &scene->prims, prim);
+    struct scene_prim *above = &scene->prims.items[parent];
+    if (above->last_child)
+        scene->prims.items[above->last_child].next = added;
+    else
+        above->first_child = added;
+    above->last_child = added;
+    table_add(&scene->table, scene->arena, hash, added);
+    return added;
+}
+
+prim_id scene_find(const struct scene *scene, const char *path, size_t len)
+{
+    const char *end = path + len;
+    prim_id prim = 0;
+    while (path < end) {
+        path += *path == '/';
+        const char *slash = memchr(path, '/', (size_t)(end - path));
+        size_t name = (size_t)((slash ? slash : end) - path);
+        prim = scene_find_child(scene, prim, path, name);
+        if (!prim)
+            return 0;
+        path += name;
+    }
+    return prim;
+}
+
+uint32_t scene_depth(const struct scene *scene, prim_id prim)
+{
+    uint32_t depth = 0;
+    for (; prim; prim = scene->prims.items[prim].parent)
+        depth++;
+    return depth;
+}
+
+/* Fills the text from its end, because a primitive knows its parent. */
+void scene_path(const struct scene *scene, prim_id prim, struct text *out)
+{
+    size_t len = 0;
+    if (!prim) {
+        text_char(out, '/');
+        return;
+    }
+    for (prim_id p = prim; p; p = scene->prims.items[p].parent)
+        len += scene->prims.items[p].name_len + 1;
+    text_reserve(out, len);
+    out->len += len;
+    char *end = out->data + out->len;
+    for (prim_id p = prim; p; p = scene->prims.items[p].parent) {
+        end -= scene->prims.items[p].name_len;
+        memcpy(end, scene->prims.items[p].name, scene->prims.items[p].name_len);
+        *--end = '/';
+    }
+}
+
+prim_id scene_next(const struct scene *scene, prim_id prim)
+{
+    if (scene->prims.items[prim].first_child)
+        return scene->prims.items[prim].first_child;
+    while (prim && !scene->prims.items[prim].next)
+        prim = scene->prims.items[prim].parent;
+    return prim ? scene->prims.items[prim].next : 0;
+}
+
+/* ---- Lists of paths ---- */
+
+struct list_reader {
+    struct scene *scene;
+    struct diag_list *diags;
+    const char *file;
+    uint32_t line;
+};
+
+static const char *path_fault(const char *path, const char *end)
+{
+    if (path == end || *path != '/')
+        return "does not begin with '/'";
+    for (; path + 1 < end; path++)
+        if (path[0] == '/' && path[1] == '/')
+            return "has an empty name";
+    return NULL;
+}
+
+static bool check_path(const char *path, const char *end, struct diag_place place,
+                       struct diag_list *diags)
+{
+    const char *fault = path_fault(path, end);
+    if (fault)
+        diag_add(diags, DIAG_ID_bad_path, place,
+                 arena_strndup(diags->arena, path, (size_t)(end - path)), fault);
+    return !fault;
+}
+
+static void add_path(struct scene *scene, const char *path, const char *end)
+{
+    prim_id prim = 0;
+    uint32_t level = 0;
+    bool is_shared = true;
+    while (path < end && path + 1 < end) {
+        const char *name = path + 1, *slash = memchr(name, '/', (size_t)(end - name));
+        size_t len = (size_t)((slash ? slash : end) - name);
+        if (is_shared && level < scene->last.len) {
+            const struct scene_prim *before = &scene->prims.items[scene->last.items[level]];
+            is_shared = before->name_len == len && memcmp(before->name, name, len) == 0;
+        } else {
+            is_shared = false;
+        }
+        if (!is_shared) {
+            scene->last.len = level;
+            vec_push(scene->arena, &scene->last, scene_child(scene, prim, name, len));
+        }
+        prim = scene->last.items[level++];
+        path = name + len;
+    }
+}
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+static void read_line(struct list_reader *r, const char *begin, const char *end)
+{
+    const char *text = begin;
+    while (text < end && is_blank(*text))
+        text++;
+    while (text < end && is_blank(end[-1]))
+        end--;
+    if (text == end || *text == '#')
+        return;
+    struct diag_place place = {r->file, r->line, (uint32_t)(text - begin) + 1,
+                               (uint32_t)(end - text)};
+    if (check_path(text, end, place, r->diags))
+        add_path(r->scene, text, end);
+}
+
+void scene_add_path(struct scene *scene, const char *path, size_t len, struct diag_place place,
+                    struct diag_list *diags)
+{
+    if (check_path(path, path + len, place, diags))
+        add_path(scene, path, path + len);
+}
+
+void scene_read_list(struct scene *scene, const char *file, const char *text, size_t len,
+                     struct diag_list *diags)
+{
+    struct list_reader reader = {.scene = scene, .diags = diags, .file = file};
+    for (const char *end = text + len; text < end;) {
+        const char *newline = memchr(text, '\n', (size_t)(end - text));
+        reader.line++;
+        read_line(&reader, text, newline ? newline : end);
+        text = newline ? newline + 1 : end;
+    }
+}

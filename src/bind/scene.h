@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The primitives of a stage: a tree of paths. Groups are primitives, too.
+ */
+#ifndef MXG_BIND_SCENE_H
+#define MXG_BIND_SCENE_H
+
+#include "base/table.h"
+#include "diag/diag.h"
+
+typedef uint32_t prim_id; /* 0: the root "/", which is no primitive of its own */
+
+struct scene_prim {
+    const char *name;
+    uint32_t name_len;
+    prim_id parent, first_child, last_child, next; /* 0: none */
+};
+
+struct scene {
+    struct arena *arena;          /* owns everything */
+    VEC(struct scene_prim) prims; /* a parent stands before its children */
+    struct table table;           /* (parent, name) → primitive */
+    VEC(prim_id) last; /* the levels of the path that was added last; the next often shares some */
+    char *names;       /* free part of the block of names */
+    size_t names_left;
+};
+
+void scene_init(struct scene *scene, struct arena *arena);
+
+/* The child of this name; adds it if there is none. Keeps `name`, which lives as long as the scene.
+ */
+prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_t len);
+prim_id scene_find_child(const struct scene *scene, prim_id parent, const char *name, size_t len);
+
+/* The primitive at a path, "/a/b"; 0: none. */
+prim_id scene_find(const struct scene *scene, const char *path, size_t len);
+
+/* Writes the path of a primitive: "/a/b"; "/" for 0. */
+void scene_path(const struct scene *scene, prim_id prim, struct text *out);
+/* The number of levels below the root: 0 for 0. */
+uint32_t scene_depth(const struct scene *scene, prim_id prim);
+/* The next primitive in the order of the tree; 0 after the last. Begins with 0. */
+prim_id scene_next(const struct scene *scene, prim_id prim);
+
+/*
+ * Adds the primitive at a path, "/a/b", and those above it. Keeps `path`, which lives as long as
+ * the scene. A fault is reported at the place.
+ */
+void scene_add_path(struct scene *scene, const char *path, size_t len, struct diag_place place,
+                    struct diag_list *diags);
+
+/*
+ * Adds the primitives of a list: one path in each line, blanks around it and empty lines say
+ * nothing, '#' begins a comment line. Adds the paths above each one, too. `file` is the name of the
+ * list for messages.
+ */
+void scene_read_list(struct scene *scene, const char *file, const char *text, size_t len,
+                     struct diag_list *diags);
+
+#endif

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The layers of a state, and the stacks of equal layers. */
+#include "base/hash.h"
+#include "bind/bind.h"
+
+#include <assert.h>
+
+static const struct look_assign *assign_of(const struct bindings *b, const struct stand *stand)
+{
+    return &b->look.assigns.items[stand->assign];
+}
+
+/* ---- Variants ---- */
+
+/* The node that an input is connected to; 0: none. */
+static elem_id connected_node(const struct document *doc, elem_id input)
+{
+    str_id name = doc_attr_value(doc, input, STR_nodename);
+    return name ? doc_top_level(doc, KIND_NODE, name) : 0;
+}
+
+/* A variant set for one node or definition applies to materials whose shaders are such nodes. */
+static bool has_node(const struct document *doc, elem_id material, str_id node, str_id nodedef)
+{
+    for (elem_id e = doc_element(doc, material)->first_child; e; e = doc_element(doc, e)->next) {
+        elem_id shader = connected_node(doc, e);
+        if (shader && (!node || doc_element(doc, shader)->category == node)
+            && (!nodedef || doc_attr_value(doc, shader, STR_nodedef) == nodedef))
+            return true;
+    }
+    return false;
+}
+
+static bool applies(const struct document *doc, elem_id set, elem_id material)
+{
+    str_id node = doc_attr_value(doc, set, STR_node),
+           nodedef = doc_attr_value(doc, set, STR_nodedef);
+    return (!node && !nodedef) || has_node(doc, material, node, nodedef);
+}
+
+static void add_variants(const struct bind_look *look, elem_id material, uint32_t first,
+                         uint32_t num, struct arena *arena, struct variant_list *out)
+{
+    for (uint32_t i = first; i < first + num; i++)
+        if (applies(look->doc, look->variants.items[i].set, material))
+            vec_push(arena, out, look->variants.items[i]);
+}
+
+void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *arena,
+                   struct variant_list *out)
+{
+    const struct look_assign *a = &look->assigns.items[assign];
+    if (!a->target || a->kind == ASSIGN_GRAPH)
+        return;
+    add_variants(look, a->target, 0, look->num_look_variants, arena, out);
+    add_variants(look, a->target, a->first_variant, a->num_variants, arena, out);
+}
+
+/* ---- From stands to items ---- */
+
+static void add_item(struct bindings *b, enum item_kind kind, const struct stand *stand,
+                     unsigned product)
+{
+    struct bind_item item = {stand->assign, stand->level, (uint8_t)kind, (uint8_t)product};
+    vec_push(b->arena, &b->items, item);
+}
+
+/* The products that a layer lacks and a weaker assignment has. */
+static uint8_t add_products(struct bindings *b, const struct stand *weaker, uint8_t had)
+{
+    uint8_t products = assign_of(b, weaker)->products & (uint8_t)~had;
+    for (unsigned i = 0; i < NUM_PRODUCTS; i++)
+        if (products >> i & 1)
+            add_item(b, ITEM_PRODUCT, weaker, i);
+    return had | products;
+}
+
+/*
+ * The layer of one name: the strongest assignment, and products of the next weaker ones as long as
+ * `exclusive` shares them and none removes. A volume or a light binds beside it: it follows the
+ * layer. True if there is a layer.
+ */
+static bool add_layer(struct bindings *b, enum item_kind kind, const struct stand *stands,
+                      uint32_t num)
+{
+    const struct stand *beside[NUM_PRODUCTS] = {NULL};
+    bool has_layer = false;
+    uint8_t had = 0;
+    for (uint32_t i = 0; i < num; i++) {
+        const struct look_assign *a = assign_of(b, &stands[i]);
+        if (a->kind == ASSIGN_REMOVAL)
+            break;
+        if (a->kind != ASSIGN_LAYER) {
+            if (!beside[a->kind - ASSIGN_VOLUME])
+                beside[a->kind - ASSIGN_VOLUME] = &stands[i];
+        } else if (has_layer) {
+            had = add_products(b, &stands[i], had);
+        } else {
+            add_item(b, kind, &stands[i], 0);
+            has_layer = true;
+            had = a->products;
+        }
+        if (!a->is_shared)
+            break;
+    }
+    for (unsigned i = 0; i < 2; i++)
+        if (beside[i])
+            add_item(b, i ? ITEM_LIGHT : ITEM_VOLUME, beside[i], 0);
+    return has_layer;
+}
+
+/* The number of stands of the name that begins the list. */
+static uint32_t num_of_name(const struct stand *stands, uint32_t num)
+{
+    uint32_t n = 1;
+    while (n < num && stands[n].name == stands->name)
+        n++;
+    return n;
+}
+
+/* The slot and the layer that a walk through the names has met last, as 1 + their numbers. */
+struct met {
+    uint32_t slot, layer;
+};
+
+/* True if a name hangs on a slot or a layer that is not there. */
+static bool is_asleep(const struct look_name *name, struct met met)
+{
+    if (name->name.parts[SLOT_OVERRIDE].len)
+        return met.layer != name->layer + 1;
+    return name->name.parts[SLOT_VERTICAL].len && met.slot != name->slot + 1;
+}
+
+/* Adds what one name says in a state: its stands, the strongest first. */
+static void add_name(struct bindings *b, uint32_t state, const struct stand *stands, uint32_t num,
+                     struct met *met, struct layer_notes *notes)
+{
+    const struct look_name *name = &b->look.names.items[stands->name];
+    bool is_override = name->name.parts[SLOT_OVERRIDE].len,
+         is_vertical = name->name.parts[SLOT_VERTICAL].len,
+         has_target = assign_of(b, stands)->target;
+    if (name->is_muted)
+        return;
+    if (is_asleep(name, *met)) {
+        if (has_target)
+            notes->sleeps_at[stands->name] = state + 1;
+        return;
+    }
+    if (is_override) {
+        if (has_target)
+            add_item(b, ITEM_OVERRIDE, stands, 0);
+        return;
+    }
+    if (!add_layer(b, is_vertical ? ITEM_VERTICAL : ITEM_LAYER, stands, num))
+        return;
+    notes->has_layer[name->layer] = true;
+    met->layer = name->layer + 1;
+    if (!is_vertical)
+        met->slot = name->slot + 1;
+}
+
+/* ---- Stacks ---- */
+
+static uint64_t hash_text(uint64_t hash, const char *text)
+{
+    return hash_stable(hash, text, strlen(text) + 1);
+}
+
+static uint64_t hash_item(const struct bindings *b, const struct bind_item *item, uint64_t hash,
+                          struct arena *scratch)
+{
+    const struct bind_look *look = &b->look;
+    const struct look_assign *a = &look->assigns.items[item->assign];
+    const struct document *doc = look->doc;
+    struct variant_list variants = {0};
+    uint8_t kinds[3] = {item->kind, item->product, a->kind};
+    hash = hash_stable(hash, kinds, sizeof kinds);
+    hash = hash_text(hash, look->names.items[a->name].text);
+    hash = hash_text(hash, str_text(doc->strings, doc_element(doc, a->target)->name));
+    bind_variants(look, item->assign, scratch, &variants);
+    for (uint32_t i = 0; i < variants.len; i++) {
+        const struct look_variant *v = &variants.items[i];
+        hash = hash_text(hash, str_text(doc->strings, doc_element(doc, v->set)->name));
+        hash = hash_text(hash, str_text(doc->strings, doc_element(doc, v->variant)->name));
+    }
+    return hash;
+}
+
+static bool are_equal(const struct bind_look *look, const struct bind_item *x,
+                      const struct bind_item *y)
+{
+    const struct look_assign *a = &look->assigns.items[x->assign],
+                             *b = &look->assigns.items[y->assign];
+    if (x->kind != y->kind || x->product != y->product || a->name != b->name
+        || a->target != b->target || a->kind != b->kind || a->num_variants != b->num_variants)
+        return false;
+    for (uint32_t i = 0; i < a->num_variants; i++)
+        if (look->variants.items[a->first_variant + i].variant
+            != look->variants.items[b->first_variant + i].variant)
+            return false;
+    return true;
+}
+
+static bool has_items(const struct bindings *b, const struct bind_stack *stack,
+                      const struct bind_state *state)
+{
+    const struct bind_state *other = &b->states.items[stack->state];
+    bool same = other->num_items == state->num_items;
+    for (uint32_t i = 0; same && i < state->num_items; i++)
+        same = are_equal(&b->look, &b->items.items[other->first_item + i],
+                         &b->items.items[state->first_item + i]);
+    return same;
+}
+
+static uint32_t find_stack(struct bindings *b, uint32_t number, struct arena *scratch)
+{
+    const struct bind_state *state = &b->states.items[number];
+    uint64_t hash = HASH_STABLE_SEED;
+    for (uint32_t i = 0; i < state->num_items; i++)
+        hash = hash_item(b, &b->items.items[state->first_item + i], hash, scratch);
+    uint32_t key = (uint32_t)(hash ^ hash >> 32);
+    for (uint32_t at = key, found; (found = table_next(&b->stack_table, key, &at));)
+        if (has_items(b, &b->stacks.items[found - 1], state))
+            return found - 1;
+    vec_push(b->arena, &b->stacks, (struct bind_stack){.state = number, .hash = hash});
+    table_add(&b->stack_table, b->arena, key, b->stacks.len);
+    return b->stacks.len - 1;
+}
+
+void bind_layers(struct bindings *b, uint32_t number, struct stands *stands,
+                 struct layer_notes *notes)
+{
+    struct bind_state *state = &b->states.items[number];
+    struct met met = {0};
+    state->first_item = b->items.len;
+    bind_stands(b, state, stands);
+    for (uint32_t i = 0, num; i < stands->len; i += num) {
+        num = num_of_name(&stands->items[i], stands->len - i);
+        add_name(b, number, &stands->items[i], num, &met, notes);
+    }
+    state->num_items = b->items.len - state->first_item;
+    state->stack = find_stack(b, number, stands->scratch);
+}

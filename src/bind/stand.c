@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Which assignments stand where, and which of a name is the strongest. */
+#include "bind/bind.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+/* ---- Levels ---- */
+
+/* The level where a matcher matched last; 0: nowhere. */
+static uint32_t level_of(const struct bindings *b, const struct bind_state *state, uint32_t matcher)
+{
+    const struct bind_entry *entries = &b->entries.items[state->first_entry];
+    uint32_t low = 0, high = state->num_entries;
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        if (entries[middle].matcher < matcher)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < state->num_entries && entries[low].matcher == matcher ? entries[low].level : 0;
+}
+
+/* The level of one collection, from those of its nested ones, which stand before it. */
+static uint32_t level_of_collection(const struct bindings *b, const struct bind_state *state,
+                                    uint32_t number, const uint32_t *levels)
+{
+    const struct look_collection *c = &b->look.collections.items[number];
+    if (c->exclude && level_of(b, state, c->exclude - 1))
+        return 0;
+    uint32_t level = c->include ? level_of(b, state, c->include - 1) : 0;
+    for (uint32_t i = 0; i < c->num_nested; i++) {
+        uint32_t nested = b->look.nested.items[c->first_nested + i];
+        assert(nested < number);
+        if (levels[nested] > level)
+            level = levels[nested];
+    }
+    return level;
+}
+
+static const uint32_t *collection_levels(const struct bindings *b, const struct bind_state *state,
+                                         struct stands *work)
+{
+    uint32_t num = b->look.collections.len;
+    if (!work->levels)
+        work->levels = ARENA_ARRAY(work->scratch, uint32_t, num);
+    for (uint32_t i = 0; i < num; i++)
+        work->levels[i] = level_of_collection(b, state, i, work->levels);
+    return work->levels;
+}
+
+/* ---- Strength ---- */
+
+static int compare_stands(const void *a, const void *b)
+{
+    const struct stand *x = a, *y = b;
+    if (x->name != y->name)
+        return x->name < y->name ? -1 : 1;
+    if (x->level != y->level)
+        return x->level > y->level ? -1 : 1;
+    return x->assign > y->assign ? -1 : x->assign < y->assign;
+}
+
+/* True if `a` steps back behind `b` at one path: its collection includes that of `b`. */
+static bool steps_back(const struct bind_look *look, const struct stand *a, const struct stand *b)
+{
+    uint32_t outer = look->assigns.items[a->assign].collection,
+             inner = look->assigns.items[b->assign].collection;
+    return outer && inner && look_contains(look, outer, inner);
+}
+
+/*
+ * Sorts the stands of one name at one path, which are sorted by look and place in the file: again
+ * and again the first of those that step back behind none of the rest.
+ */
+static void sort_by_collections(const struct bind_look *look, struct stand *stands, uint32_t num,
+                                struct stands *work)
+{
+    uint32_t placed = 0;
+    work->rest.len = work->behind.len = 0;
+    for (uint32_t i = 0; i < num; i++) {
+        uint32_t behind = 0;
+        for (uint32_t k = 0; k < num; k++)
+            behind += steps_back(look, &stands[i], &stands[k]);
+        vec_push(work->scratch, &work->rest, stands[i]);
+        vec_push(work->scratch, &work->behind, behind);
+    }
+    while (placed < num) {
+        uint32_t best = 0;
+        while (work->behind.items[best])
+            best++;
+        assert(best < num); /* inclusion has no cycle */
+        stands[placed++] = work->rest.items[best];
+        for (uint32_t i = 0; i < num; i++)
+            work->behind.items[i] -=
+                steps_back(look, &work->rest.items[i], &work->rest.items[best]);
+        work->behind.items[best] = UINT32_MAX / 2; /* it is placed */
+    }
+}
+
+static void sort_stands(const struct bind_look *look, struct stands *stands)
+{
+    if (stands->len > 1)
+        qsort(stands->items, stands->len, sizeof *stands->items, compare_stands);
+    for (uint32_t i = 0, end; i < stands->len; i = end) {
+        uint32_t num_collections = 0;
+        const struct stand *first = &stands->items[i];
+        for (end = i; end < stands->len && stands->items[end].name == first->name
+                      && stands->items[end].level == first->level;
+             end++)
+            num_collections += look->assigns.items[stands->items[end].assign].collection != 0;
+        if (num_collections > 1)
+            sort_by_collections(look, &stands->items[i], end - i, stands);
+    }
+}
+
+static void add_stand(const struct bindings *b, struct stands *out, uint32_t assign, uint32_t level)
+{
+    vec_push(out->scratch, out, (struct stand){b->look.assigns.items[assign].name, level, assign});
+}
+
+void bind_stands(const struct bindings *b, const struct bind_state *state, struct stands *out)
+{
+    const struct bind_look *look = &b->look;
+    const struct bind_entry *entries = &b->entries.items[state->first_entry];
+    out->len = 0;
+    for (uint32_t i = 0; i < state->num_entries; i++) {
+        const struct look_matcher *matcher = &look->matchers.items[entries[i].matcher];
+        if (matcher->kind == MATCHER_ASSIGN)
+            add_stand(b, out, matcher->owner, entries[i].level);
+    }
+    const uint32_t *levels = look->collections.len ? collection_levels(b, state, out) : NULL;
+    for (uint32_t i = 0; levels && i < look->assigns.len; i++) {
+        uint32_t collection = look->assigns.items[i].collection;
+        if (collection && levels[collection - 1])
+            add_stand(b, out, i, levels[collection - 1]);
+    }
+    sort_stands(look, out);
+}
+
+bool bind_is_excluded(const struct bindings *b, const struct bind_state *state, uint32_t collection)
+{
+    const struct look_collection *c = &b->look.collections.items[collection - 1];
+    return c->exclude && level_of(b, state, c->exclude - 1);
+}

@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# mxgen bind as a user runs it; tests/api/rules.def has the rules. Argument: the program.
+mxgen=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+examples=$here/../../examples
+. "$here/common.sh"
+
+bind() { "$mxgen" bind look.mtlx --stage stage.txt "$@"; }
+# Runs Python on the JSON: `d` is the document, `p` its primitives by path.
+json() { # expression
+    python3 -c "import json; d = json.load(open('out')); p = {x['path']: x for x in d['primitives']}; assert $1, d"
+}
+
+cat >materials.mtlx <<'XML'
+<materialx version="1.39">
+  <standard_surface name="SR" type="surfaceshader"/>
+  <surfacematerial name="Clay" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
+  <surfacematerial name="Dust" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
+</materialx>
+XML
+cat >overrides.mtlx <<'XML'
+<materialx version="1.39">
+  <nodegraph name="NG"><constant name="c" type="float"/><output name="base" type="float" nodename="c"/></nodegraph>
+</materialx>
+XML
+cat >look.mtlx <<'XML'
+<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">
+  <xi:include href="materials.mtlx"/>
+  <xi:include href="overrides.mtlx"/>
+  <variantset name="wear"><variant name="old"><input name="base" type="float" value="0.5"/></variant></variantset>
+  <variantset name="other" node="gltf_pbr"><variant name="old"><input name="base" type="float" value="0.5"/></variant></variantset>
+  <look name="day">
+    <variantassign name="v0" variantset="other" variant="old"/>
+    <materialassign name="clay" material="Clay" geom="/set"/>
+    <materialassign slot="000::010" nodegraph="NG" geom="/set/cup"/>
+    <materialassign name="dust" slot="050" material="Dust" geom="//*">
+      <variantassign name="v1" variantset="wear" variant="old"/>
+    </materialassign>
+  </look>
+</materialx>
+XML
+printf '# a stage\n\n  /set/cup/handle\n/set/plate\r\n' >stage.txt
+
+check 'a table' exits 0 bind
+check 'has a row for each primitive' grep -qE '^/set/cup/handle +\(000 Clay\) \(::010 NG\)  \[050 Dust\]$' out
+check 'groups, too' grep -qE '^/set +\[000 Clay\]$' out
+check 'and no colour' eval '! grep -q "$(printf "\033")" out'
+check 'JSON' exits 0 bind --json -
+check 'has the primitives in the order of the scene' json 'list(p) == ["/set", "/set/cup", "/set/cup/handle", "/set/plate"]'
+check 'layers' json '[x["slot"] for x in p["/set/plate"]["layers"]] == ["000", "050"]'
+check 'where they come from' json 'p["/set/plate"]["layers"][0]["from"] == "/set" and p["/set/plate"]["layers"][0]["inherited"] is True'
+check 'their assignment' json 'p["/set"]["layers"][0]["assign"] == "day/clay look.mtlx:8"'
+check 'or its number' json 'p["/set/cup"]["layers"][0]["overrides"][0]["assign"] == "day/#2 look.mtlx:9"'
+check 'overrides' json 'p["/set/cup"]["layers"][0]["overrides"][0]["nodegraph"] == "NG"'
+check 'variants that apply' json 'p["/set/plate"]["layers"][1]["variants"] == [{"variantset": "wear", "variant": "old"}]'
+check 'and no others' json '"variants" not in p["/set/plate"]["layers"][0]'
+check 'stacks' json 'sum(len(s["primitives"]) for s in d["stacks"]) == 4 and all(p[x]["stack"] == s["name"] for s in d["stacks"] for x in s["primitives"])'
+check 'equal layers share a stack' eval 'printf "/set/bowl\n" >>stage.txt; bind --json - >out; json "p[\"/set/bowl\"][\"stack\"] == p[\"/set/plate\"][\"stack\"]"'
+cp out before.json
+# The library of materials changes, the bindings do not.
+sed -i 's/standard_surface/gltf_pbr/; s/<surfacematerial name="Dust"/<!-- more -->\n\n  &/' materials.mtlx
+check 'another library' exits 0 bind --json -
+check 'has the variants of its shaders' json 'p["/set"]["layers"][0]["variants"] == [{"variantset": "other", "variant": "old"}]'
+sed -i 's/gltf_pbr/open_pbr_surface/' materials.mtlx
+check 'a library with other shaders' exits 0 bind --json -
+check 'the same bindings' diff before.json out
+check 'a file' exits 0 bind --json bindings.json
+check 'has the same, and nothing is printed' eval 'diff before.json bindings.json && [ ! -s out ]'
+# An empty stage, an empty stack.
+: >empty.txt
+check 'an empty stage' exits 0 "$mxgen" bind look.mtlx --stage empty.txt --json -
+check 'has no primitives' json 'd == {"primitives": [], "stacks": []}'
+printf '/other/x\n' >other.txt
+check 'without layers' exits 0 "$mxgen" bind look.mtlx --stage other.txt --mute 050 --json -
+check 'layers is an empty list' json 'p["/other/x"]["layers"] == [] and p["/other"]["stack"] == p["/other/x"]["stack"]'
+
+check 'reasons' exits 0 bind --geom /set/cup
+check 'name the winner' eval 'grep -A1 "000::010  nodegraph NG, day/#2 (look.mtlx:9) at /set/cup" out | grep -q "wins: an override"'
+check 'solo' exits 0 bind --solo 050
+check 'shows one slot' eval 'grep -qE "^/set/plate +\[050 Dust\]$" out && grep -qE "^/set +default$" out'
+check 'solo of an override keeps its slot' exits 0 bind --solo 000::010
+check 'and no other' grep -qE '^/set/cup/handle +\(000 Clay\) \(::010 NG\)$' out
+check 'mute' exits 0 bind --mute 000
+check 'leaves out a slot and its overrides' eval 'grep -qE "^/set/cup/handle +\[050 Dust\]$" out'
+check 'silently' test ! -s err
+check 'mute of an override' exits 0 bind --mute 000::010
+check 'leaves the slot' grep -qE '^/set/cup/handle +\(000 Clay\)  \[050 Dust\]$' out
+
+# fails ID ARGUMENT...: the command ends with 1 and tells the message.
+fails() { exits 1 "$mxgen" bind "${@:2}" && grep -qF "[$1]" err; }
+check 'an unknown slot' fails unknown-slot look.mtlx --stage stage.txt --solo 051
+check 'is compared' grep -qF "did you mean '050'" err
+check 'no slot at all' fails bad-slot look.mtlx --stage stage.txt --mute 'a b'
+check 'an unknown primitive' fails unknown-primitive look.mtlx --stage stage.txt --geom /set/cap
+check 'is compared, too' grep -qF "did you mean '/set/cup'" err
+check 'an unknown look' fails unknown-look look.mtlx --stage stage.txt --look dya
+check 'a document without a look' fails look-missing materials.mtlx --stage stage.txt
+check 'several looks' eval 'sed "s|</materialx>|<look name=\"night\"/></materialx>|" look.mtlx >two.mtlx; fails look-needed two.mtlx --stage stage.txt'
+check 'are listed' grep -qF 'day, night' err
+printf '/set/a\nset/b\n/set//c\n' >bad.txt
+check 'a path that is none' fails bad-path look.mtlx --stage bad.txt
+check 'with its line' eval 'grep -q "^bad.txt:2:1: error" err && grep -q "^bad.txt:3:1: error" err'
+check 'a stage that is missing' fails file-missing look.mtlx --stage none.txt
+check 'no stage' exits 2 "$mxgen" bind look.mtlx
+check 'a document in the folder of the output' exits 1 bind --json none/out.json
+
+# The example, as docs/slots.md shows it.
+check 'examples/slots.mtlx' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished
+check 'without a warning' test ! -s err
+while read -r row; do
+    check "docs/slots.md: $row" eval 'sed "s/  */ /g" out | grep -qxF "$(sed "s/  */ /g" <<<"$row")"'
+done < <(grep -E '^    /device' "$here/../../docs/slots.md")
+for look in base metal replaced red dirty; do
+    check "its look $look" exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look "$look"
+done
+
+finish bind
