@@ -141,6 +141,7 @@ struct file_source {
     const mxg_resolver *resolver;
     struct arena scratch;    /* owns the texts of source files */
     VEC(const char *) names; /* canonical names of all files, each once */
+    struct table table;      /* their indices + 1 */
     mxg_blob blob;
     bool is_open;    /* the source must release `blob` */
     uint64_t digest; /* hash of the bytes of all files; 0 at the start: no hash */

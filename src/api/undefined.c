@@ -37,7 +37,7 @@ bool generation_is_defined(struct generation *g, const struct ir_graph *graph, c
              str_text(doc->strings, element->category), str_text(doc->strings, element->name));
     if (inner != outer && inner)
         diag_add(diags, DIAG_ID_connected_here, doc_place(doc, inner),
-                  str_text(doc->strings, doc_element(doc, inner)->name));
+                 str_text(doc->strings, doc_element(doc, inner)->name));
     return false;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From the arguments of a node to its results, by the implementation for the target. */
+#include "base/hash.h"
 #include "build/build_priv.h"
 #include "lower/lower.h"
 
@@ -117,17 +118,19 @@ static str_id number_inputs(struct builder *b, const struct implementation *impl
     return str_intern(b->shader->strings, out.data, out.len);
 }
 
-/* The index of the source in the shader, which has each source once. */
-static uint32_t find_verbatim(const struct shader *shader, const struct shader_verbatim *wanted)
+/* The index of the source in the shader, which has each source once; adds it if it is new. */
+static uint32_t find_verbatim(struct shader *shader, const struct shader_verbatim *wanted)
 {
-    uint32_t i = 0;
-    for (; i < shader->verbatim.len; i++) {
-        const struct shader_verbatim *have = &shader->verbatim.items[i];
+    uint32_t hash = hash_pair(hash_pair(wanted->source, wanted->function), wanted->expression);
+    for (uint32_t at = hash, found; (found = table_next(&shader->verbatim_table, hash, &at));) {
+        const struct shader_verbatim *have = &shader->verbatim.items[found - 1];
         if (have->source == wanted->source && have->function == wanted->function
             && have->expression == wanted->expression)
-            break;
+            return found - 1;
     }
-    return i;
+    vec_push(shader->arena, &shader->verbatim, *wanted);
+    table_add(&shader->verbatim_table, shader->arena, hash, shader->verbatim.len);
+    return shader->verbatim.len - 1;
 }
 
 /* Reports outputs that verbatim source cannot compute. */
@@ -164,11 +167,8 @@ static uint32_t verbatim_of(struct builder *b, const struct implementation *impl
     } else if (!(v.expression = number_inputs(b, impl, source->source))) {
         return LIBRARY_NONE;
     }
-    uint32_t index = find_verbatim(b->shader, &v);
-    if (index < b->shader->verbatim.len)
-        return index;
-    vec_push(b->arena, &b->shader->verbatim, v);
-    for (uint32_t i = 0; i < v.num_results; i++)
+    uint32_t num_known = b->shader->verbatim.len, index = find_verbatim(b->shader, &v);
+    for (uint32_t i = 0; index == num_known && i < v.num_results; i++)
         vec_push(b->arena, &b->shader->result_types, library_type_ir(b->lib, outputs[i].type));
     return index;
 }

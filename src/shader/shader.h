@@ -224,6 +224,7 @@ struct shader {
     VEC(struct shader_light) lights;
     VEC(uint32_t) light_members;
     VEC(struct shader_verbatim) verbatim;
+    struct table verbatim_table;  /* its indices + 1 */
     VEC(ir_type_id) result_types; /* of verbatim functions */
     /* used variables, block by block, in the order of their layout */
     VEC(uint32_t) interface;
@@ -232,6 +233,7 @@ struct shader {
     struct table names;                    /* names to variables + 1: interface.c */
     struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
     VEC(struct shader_binding) bindings;
+    struct table binding_table; /* by name, to indices + 1 */
     /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];
     struct shader_stage stages[NUM_STAGES];

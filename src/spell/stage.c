@@ -177,17 +177,26 @@ void spell_title(struct spell *spell)
     write_plural(spell->out, textures, "texture");
 }
 
+/* True the first time; adds the text. */
+static bool is_first(struct table *seen, struct arena *arena, str_id text)
+{
+    uint32_t hash = hash_pair(text, 0), at = hash, found;
+    while ((found = table_next(seen, hash, &at)) && found != text) {
+    }
+    if (!found)
+        table_add(seen, arena, hash, text);
+    return !found;
+}
+
 void spell_verbatim_sources(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
+    struct table written = {0};
     spell->verbatim_begin = spell->out->len;
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
         assert(spell->stage->verbatim.items[i] < shader->verbatim.len);
         str_id source = shader->verbatim.items[spell->stage->verbatim.items[i]].source;
-        bool written = source == 0;
-        for (uint32_t j = 0; j < i && !written; j++)
-            written = shader->verbatim.items[spell->stage->verbatim.items[j]].source == source;
-        if (written)
+        if (!source || !is_first(&written, spell->scratch, source))
             continue;
         spell_text(spell, str_text(shader->strings, source));
         spell_text(spell, "\n");
