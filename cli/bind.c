@@ -11,7 +11,7 @@
 
 struct bind {
     struct cli cli;
-    const char *look, *stage, *json, *geom;
+    const char *look, *stage, *json, *geom, *purpose;
     struct arg_list solo, mute;
 };
 
@@ -102,7 +102,7 @@ static void bind_file(struct bind *bind, const char *path)
     mxg_document *document = cli_load(&bind->cli, path);
     if (!document)
         return;
-    mxg_status status = mxg_scene_load(bind->cli.context, bind->stage, &scene);
+    mxg_status status = mxg_scene_load(bind->cli.context, bind->stage, bind->purpose, &scene);
     if (scene)
         report_list(&bind->cli.report, mxg_scene_diagnostics(scene));
     if (report_status(&bind->cli.report, status))
@@ -116,8 +116,10 @@ int command_bind(const struct command *command, int argc, char **argv)
     struct bind bind = {0};
     const struct arg args[] = {
         {"look", 0, ARG_TEXT, "LOOK", "a look, or a look group with a default", &bind.look},
-        {"stage", 0, ARG_TEXT, "FILE", "the primitives: a list of paths, one in each line",
-         &bind.stage},
+        {"stage", 0, ARG_TEXT, "FILE",
+         "the primitives: a list of paths, one in each line, or a flattened .usda", &bind.stage},
+        {"purpose", 0, ARG_TEXT, "full|preview",
+         "also takes the bindings of the stage for this purpose", &bind.purpose},
         {"json", 0, ARG_TEXT, "FILE", "writes the layers of all primitives as JSON; '-': prints it",
          &bind.json},
         {"geom", 0, ARG_TEXT, "PATH", "explains the layers of one primitive", &bind.geom},

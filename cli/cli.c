@@ -21,6 +21,9 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
          &cli->library_paths, ARG_COMMON},
         {"no-builtin-library", 0, ARG_FLAG, NULL, "does not load the built-in library",
          &cli->no_builtin_library, ARG_COMMON},
+        {"source-path", 0, ARG_LIST, "DIR",
+         "another folder to search for the source files of implementations", &cli->source_paths,
+         ARG_COMMON},
         {"max-memory", 0, ARG_SIZE, "BYTES", "limit of memory (default: none)", &cli->max_memory,
          ARG_LIMITS},
         {"max-file-size", 0, ARG_SIZE, "MIB", "limit of the size of an input file (default: 256)",
@@ -96,6 +99,8 @@ static bool create_context(struct cli *cli)
     desc.sandbox = cli->sandbox;
     desc.include_roots = cli->include_roots.items;
     desc.num_include_roots = cli->include_roots.len;
+    desc.source_paths = cli->source_paths.items;
+    desc.num_source_paths = cli->source_paths.len;
     char *warnings = warnings_join(&cli->warnings);
     desc.warnings = warnings;
     mxg_status status = mxg_context_create(&desc, &cli->context);
@@ -197,6 +202,7 @@ void cli_finish(struct cli *cli)
     free(cli->library_paths.items);
     free(cli->warnings.items);
     free(cli->include_roots.items);
+    free(cli->source_paths.items);
     args_finish(&cli->parser);
 }
 

@@ -35,6 +35,7 @@ struct cli {
     const char *help;         /* the word after --help; NULL: no --help */
     struct arg_list warnings; /* words of -W */
     struct arg_list include_roots;
+    struct arg_list source_paths;
     bool trust, sandbox;
     size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors,
         max_depth, max_include_depth, max_includes;

@@ -3,12 +3,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-install_missing_packages() {
+install_missing_packages() { # [FURTHER_LIST...]
     local missing=() package
     command -v dpkg >/dev/null || return 0 # not Debian: the user installs the packages
     while read -r package; do
         dpkg -s "$package" >/dev/null 2>&1 || missing+=("$package")
-    done < <(sed 's/#.*//; /^[[:space:]]*$/d' script/packages.txt)
+    done < <(sed 's/#.*//; /^[[:space:]]*$/d' script/packages.txt "$@")
     [ ${#missing[@]} -gt 0 ] || return 0
     echo "installing ${missing[*]}" >&2
     local root=()

@@ -19,7 +19,8 @@ enum opcode {
 };
 enum decoration { LOCATION = 30, BINDING = 33, DESCRIPTOR_SET = 34 };
 enum storage { UNIFORM_CONSTANT = 0, INPUT = 1, UNIFORM = 2, OUTPUT = 3, STORAGE_BUFFER = 12 };
-enum { HEADER = 5, MAGIC = 0x07230203, ABSENT = UINT32_MAX };
+enum { HEADER = 5, MAGIC = 0x07230203 };
+#define ABSENT UINT32_MAX
 
 struct id {                          /* a result of the module */
     uint32_t of;                     /* a pointer's or array's type */

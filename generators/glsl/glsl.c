@@ -47,5 +47,6 @@ const struct target target_glsl = {
     .versions = versions,
     .syntax = &glsl_syntax,
     .frame = &glsl_frame,
+    .source = &glsl_source,
     .stage_suffix = {"vert", "frag"},
 };

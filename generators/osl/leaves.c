@@ -377,9 +377,37 @@ static ir_ref medium(struct osl_tree *t, ir_ref leaf)
     return osl_call(t, "anisotropic_vdf", IR_TYPE_VDF, args, 3);
 }
 
+/* A leaf in source: an expression or function whose operands and result are closures of OSL. */
+static ir_ref source_leaf(struct osl_tree *t, ir_ref ref)
+{
+    struct ir_graph *g = t->graph;
+    const struct source_leaf source = *closure_source(t->shader, ref);
+    const struct ir_node node = *ir_get(g, ref);
+    assert(source.convention == SOURCE_NATIVE);
+    const struct shader_verbatim *verbatim = &t->shader->verbatim.items[source.verbatim[0]];
+    ir_ref *args = ARENA_ARRAY(t->shader->arena, ir_ref, node.num_args);
+    for (unsigned i = 1; i < node.num_args; i++) {
+        ir_ref arg = ir_arg(g, ref, i);
+        bool is_closure = ir_type_is_closure(source.operand_types[i - 1]);
+        ir_ref closure = is_closure && arg ? t->of[arg] : 0;
+        if (is_closure)
+            arg = closure ? closure : osl_emission(t, ir_const_splat(g, IR_TYPE_VEC3, 0.0f));
+        args[i - 1] = arg;
+    }
+    uint32_t callee = ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                                          .index = source.verbatim[0],
+                                                          .name = g->callees.items[node.attr].name,
+                                                          .derivative = source.has_derivatives});
+    ir_type_id type = verbatim->function ? IR_TYPE_VOID : node.type;
+    ir_ref call = ir_build(g, IR_VERBATIM, type, callee, args, node.num_args - 1);
+    return verbatim->function ? ir_build(g, IR_RESULT, node.type, 1, &call, 1) : call;
+}
+
 ir_ref osl_leaf(struct osl_tree *t, ir_ref ref)
 {
     const struct ir_node node = *ir_get(t->graph, ref);
+    if (closure_source(t->shader, ref))
+        return source_leaf(t, ref);
     const uint32_t *functions = t->host->leaf_functions(t->host->user_data, node.attr);
     if (functions[LEAF_FACTOR] != LANG_NONE)
         return osl_scaled(t, t->of[ir_arg(t->graph, ref, node.num_args - 1)],

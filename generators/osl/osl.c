@@ -4,6 +4,8 @@
  * (docs/osl.md).
  */
 #include "generators/osl/osl.h"
+
+#include "shader/source.h"
 #include "generators/osl/tree.h"
 
 #include <assert.h>
@@ -33,11 +35,18 @@ static void note_verbatim_types(struct osl *osl, str_id text)
 static void write_declarations(struct osl *osl)
 {
     struct spell *spell = osl->spell;
+    struct source_list sources = {0};
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
-        uint32_t index = spell->stage->verbatim.items[i];
-        note_verbatim_types(osl, spell->shader->verbatim.items[index].source);
-        note_verbatim_types(osl, spell->shader->verbatim.items[index].expression);
+        const struct shader_verbatim *v =
+            &spell->shader->verbatim.items[spell->stage->verbatim.items[i]];
+        for (uint32_t k = 0; k < v->num_sources; k++)
+            shader_collect_sources(spell->shader,
+                                   spell->shader->source_refs.items[v->first_source + k],
+                                   spell->scratch, &sources);
+        note_verbatim_types(osl, v->expression);
     }
+    for (uint32_t i = 0; i < sources.len; i++)
+        note_verbatim_types(osl, spell->shader->sources.items[sources.items[i]].text);
     for (size_t i = 0; i < NUM_STRUCTS; i++)
         if (osl->types >> structs[i].type & 1)
             SPELL(spell, structs[i].text, "\n");

@@ -191,6 +191,12 @@ typedef struct mxg_context_desc {
     bool sandbox;
     const char *const *include_roots; /* folders; num_include_roots of them */
     size_t num_include_roots;
+    /*
+     * Folders to search for the source files of implementations, after the folder of the referring
+     * file and the folders of libraries; num_source_paths of them
+     */
+    const char *const *source_paths;
+    size_t num_source_paths;
 } mxg_context_desc;
 #define MXG_CONTEXT_DESC_INIT MXG_INIT(mxg_context_desc)
 
@@ -558,8 +564,9 @@ typedef struct mxg_variable {
     const char *unittype;
     /* for user interfaces; commas separate names and values */
     const char *uistep, *enum_names, *enum_values;
-    bool advanced; /* uiadvanced */
-    bool flat;     /* not interpolated between vertices */
+    bool advanced;   /* uiadvanced */
+    bool flat;       /* not interpolated between vertices */
+    int32_t integer; /* the exact default of an integer */
 } mxg_variable;
 MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
 MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);
@@ -589,14 +596,40 @@ MXG_API size_t mxg_result_texture_file(const mxg_result *result, uint32_t variab
 MXG_API bool mxg_result_find_variable(const mxg_result *result, const char *path,
                                       uint32_t *out_index);
 
-/* Inputs whose value is compiled in. A new value needs a new generation. */
+/*
+ * Inputs of the document whose value is compiled in. A new value needs an edit (document.h) and a
+ * new generation.
+ */
 typedef struct mxg_compiled_input {
     size_t size; /* in */
-    const char *path, *type, *value;
+    const char *path, *type;
+    const char *value; /* as written: "0.5", "oren_nayar"; "" for zero */
+    bool authored;     /* the document has the value; otherwise it is the default */
+    /* for user interfaces, like those of mxg_variable */
+    bool advanced;
+    const char *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *uistep, *enum_names,
+        *enum_values, *doc;
 } mxg_compiled_input;
 MXG_API uint32_t mxg_result_num_compiled_inputs(const mxg_result *result);
 MXG_API mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t index,
                                              mxg_compiled_input *out);
+
+/* The effect of a new value of an input on a shader. */
+typedef enum mxg_input_state {
+    MXG_INPUT_UNKNOWN,  /* the document has no input of this path */
+    MXG_INPUT_UNUSED,   /* no effect: the shader does not need the input */
+    MXG_INPUT_UNIFORM,  /* a variable has the value: mxg_result_find_variable */
+    MXG_INPUT_COMPILED, /* needs a new generation: mxg_result_compiled_input */
+    /* no value: the input is connected, or its default is a property of the geometry */
+    MXG_INPUT_CONNECTED,
+    MXG_INPUT_STATE_MAX_ENUM = 0x7fffffff
+} mxg_input_state;
+/*
+ * The state of an input of a node ("SR_gold/base_color", whether the document writes the input or
+ * not) or of a nodegraph ("NG_marble/scale"). UNKNOWN also without a shader, and in a network,
+ * whose layers have the inputs as parameters.
+ */
+MXG_API mxg_input_state mxg_result_input_state(const mxg_result *result, const char *path);
 
 /*
  * How a host draws the shader. OPAQUE: without blending. MASK: with the depth test alone; the
@@ -624,6 +657,95 @@ typedef struct mxg_shader_info {
     mxg_alpha alpha;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
+
+/*
+ * The meaning of a variable without a path: space, unit, direction and range (docs/reflection.md
+ * has the table). World space is right-handed, vectors are columns, matrices are stored column by
+ * column, and clip space is that of the host's projectionMatrix.
+ */
+typedef struct mxg_semantic {
+    size_t size; /* in */
+    mxg_block block;
+    /*
+     * mxg_variable.semantic; the name of a member of LightData; "texcoord:*": '*' stands for an
+     * index, the name of a property, or a variant of a matrix
+     */
+    const char *semantic;
+    const char *type; /* "vec3"; "": several */
+    const char *doc;
+} mxg_semantic;
+MXG_API uint32_t mxg_num_semantics(void);
+MXG_API mxg_status mxg_get_semantic(uint32_t index, mxg_semantic *out);
+
+/* ---- Values ---- */
+
+typedef enum mxg_change {
+    MXG_CHANGE_NOTHING, /* the program and its values stay */
+    MXG_CHANGE_VALUES,  /* the program stays; some variables have other values */
+    MXG_CHANGE_SHADER,  /* another program */
+    MXG_CHANGE_MAX_ENUM = 0x7fffffff
+} mxg_change;
+/*
+ * What a host changes to draw `after` in place of `before`, for example after an edit. Both come
+ * from the same target and options; `after` may have no source (without_source). A variable has the
+ * same index in both results, unless the answer is SHADER.
+ *
+ * Writes the indices of the variables with other values, at most `capacity` of them, and returns
+ * their number in *out_num (may be NULL). For a texture, another file, layer, tile, address mode or
+ * colour of the border counts. Paths and texts for user interfaces may differ: take them from
+ * `after`. SHADER also if one of the results has no shader, if the way of drawing differs
+ * (mxg_shader_info), or if the values of a network differ.
+ */
+MXG_API mxg_change mxg_result_change(const mxg_result *before, const mxg_result *after,
+                                     uint32_t *variables, uint32_t capacity, uint32_t *out_num);
+
+/* A block of the interface. Its variables have consecutive indices. */
+typedef struct mxg_block_info {
+    size_t size;      /* in */
+    const char *name; /* "PublicUniforms" */
+    uint32_t first_variable, num_variables;
+    /*
+     * For uniforms in a buffer; 0 if the target or the options declare single uniforms. LightData:
+     * the bytes of the array u_lightData.
+     */
+    uint32_t byte_size;
+    uint32_t set, binding;               /* of the buffer */
+    uint32_t array_length, array_stride; /* LightData: the lights, and their distance in bytes */
+} mxg_block_info;
+MXG_API mxg_status mxg_result_block(const mxg_result *result, mxg_block block, mxg_block_info *out);
+
+/*
+ * Fills a buffer of uniforms with the default values, ready for upload: std140, or the packing of
+ * constant buffers for HLSL. Numbers are 32 bits wide, a boolean is 0 or 1, a matrix has its
+ * columns matrix_stride bytes apart, and bytes between members are 0. Lights are 0. Returns
+ * byte_size of the block; writes nothing if `capacity` is less.
+ */
+MXG_API size_t mxg_result_pack(const mxg_result *result, mxg_block block, void *bytes,
+                               size_t capacity);
+/*
+ * Writes the value of one variable to its place in such a buffer; `element` is the light of a
+ * member of LightData, or the element of an array, else 0. Integers and booleans come as numbers.
+ * MXG_ERROR_ARGUMENT if the variable is in no buffer, the number of values is not that of its type,
+ * or `capacity` is too small.
+ */
+MXG_API mxg_status mxg_result_pack_value(const mxg_result *result, uint32_t variable,
+                                         uint32_t element, const float *values, uint32_t num_values,
+                                         void *bytes, size_t capacity);
+
+/* A light shader of the result: u_lightData[i].type selects it for light i. */
+typedef struct mxg_light_type {
+    size_t size; /* in */
+    int32_t type;
+    const char *name;     /* of its function, or of its node */
+    bool is_shader;       /* made of nodes: also reads the members `position` and `direction` */
+    uint32_t num_members; /* the members of LightData that it reads as its inputs */
+} mxg_light_type;
+MXG_API uint32_t mxg_result_num_light_types(const mxg_result *result);
+MXG_API mxg_status mxg_result_light_type(const mxg_result *result, uint32_t index,
+                                         mxg_light_type *out);
+/* The variable of member `member`. false: there is none, or no stage reads it. */
+MXG_API bool mxg_result_light_member(const mxg_result *result, uint32_t index, uint32_t member,
+                                     uint32_t *out_variable);
 
 /*
  * The variables, inputs and info above as JSON (docs/reflection.md). NULL without a shader or

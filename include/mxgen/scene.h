@@ -24,11 +24,14 @@ MXG_API size_t mxg_slot_decode(const char *identifiers, char *buffer, size_t cap
 /* ---- Scenes ---- */
 
 /*
- * An empty scene, or the scene of a file: a list with one path in each line ('#' begins a comment).
+ * An empty scene, or the scene of a file: a list with one path in each line ('#' begins a comment),
+ * or a USD text layer (.usda), which brings bindings of its own. `purpose` chooses among these:
+ * "full", "preview", or NULL for those of all purposes.
  * *out_scene is set whenever memory allows, also with MXG_ERROR_DOCUMENT: it has the diagnostics.
  */
 MXG_API mxg_status mxg_scene_create(mxg_context *context, mxg_scene **out_scene);
-MXG_API mxg_status mxg_scene_load(mxg_context *context, const char *path, mxg_scene **out_scene);
+MXG_API mxg_status mxg_scene_load(mxg_context *context, const char *path, const char *purpose,
+                                  mxg_scene **out_scene);
 MXG_API void mxg_scene_destroy(mxg_scene *scene);
 /*
  * Adds primitives by their paths, "/set/table", and those above them. MXG_ERROR_DOCUMENT if a path
@@ -56,7 +59,11 @@ MXG_API size_t mxg_scene_path(const mxg_scene *scene, uint32_t index, char *buff
 
 typedef struct mxg_bind_desc {
     size_t size;
-    const char *look; /* a look, or a look group with a default; NULL: the only look */
+    /*
+     * a look, or a look group with a default; NULL: the only look, or just the bindings of the
+     * scene if the document has no look
+     */
+    const char *look;
     /* names that alone count, with all that hangs on them; names that do not count */
     const char *const *solo, *const *mute;
     size_t num_solo, num_mute;

@@ -4,16 +4,7 @@
 in vec3 positionWorld;
 in vec3 normalWorld;
 
-uniform mat4 u_worldInverseTransposeMatrix;
 uniform vec3 u_viewPosition;
-
-// The matrix to object space is what MaterialX's hardware generators use. That of directions, the inverse, differs from
-// it where objects are scaled.
-vec3 mx_viewdirection(string space)
-{
-    vec3 view = positionWorld - u_viewPosition;
-    return normalize(space == "world" ? view : (u_worldInverseTransposeMatrix * vec4(view, 0.0)).xyz);
-}
 
 float mx_facingratio(vec3 viewdirection, vec3 normal, bool faceforward, bool invert)
 {
@@ -27,7 +18,7 @@ vec3 mx_gooch_shade(vec3 warm_color, vec3 cool_color, float specular_intensity, 
 {
     vec3 normal = normalize(normalWorld);
     vec3 light = normalize(light_direction);
-    vec3 mirrored = reflect(mx_viewdirection("world"), normal);
+    vec3 mirrored = reflect(normalize(positionWorld - u_viewPosition), normal);
     float highlight = pow(max(dot(-light, mirrored), 0.0), shininess);
     return mix(warm_color, cool_color, 0.5 + 0.5 * dot(normal, light)) + specular_intensity * highlight;
 }

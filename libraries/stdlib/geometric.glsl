@@ -1,52 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface that is shaded, and changes of space.
-
-in vec3 positionObject;
-in vec3 positionWorld;
-in vec3 normalObject;
-in vec3 normalWorld;
-in vec3 tangentObject;
-in vec3 tangentWorld;
-in vec3 bitangentObject;
-in vec3 bitangentWorld;
-
-uniform mat4 u_worldMatrix;
-uniform mat4 u_worldInverseMatrix;
-uniform mat4 u_worldTransposeMatrix;
-uniform mat4 u_worldInverseTransposeMatrix;
-
-bool mx_is_object(string space)
-{
-    return space == "object" || space == "model";
-}
-
-vec3 mx_transformpoint(vec3 p, string from, string to)
-{
-    if (mx_is_object(from) && to == "world")
-        return (u_worldMatrix * vec4(p, 1.0)).xyz;
-    if (from == "world" && mx_is_object(to))
-        return (u_worldInverseMatrix * vec4(p, 1.0)).xyz;
-    return p;
-}
-
-vec3 mx_transformvector(vec3 v, string from, string to)
-{
-    if (mx_is_object(from) && to == "world")
-        return (u_worldMatrix * vec4(v, 0.0)).xyz;
-    if (from == "world" && mx_is_object(to))
-        return (u_worldInverseMatrix * vec4(v, 0.0)).xyz;
-    return v;
-}
-
-// Normals transform by the inverse transpose, and have unit length.
-vec3 mx_transformnormal(vec3 n, string from, string to)
-{
-    if (mx_is_object(from) && to == "world")
-        return normalize((u_worldInverseTransposeMatrix * vec4(n, 0.0)).xyz);
-    if (from == "world" && mx_is_object(to))
-        return normalize((u_worldTransposeMatrix * vec4(n, 0.0)).xyz);
-    return normalize(n);
-}
+// Normals from textures.
 
 // A texel of zeros is a missing map, and means the normal itself.
 vec3 mx_normalmap(vec3 texel, vec2 scale, vec3 normal, vec3 tangent, vec3 bitangent)

@@ -31,7 +31,7 @@ struct made_text { /* a text in its own block */
     size_t size;
 };
 
-enum { OBJECT_MAX_TEXTS = 2 };
+enum { OBJECT_MAX_TEXTS = 3 };
 
 struct object {
     struct mxg_context *context;
@@ -107,6 +107,8 @@ struct mxg_library {
     const void *image; /* the mapped library image; NULL for a layer from files */
     size_t image_size;
     VEC(const char *) files; /* names of the files that it was read from */
+    /* its folders and those of its base: places of source files, with a '/' at the end */
+    VEC(const char *) folders;
 };
 
 struct mxg_context {
@@ -122,6 +124,7 @@ struct mxg_context {
     bool sandbox;
     enum library_trust trust;   /* for verbatim source in documents */
     struct sandbox_root *roots; /* canonical */
+    struct source_path *source_paths;
     struct mxg_library builtin; /* size 0: this build has no built-in library */
 };
 
@@ -133,6 +136,9 @@ struct mxg_document {
     const char **renderable_paths;
 };
 
+/* target.c: true if mxgen has the target of this MaterialX name. */
+bool target_exists(const char *materialx_name);
+
 /* ---- Files: files.c ---- */
 
 /* The resolver of the context, as an interface for other rooms. */
@@ -143,9 +149,19 @@ struct file_source {
     VEC(const char *) names; /* canonical names of all files, each once */
     struct table table;      /* their indices + 1 */
     mxg_blob blob;
-    bool is_open;    /* the source must release `blob` */
-    uint64_t digest; /* hash of the bytes of all files; 0 at the start: no hash */
+    bool is_open;              /* the source must release `blob` */
+    uint64_t digest;           /* hash of the bytes of all files; 0 at the start: no hash */
+    VEC(const char *) folders; /* of libraries, to search for source files */
 };
+
+/*
+ * files.c: folders to search for source files, from the context's description. false: out of
+ * memory.
+ */
+bool source_path_add(struct mxg_context *context, const char *folder);
+void source_paths_finish(struct mxg_context *context);
+/* The folder of a library, and its parent: libraries name files relative to both. */
+void file_source_add_folder(struct file_source *source, const char *folder);
 
 void file_source_init(struct file_source *source, struct object *object);
 void file_source_finish(struct file_source *source); /* also call this after a jump out of memory */
@@ -223,6 +239,9 @@ const struct option_value *options_for(const struct target *target, const mxg_op
                                        struct arena *arena);
 const struct option_value *options_values(const mxg_options *options); /* as set */
 const char *option_key(enum option_id option);                         /* "interface" */
+/* A hash of all values. */
+uint64_t options_hash(const struct option_value *values);
+
 /* ---- Definitions: library.c ---- */
 
 /* mxg_library_nodedef and mxg_library_port, for the layer of a library or of a document. */

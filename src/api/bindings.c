@@ -28,11 +28,13 @@ static void resolve(void *arg)
                                          .mute = job->desc.mute,
                                          .num_solo = job->desc.num_solo,
                                          .num_mute = job->desc.num_mute};
-    elem_id look = look_choose(doc, job->desc.look, &object->diagnostics.list);
-    if (!look)
+    struct diag_list *diags = &object->diagnostics.list;
+    bool needs_look = job->desc.look || look_exists(doc) || !result->scene->scene.bindings.len;
+    elem_id look = needs_look ? look_choose(doc, job->desc.look, diags) : 0;
+    if (needs_look && !look)
         return;
     bind_resolve(&result->bindings, doc, look, &result->scene->scene, &options, &object->arena,
-                 &job->scratch, &object->diagnostics.list);
+                 &job->scratch, diags);
     result->is_resolved = true;
 }
 
@@ -110,7 +112,7 @@ static mxg_layer describe(const struct bindings *b, prim_id prim, const struct b
     };
     const struct document *doc = b->look.doc;
     const struct look_assign *a = &b->look.assigns.items[item->assign];
-    struct diag_place place = doc_place(doc, a->element);
+    struct diag_place place = look_assign_place(&b->look, a);
     prim_id from = bind_prim_at(b, prim, item->level);
     return (mxg_layer){
         .kind = kinds[item->kind],
@@ -119,8 +121,9 @@ static mxg_layer describe(const struct bindings *b, prim_id prim, const struct b
         .is_nodegraph = a->kind == ASSIGN_GRAPH,
         .product = item->kind == ITEM_PRODUCT ? bind_product_names[item->product] : "",
         .from = from ? from - 1 : UINT32_MAX,
-        .look = str_text(doc->strings, doc_element(doc, a->look)->name),
-        .assign = str_text(doc->strings, doc_element(doc, a->element)->name),
+        .look = a->look ? str_text(doc->strings, doc_element(doc, a->look)->name) : "",
+        .assign = a->binding ? b->scene->bindings.items[a->binding - 1].label
+                             : str_text(doc->strings, doc_element(doc, a->element)->name),
         .file = place.file,
         .line = place.line,
     };

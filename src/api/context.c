@@ -51,6 +51,25 @@ static uint32_t or_default(uint32_t limit, uint32_t standard)
     return limit ? limit : standard;
 }
 
+static bool are_names(const char *const *names, size_t num_names)
+{
+    for (size_t i = 0; i < num_names; i++)
+        if (!names || !names[i])
+            return false;
+    return true;
+}
+
+/* Copies the folders of the description; false: out of memory. */
+static bool take_folders(mxg_context *context, const mxg_context_desc *d)
+{
+    bool is_good = true;
+    for (size_t i = 0; i < d->num_include_roots && is_good; i++)
+        is_good = sandbox_admit_folder(context, d->include_roots[i]);
+    for (size_t i = d->num_source_paths; i-- > 0 && is_good;)
+        is_good = source_path_add(context, d->source_paths[i]);
+    return is_good;
+}
+
 mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_context)
 {
     mxg_context_desc d = MXG_CONTEXT_DESC_INIT;
@@ -60,9 +79,9 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
         || (d.resolver && (!d.resolver->open || !d.resolver->release)))
         return MXG_ERROR_ARGUMENT;
     struct diag_policy policy;
-    for (size_t i = 0; i < d.num_include_roots; i++)
-        if (!d.include_roots || !d.include_roots[i])
-            return MXG_ERROR_ARGUMENT;
+    if (!are_names(d.include_roots, d.num_include_roots)
+        || !are_names(d.source_paths, d.num_source_paths))
+        return MXG_ERROR_ARGUMENT;
     if (diag_policy_parse(&policy, d.warnings ? d.warnings : ""))
         return MXG_ERROR_ARGUMENT;
     struct mem mem;
@@ -91,11 +110,9 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->trust = d.trust     ? LIBRARY_TRUST_ALL
                      : d.sandbox ? LIBRARY_TRUST_GRAPHS
                                  : LIBRARY_TRUST_PORTABLE;
-    for (size_t i = 0; i < d.num_include_roots; i++) {
-        if (!sandbox_admit_folder(context, d.include_roots[i])) {
-            mxg_context_destroy(context);
-            return MXG_ERROR_MEMORY;
-        }
+    if (!take_folders(context, &d)) {
+        mxg_context_destroy(context);
+        return MXG_ERROR_MEMORY;
     }
     xml_startup();
     context->resolver = d.resolver ? *d.resolver : stdio_resolver(context);
@@ -111,5 +128,6 @@ void mxg_context_destroy(mxg_context *context)
     assert(atomic_load(&context->used) >= sizeof *context);
     object_empty(&context->builtin.object);
     sandbox_finish(context);
+    source_paths_finish(context);
     context->mem.realloc(context->mem.user_data, context, sizeof *context, 0);
 }

@@ -6,7 +6,7 @@
 
 struct load {
     mxg_document *document;
-    struct library *base;
+    const mxg_library *base;
     const char *name, *data; /* data NULL: read the file `name` */
     size_t size;
     struct file_source files;
@@ -30,7 +30,10 @@ static void read_layer(void *arg)
     struct diag_list *diags = &document->object.diagnostics.list;
     const struct xml_limits *limits = &document->object.context->xml_limits;
     struct xml_files files = file_source_for_xml(&load->files);
-    library_init(layer, &document->object.arena, load->base);
+    /* only its reference count changes */
+    library_init(layer, &document->object.arena, (struct library *)(uintptr_t)&load->base->layer);
+    for (uint32_t i = 0; i < load->base->folders.len; i++)
+        vec_push(&document->object.arena, &load->files.folders, load->base->folders.items[i]);
     layer->trust = document->object.context->trust;
     layer->doc.keeps_comments = true;
     if (load->data) {
@@ -54,7 +57,7 @@ static mxg_status load_document(mxg_context *context, mxg_library *library, stru
     load->document = object_new(context, sizeof *load->document, &library->object);
     if (!load->document)
         return MXG_ERROR_MEMORY;
-    load->base = &library->layer;
+    load->base = library;
     struct object *object = &load->document->object;
     if (!sandbox_admit_file(context, load->name)) {
         object_unref(object);

@@ -99,6 +99,83 @@ struct xml_files file_source_for_xml(struct file_source *source)
         .user_data = source, .open = open_for_xml, .release = release_for_xml};
 }
 
+/* ---- Source files ---- */
+
+struct source_path {
+    struct source_path *next;
+    size_t size;
+    char folder[]; /* with a '/' at the end, so that it can stand for a file in the folder */
+};
+
+/*
+ * Adds a path in front of the others. The sandbox admits its files.
+ */
+bool source_path_add(struct mxg_context *context, const char *folder)
+{
+    size_t len = strlen(folder), size = sizeof(struct source_path) + len + 2;
+    struct source_path *path = context->mem.realloc(context->mem.user_data, NULL, 0, size);
+    if (!path)
+        return false;
+    *path = (struct source_path){.next = context->source_paths, .size = size};
+    memcpy(path->folder, folder, len);
+    if (len && folder[len - 1] == '/')
+        len--;
+    memcpy(path->folder + len, "/", 2);
+    context->source_paths = path;
+    atomic_fetch_add(&context->used, size);
+    return sandbox_admit_folder(context, folder);
+}
+
+void source_paths_finish(struct mxg_context *context)
+{
+    while (context->source_paths) {
+        struct source_path *path = context->source_paths;
+        context->source_paths = path->next;
+        context->mem.realloc(context->mem.user_data, path, path->size, 0);
+    }
+}
+
+static const char *with_slash(struct arena *arena, const char *folder, size_t len)
+{
+    struct text text;
+    text_init(&text, arena);
+    text_mem(&text, folder, len);
+    text_char(&text, '/');
+    return text_cstr(&text);
+}
+
+void file_source_add_folder(struct file_source *source, const char *folder)
+{
+    struct arena *arena = &source->object->arena;
+    size_t len = strlen(folder);
+    while (len > 1 && folder[len - 1] == '/')
+        len--;
+    vec_push(arena, &source->folders, with_slash(arena, folder, len));
+    size_t parent = len;
+    while (parent > 0 && folder[parent - 1] != '/')
+        parent--;
+    if (parent > 0)
+        vec_push(arena, &source->folders, arena_strndup(arena, folder, parent));
+}
+
+/* Beside the referring file, then in the folders of libraries, then in those of the context. */
+static bool open_source(struct file_source *source, const char *from, const char *ref,
+                        const char **out_reason)
+{
+    if (open_file(source, from, ref, out_reason))
+        return true;
+    const char *unused;
+    bool is_missing = !source->blob.name;
+    for (uint32_t i = 0; i < source->folders.len && is_missing; i++)
+        if (open_file(source, source->folders.items[i], ref, &unused))
+            return true;
+    for (const struct source_path *path = source->object->context->source_paths; path && is_missing;
+         path = path->next)
+        if (open_file(source, path->folder, ref, &unused))
+            return true;
+    return false;
+}
+
 /*
  * Source files include each other, so the reader copies their text instead of holding files open.
  */
@@ -106,7 +183,7 @@ static bool read_for_lang(void *user_data, const char *from, const char *ref, co
                           const char **out_text, size_t *out_len, const char **out_reason)
 {
     struct file_source *source = user_data;
-    if (!open_file(source, from, ref, out_reason))
+    if (!open_source(source, from, ref, out_reason))
         return false;
     if (is_too_large(source)) {
         *out_reason = "it is too large; raise the limit 'max-file-size' if this is intended";

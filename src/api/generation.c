@@ -86,6 +86,7 @@ static void set_build_options(struct generation *g)
         .distance_unit = option_name(g, OPTION_distance_unit),
         .angle_unit = str_intern_z(&g->result->strings, "degree"),
         .strings = caps & CAP_STRINGS,
+        .closures = g->result->target->closures != NULL,
         .neutral_names = o[OPTION_names].number != 0,
         .short_names = caps & CAP_SCOPED_PARAMETERS,
         .environment = o[OPTION_environment].number,
@@ -147,6 +148,8 @@ static void name_shader(struct generation *g)
     shader->value_type = value_type(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
     lang_style_init(shader->style, g->result->target->syntax, shader->arena);
+    for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
+        shader->source_language = t->source;
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
 }
 
@@ -161,6 +164,7 @@ bool generation_start(struct generation *g)
                                        &g->output);
     if (!good || !g->element)
         return false;
+    g->result->options = options_hash(g->options);
     generation_check_globs(g);
     init_layers(g);
     name_shader(g);
@@ -250,7 +254,8 @@ struct closure_host generation_closure_host(struct builder *builder, struct clos
 void generation_start_closures(struct generation *g)
 {
     const struct option_value *lights = &g->options[OPTION_lights];
-    build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
+    if (!g->result->target->closures) /* otherwise the renderer has the lights */
+        build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
     g->closure_host = generation_closure_host(g->builder, &g->point);
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
@@ -299,6 +304,11 @@ bool generation_emit(struct generation *g)
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
+    if (g->result->shader.scatters && g->result->shader.source_leaves.len) {
+        generation_report_not_renderable(
+            g, "a path tracer cannot sample closures whose source is for one target");
+        return false;
+    }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
     bool is_emitted = emit(g);

@@ -9,6 +9,8 @@
 #include "api/api.h"
 #include "closure/closure.h"
 
+#include <assert.h>
+
 /*
  * For comments and reflection. The patch number is missing because it does not affect the output.
  */
@@ -38,6 +40,7 @@ struct mxg_result {
     VEC(const char *) files; /* files read during the generation */
     const char *
         *origin_paths; /* paths by origin of the graph; filled on demand during generation */
+    uint64_t options;  /* a hash of the options */
     bool has_shader;   /* the generation succeeded */
     const char *text;  /* the text of mxg_inspect, or NULL */
     size_t text_size;
@@ -103,8 +106,28 @@ struct frame_sequence {
 size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame, char *out,
                   size_t capacity);
 
+/* Variable `index` of mxg_result_variable. */
+static inline const struct shader_variable *result_variable(const mxg_result *result,
+                                                            uint32_t index)
+{
+    assert(result->shader.interface.items[index] < result->shader.variables.len);
+    return &result->shader.variables.items[result->shader.interface.items[index]];
+}
+
+/* The texts that results write when they are needed. */
+enum { TEXT_REFLECTION, TEXT_TOPOLOGY, TEXT_COMPILED, NUM_RESULT_TEXTS };
+_Static_assert((int)NUM_RESULT_TEXTS <= OBJECT_MAX_TEXTS, "an object has room for them");
+
 /* reflect.c: the user interface data of a variable; user_data is the mxg_result. */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
+/* The same for an input by its element (0: none) and the element of its definition. */
+void result_input_ui(const mxg_result *result, elem_id element, elem_id definition,
+                     struct shader_ui *out);
+/* A hash: equal for shaders that can share a program. false: out of memory. */
+bool result_topology(const mxg_result *result, uint64_t *out_topology);
+
+/* inputs.c: shader_reflect_options.compiled; user_data is the mxg_result. */
+void result_compiled(void *user_data, uint32_t index, struct shader_compiled_text *out);
 
 /*
  * undefined.c: false, after a diagnostic, if the roots, or the effects of a shader, need a value

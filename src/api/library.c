@@ -111,9 +111,17 @@ static void read_paths(void *arg)
     mxg_library *library = load->library;
     struct lang_reader reader = file_source_for_lang(&load->files);
     library_init(&library->layer, &library->object.arena, load->base ? &load->base->layer : NULL);
+    for (uint32_t i = 0; load->base && i < load->base->folders.len; i++)
+        vec_push(&library->object.arena, &load->files.folders, load->base->folders.items[i]);
+    for (size_t i = 0; i < load->num_paths; i++)
+        if (folder_exists(load->paths[i]))
+            file_source_add_folder(&load->files, load->paths[i]);
+    library->folders.items = load->files.folders.items;
+    library->folders.len = load->files.folders.len;
     load->files.digest = hash_mix(HASH_STABLE_SEED, load->base ? load->base->layer.digest : 0);
     for (size_t i = 0; i < load->num_paths; i++)
         read_path(load, load->paths[i]);
+    library->layer.knows_target = target_exists;
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     library->layer.digest = load->files.digest;
     report_deferred(library);

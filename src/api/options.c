@@ -2,6 +2,7 @@
 /* Options of generation: the table, and values by key. */
 #include "api/api.h"
 
+#include "base/hash.h"
 #include "base/num.h"
 
 #include <assert.h>
@@ -126,6 +127,21 @@ static void set_defaults(struct arena *arena, struct option_value *values)
 {
     for (unsigned i = 0; i < NUM_OPTIONS; i++)
         parse(arena, &table[i], table[i].initial, &values[i]);
+}
+
+uint64_t options_hash(const struct option_value *values)
+{
+    uint64_t h = HASH_STABLE_SEED;
+    for (unsigned i = 0; i < NUM_OPTIONS; i++) {
+        const struct option_value *value = &values[i];
+        h = hash_stable(h, &value->number, sizeof value->number);
+        if (value->text)
+            h = hash_stable(h, value->text, strlen(value->text) + 1);
+        for (uint32_t item = 0; item < value->list.len; item++)
+            h = hash_stable(h, value->list.items[item], strlen(value->list.items[item]) + 1);
+        h = hash_mix(h, value->list.len);
+    }
+    return h;
 }
 
 const struct option_value *options_values(const mxg_options *options)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The reflection of a shader: variables, compiled inputs, facts; and its JSON form.
+ * The reflection of a shader: variables, facts; and its JSON form.
  */
 #include "api/generation.h"
 
@@ -30,12 +30,6 @@ uint32_t mxg_result_num_variables(const mxg_result *result)
     return result && result->has_shader ? result->shader.interface.len : 0;
 }
 
-static const struct shader_variable *variable_at(const mxg_result *result, uint32_t index)
-{
-    assert(result->shader.interface.items[index] < result->shader.variables.len);
-    return &result->shader.variables.items[result->shader.interface.items[index]];
-}
-
 /*
  * True if an input of a graph takes a UI attribute from the node input that it connects to. Ranges
  * apply; names and descriptions such as "left operand" do not.
@@ -49,33 +43,38 @@ static bool is_inherited(const struct document *doc, elem_id input, str_id attr)
                && attr != STR_uiadvanced);
 }
 
-/* An attribute of the document's element, else of the definition's. */
-static const char *ui_text(const mxg_result *result, const struct shader_variable *variable,
-                           str_id attr)
+/* An attribute of the document's input, else of the definition's. */
+static const char *ui_text(const mxg_result *result, elem_id input, elem_id definition, str_id attr)
 {
     const struct document *doc = &result->document->layer.doc;
-    str_id value = variable->element ? doc_attr_value(doc, variable->element, attr) : 0;
-    if (!value && variable->definition && is_inherited(doc, variable->element, attr))
-        value = doc_attr_value(doc, variable->definition, attr);
+    str_id value = input ? doc_attr_value(doc, input, attr) : 0;
+    if (!value && definition && is_inherited(doc, input, attr))
+        value = doc_attr_value(doc, definition, attr);
     return text_of(result, value);
+}
+
+void result_input_ui(const mxg_result *result, elem_id element, elem_id definition,
+                     struct shader_ui *out)
+{
+    const struct document *doc = &result->document->layer.doc;
+    /* texts of a node are not those of its inputs */
+    elem_id input = element && doc_element(doc, element)->kind != KIND_NODE ? element : 0;
+    const struct {
+        const char **text;
+        str_id attr;
+    } texts[] = {{&out->name, STR_uiname},        {&out->folder, STR_uifolder},
+                 {&out->min, STR_uimin},          {&out->max, STR_uimax},
+                 {&out->soft_min, STR_uisoftmin}, {&out->soft_max, STR_uisoftmax},
+                 {&out->step, STR_uistep},        {&out->doc, STR_doc},
+                 {&out->enum_names, STR_enum},    {&out->enum_values, STR_enumvalues}};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        *texts[i].text = ui_text(result, input, definition, texts[i].attr);
+    out->advanced = strcmp(ui_text(result, input, definition, STR_uiadvanced), "true") == 0;
 }
 
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out)
 {
-    const mxg_result *result = user_data;
-    *out = (struct shader_ui){
-        .name = ui_text(result, variable, STR_uiname),
-        .folder = ui_text(result, variable, STR_uifolder),
-        .min = ui_text(result, variable, STR_uimin),
-        .max = ui_text(result, variable, STR_uimax),
-        .soft_min = ui_text(result, variable, STR_uisoftmin),
-        .soft_max = ui_text(result, variable, STR_uisoftmax),
-        .step = ui_text(result, variable, STR_uistep),
-        .doc = ui_text(result, variable, STR_doc),
-        .enum_names = ui_text(result, variable, STR_enum),
-        .enum_values = ui_text(result, variable, STR_enumvalues),
-        .advanced = strcmp(ui_text(result, variable, STR_uiadvanced), "true") == 0,
-    };
+    result_input_ui(user_data, variable->element, variable->definition, out);
 }
 
 static void set_user_interface(const mxg_result *result, const struct shader_variable *variable,
@@ -102,6 +101,7 @@ static void set_default(const struct shader_variable *variable, mxg_variable *ou
         return;
     const struct ir_type_info *info = ir_type_info(variable->value.type);
     out->num_values = info->components;
+    out->integer = info->scalar == IR_TYPE_FLOAT ? 0 : variable->value.w[0].i;
     assert(out->num_values <= sizeof out->values / sizeof *out->values);
     for (uint32_t i = 0; i < out->num_values && i < 16; i++) {
         union ir_word word = variable->value.w[i];
@@ -117,7 +117,7 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
                    "blocks have the same numbers");
     if (index >= mxg_result_num_variables(result))
         return MXG_ERROR_ARGUMENT;
-    const struct shader_variable *v = variable_at(result, index);
+    const struct shader_variable *v = result_variable(result, index);
     assert(v->block < NUM_BLOCKS);
     mxg_variable full = {
         .name = text_of(result, v->name),
@@ -157,10 +157,10 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
 static const struct shader_tile *tile_at(const mxg_result *result, uint32_t variable, uint32_t tile)
 {
     if (variable >= mxg_result_num_variables(result)
-        || tile >= variable_at(result, variable)->num_tiles)
+        || tile >= result_variable(result, variable)->num_tiles)
         return NULL;
-    assert(variable_at(result, variable)->first_tile + tile < result->shader.tiles.len);
-    return &result->shader.tiles.items[variable_at(result, variable)->first_tile + tile];
+    assert(result_variable(result, variable)->first_tile + tile < result->shader.tiles.len);
+    return &result->shader.tiles.items[result_variable(result, variable)->first_tile + tile];
 }
 
 mxg_status mxg_result_tile(const mxg_result *result, uint32_t variable, uint32_t index,
@@ -180,7 +180,7 @@ size_t mxg_result_texture_file(const mxg_result *result, uint32_t variable, uint
         *out = '\0';
     if (variable >= mxg_result_num_variables(result))
         return 0;
-    const struct shader_variable *v = variable_at(result, variable);
+    const struct shader_variable *v = result_variable(result, variable);
     const struct shader_tile *part = tile_at(result, variable, tile);
     if (v->num_tiles && !part)
         return 0;
@@ -196,7 +196,7 @@ bool mxg_result_find_variable(const mxg_result *result, const char *path, uint32
     uint32_t count = mxg_result_num_variables(result);
     str_id id = count && path ? str_find(&result->strings, path, strlen(path)) : 0;
     for (uint32_t i = 0; id && i < count; i++) {
-        if (variable_at(result, i)->path != id)
+        if (result_variable(result, i)->path != id)
             continue;
         if (out_index)
             *out_index = i;
@@ -205,36 +205,15 @@ bool mxg_result_find_variable(const mxg_result *result, const char *path, uint32
     return false;
 }
 
-/* ---- Compiled inputs ---- */
-
-uint32_t mxg_result_num_compiled_inputs(const mxg_result *result)
-{
-    return result && result->has_shader ? result->shader.compiled.len : 0;
-}
-
-mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t index,
-                                     mxg_compiled_input *out)
-{
-    if (index >= mxg_result_num_compiled_inputs(result))
-        return MXG_ERROR_ARGUMENT;
-    const struct shader_compiled_input *input = &result->shader.compiled.items[index];
-    mxg_compiled_input full = {.path = text_of(result, input->path),
-                               .type = text_of(result, input->doc_type),
-                               .value = text_of(result, input->value)};
-    return struct_write(out, &full, sizeof full);
-}
-
 /* ---- The shader as a whole ---- */
 
 static uint32_t count_textures(const mxg_result *result)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < result->shader.interface.len; i++)
-        count += variable_at(result, i)->block == BLOCK_TEXTURES;
+        count += result_variable(result, i)->block == BLOCK_TEXTURES;
     return count;
 }
-
-enum { TEXT_REFLECTION, TEXT_TOPOLOGY };
 
 static void write_topology(const struct object *object, struct text *out)
 {
@@ -242,6 +221,16 @@ static void write_topology(const struct object *object, struct text *out)
     uint64_t topology = result->network.arena ? result->target->network->topology(&result->network)
                                               : shader_topology(&result->shader, out->arena);
     text_mem(out, (const char *)&topology, sizeof topology);
+}
+
+bool result_topology(const mxg_result *result, uint64_t *out_topology)
+{
+    const struct made_text *topology = object_text(&result->object, TEXT_TOPOLOGY, write_topology);
+    if (!topology)
+        return false;
+    assert(topology->size == sizeof *out_topology);
+    memcpy(out_topology, topology->data, sizeof *out_topology);
+    return true;
 }
 
 mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
@@ -262,14 +251,9 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .lit = shader->lit,
     };
     /* only the topology is expensive */
-    if (out && out->size > offsetof(mxg_shader_info, topology)) {
-        const struct made_text *topology =
-            object_text(&result->object, TEXT_TOPOLOGY, write_topology);
-        if (!topology)
-            return MXG_ERROR_MEMORY;
-        assert(topology->size == sizeof full.topology);
-        memcpy(&full.topology, topology->data, sizeof full.topology);
-    }
+    if (out && out->size > offsetof(mxg_shader_info, topology)
+        && !result_topology(result, &full.topology))
+        return MXG_ERROR_MEMORY;
     return struct_write(out, &full, sizeof full);
 }
 
@@ -283,6 +267,7 @@ static void write_json(const struct object *object, struct text *out)
         .generator = GENERATOR_NAME,
         .user_data = (void *)(uintptr_t)result,
         .ui = result_ui,
+        .compiled = result_compiled,
     };
     if (result->network.arena) {
         options.network = &result->network;

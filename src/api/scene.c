@@ -78,9 +78,19 @@ mxg_status mxg_scene_create(mxg_context *context, mxg_scene **out_scene)
 
 struct scene_load {
     mxg_scene *scene;
-    const char *path;
+    const char *path, *purpose;
     struct file_source files;
 };
+
+static bool is_usda(const char *path)
+{
+    static const char *const endings[] = {".usda", ".usd", ".usdc", ".usdz"};
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
+        if (strcmp(dot, endings[i]) == 0)
+            return true;
+    return false;
+}
 
 static void read_scene(void *arg)
 {
@@ -90,18 +100,23 @@ static void read_scene(void *arg)
     size_t size;
     if (!file_source_read(&load->files, load->path, &data, &size, diags))
         return;
-    scene_read_list(&load->scene->scene, load->path, data, size, diags);
+    if (is_usda(load->path))
+        scene_read_usda(&load->scene->scene, load->path, data, size, load->purpose,
+                        &load->files.scratch, diags);
+    else
+        scene_read_list(&load->scene->scene, load->path, data, size, diags);
     /* the scene keeps the names */
     arena_release(&load->scene->object.arena, (void *)(uintptr_t)data, size + 1);
 }
 
-mxg_status mxg_scene_load(mxg_context *context, const char *path, mxg_scene **out_scene)
+mxg_status mxg_scene_load(mxg_context *context, const char *path, const char *purpose,
+                          mxg_scene **out_scene)
 {
     if (out_scene)
         *out_scene = NULL;
     if (!path)
         return MXG_ERROR_ARGUMENT;
-    struct scene_load load = {.path = path};
+    struct scene_load load = {.path = path, .purpose = purpose ? purpose : ""};
     mxg_status status = mxg_scene_create(context, &load.scene);
     if (status != MXG_OK)
         return status;

@@ -10,6 +10,14 @@ uint32_t mxg_num_targets(void)
     return count;
 }
 
+bool target_exists(const char *materialx_name)
+{
+    for (const struct target *const *target = targets; *target; target++)
+        if (strcmp((*target)->materialx_name, materialx_name) == 0)
+            return true;
+    return false;
+}
+
 mxg_status mxg_get_target(uint32_t index, mxg_target *out)
 {
     if (index >= mxg_num_targets())

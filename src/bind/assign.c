@@ -44,23 +44,6 @@ static bool read_name(struct bind_look *look, elem_id element, struct slot_name 
 
 /* ---- Materials ---- */
 
-void look_report_unknown(struct bind_look *look, elem_id element, str_id attr, const char *what,
-                         enum element_kind kind)
-{
-    const struct document *doc = look->doc;
-    const char *name = text_of(look, doc_attr_value(doc, element, attr)), *near = "";
-    struct diag_guess guess;
-    if (diag_guess_begin(&guess, look->diags, name)) {
-        for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
-            if (doc_element(doc, e)->kind == kind
-                && (kind != KIND_NODE || doc_attr_value(doc, e, STR_type) == STR_material))
-                diag_guess_add(&guess, text_of(look, doc_element(doc, e)->name));
-        near = diag_guess_text(&guess);
-    }
-    diag_add(look->diags, DIAG_ID_unknown_assigned, doc_attr_place(doc, element, attr), what, name,
-             near);
-}
-
 static bool is_given(const struct document *doc, elem_id input)
 {
     return doc_attr(doc, input, STR_value) || doc_attr_value(doc, input, STR_nodename)
@@ -109,25 +92,30 @@ static elem_id graph_of_material(const struct document *doc, str_id name)
     return 0;
 }
 
-static bool find_material(struct bind_look *look, struct look_assign *assign)
+/* Gives an assignment the material of this name; false: there is none. */
+static bool set_material(struct bind_look *look, struct look_assign *assign, str_id name)
 {
     const struct document *doc = look->doc;
-    str_id name = doc_attr_value(doc, assign->element, STR_material);
-    if (!name)
-        return true;
     elem_id found = doc_top_level(doc, KIND_NODE, name);
     if (found && doc_attr_value(doc, found, STR_type) != STR_material)
         found = 0;
     else if (!found)
         found = graph_of_material(doc, name);
-    if (!found) {
-        look_report_unknown(look, assign->element, STR_material, "material", KIND_NODE);
+    if (!found)
         return false;
-    }
     assign->target = found;
     assign->kind = kind_of_material(look, found);
     assign->products = products_of(look, found);
     return true;
+}
+
+static bool find_material(struct bind_look *look, struct look_assign *assign)
+{
+    str_id name = doc_attr_value(look->doc, assign->element, STR_material);
+    bool found = !name || set_material(look, assign, name);
+    if (!found)
+        look_report_unknown(look, assign->element, STR_material, "material", KIND_NODE);
+    return found;
 }
 
 static bool find_graph(struct bind_look *look, struct look_assign *assign)
@@ -147,8 +135,7 @@ static void move_beside(struct bind_look *look, const struct look_assign *assign
                         struct slot_name *name, const char **text)
 {
     if (strcmp(*text, SLOT_DEFAULT) != 0)
-        diag_add(look->diags, DIAG_ID_beside_slot,
-                 doc_attr_place(look->doc, assign->element, STR_slot),
+        diag_add(look->diags, DIAG_ID_beside_slot, look_slot_place(look, assign),
                  category_of(look, assign->target), SLOT_DEFAULT);
     *text = SLOT_DEFAULT;
     slot_parse(*text, strlen(*text), name);
@@ -242,6 +229,49 @@ void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal)
     /* last, because the matcher names the assignment */
     if (!read_place(look, &assign))
         return;
+    assign.name = intern_name(look, &name, text, strlen(text));
+    vec_push(look->arena, &look->assigns, assign);
+}
+
+/* ---- Bindings of the scene ---- */
+
+/* The materials of a scene are those of the documents, by the names of their prims. */
+static bool find_bound(struct bind_look *look, struct look_assign *assign,
+                       const struct scene_binding *binding)
+{
+    const char *material = binding->material;
+    str_id name = str_find(look->doc->strings, material, strlen(material));
+    if (!*material || (name && set_material(look, assign, name)))
+        return true;
+    struct diag_guess guess;
+    const char *near = "";
+    if (diag_guess_begin(&guess, look->diags, material)) {
+        look_guess(look, &guess, KIND_NODE);
+        near = diag_guess_text(&guess);
+    }
+    diag_add(look->diags, DIAG_ID_unknown_assigned, binding->place, "material", material, near);
+    return false;
+}
+
+void look_read_binding(struct bind_look *look, uint32_t number)
+{
+    const struct scene_binding *binding = &look->scene->bindings.items[number];
+    struct look_assign assign = {.binding = number + 1, .kind = ASSIGN_REMOVAL};
+    struct slot_name name;
+    const char *text = binding->name;
+    struct text path;
+    slot_parse(text, strlen(text), &name); /* the reader of the scene has checked it */
+    if (!find_bound(look, &assign, binding))
+        return;
+    if (name.parts[SLOT_OVERRIDE].len && assign.target)
+        assign.kind = ASSIGN_LAYER;
+    if (assign.kind == ASSIGN_VOLUME || assign.kind == ASSIGN_LIGHT)
+        move_beside(look, &assign, &name, &text);
+    text_init(&path, look->arena);
+    scene_path(look->scene, binding->prim, &path);
+    struct look_matcher matcher = {.owner = look->assigns.len, .kind = MATCHER_ASSIGN};
+    vec_push(look->arena, &look->matchers, matcher);
+    pattern_add(&look->patterns, path.data, path.len, look->matchers.len - 1);
     assign.name = intern_name(look, &name, text, strlen(text));
     vec_push(look->arena, &look->assigns, assign);
 }

@@ -34,7 +34,7 @@ static void put_head(const struct explanation *e, uint32_t assign, uint32_t leve
 {
     const struct bind_look *look = &e->b->look;
     const struct look_assign *a = &look->assigns.items[assign];
-    struct diag_place place = doc_place(look->doc, a->element);
+    struct diag_place place = look_assign_place(look, a);
     text_fmt(e->out, "  %s  ", look->names.items[a->name].text);
     put_target(e, a);
     text_str(e->out, ", ");
@@ -61,8 +61,12 @@ static void put_loss(const struct explanation *e, const struct stand *weak,
         put_path(e, strong->level);
     } else if (w->collection && s->collection && look_contains(look, w->collection, s->collection))
         text_str(e->out, ", whose collection this one's includes");
+    else if (w->binding && !s->binding)
+        text_str(e->out, ", which a look has");
     else if (w->look != s->look)
         text_str(e->out, ", which a look has that inherits from this one");
+    else if (s->binding && strong->level < weak->level)
+        text_str(e->out, ", which is stronger than bindings of the scene below it");
     else if (strong->assign > weak->assign)
         text_str(e->out, ", which stands later in the file");
     else

@@ -38,6 +38,14 @@ static void report_unknown_look(const struct document *doc, const char *name,
     diag_add(diags, DIAG_ID_unknown_look, place, name, near);
 }
 
+bool look_exists(const struct document *doc)
+{
+    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_LOOK)
+            return true;
+    return false;
+}
+
 /* Without a name: the only look. */
 static elem_id only_look(const struct document *doc, struct diag_list *diags)
 {
@@ -193,10 +201,13 @@ static void read_assigns(struct bind_look *look, elem_id element)
 }
 
 void look_read(struct bind_look *look, const struct document *doc, elem_id element,
-               struct arena *arena, struct diag_list *diags)
+               const struct scene *scene, struct arena *arena, struct diag_list *diags)
 {
     struct chain chain = {0};
     init_look(look, doc, element, arena, diags);
+    look->scene = scene;
+    for (uint32_t i = 0; i < scene->bindings.len; i++)
+        look_read_binding(look, i);
     find_parents(look, &chain);
     for (uint32_t i = 0; i < chain.len && !look->order; i++)
         if (doc_attr(doc, chain.items[i], STR_slotorder))
@@ -213,33 +224,4 @@ void look_read(struct bind_look *look, const struct document *doc, elem_id eleme
 void look_finish(struct bind_look *look)
 {
     pattern_set_finish(&look->patterns);
-}
-
-void look_check_all(const struct document *doc, struct arena *scratch, struct diag_list *diags)
-{
-    struct bind_look look;
-    init_look(&look, doc, 0, scratch, diags);
-    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next) {
-        if (doc_element(doc, e)->kind == KIND_COLLECTION)
-            look_read_collection(&look, doc_element(doc, e)->name, e, STR_name);
-        if (doc_element(doc, e)->kind != KIND_LOOK)
-            continue;
-        look.order = doc_attr(doc, e, STR_slotorder) ? e : 0;
-        read_variants(&look, e);
-        read_assigns(&look, e);
-        look_read_order(&look);
-    }
-    look_finish(&look);
-}
-
-void look_assign_name(const struct bind_look *look, uint32_t assign, struct text *out)
-{
-    const struct look_assign *a = &look->assigns.items[assign];
-    const struct document *doc = look->doc;
-    str_id name = doc_element(doc, a->element)->name;
-    text_fmt(out, "%s/", text_of(doc, doc_element(doc, a->look)->name));
-    if (name)
-        text_str(out, text_of(doc, name));
-    else
-        text_fmt(out, "#%u", (unsigned)a->ordinal);
 }

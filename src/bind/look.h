@@ -8,6 +8,7 @@
 
 #include "bind/name.h"
 #include "bind/pattern.h"
+#include "bind/scene.h"
 #include "document/document.h"
 
 /* The products of a material that `exclusive` takes from a weaker assignment. */
@@ -40,6 +41,7 @@ struct look_name {
 struct look_assign {
     elem_id element, look;
     uint32_t ordinal;    /* in its look, from 1 */
+    uint32_t binding;    /* 1 + a binding of the scene, which has no element; 0: none */
     uint32_t name;       /* index in `names` */
     elem_id target;      /* the material or nodegraph; 0: a removal */
     uint32_t collection; /* 1 + index; 0: it has a geom, or stands nowhere */
@@ -70,7 +72,8 @@ struct bind_look {
     const struct document *doc;
     struct arena *arena;
     struct diag_list *diags;
-    elem_id element; /* the look */
+    elem_id element; /* the look; 0: only the bindings of the scene */
+    const struct scene *scene;
     struct pattern_set patterns;
     VEC(struct look_matcher) matchers;
     VEC(struct look_assign) assigns; /* a stronger one stands behind a weaker one */
@@ -92,19 +95,31 @@ struct bind_look {
  */
 elem_id look_choose(const struct document *doc, const char *name, struct diag_list *diags);
 
+/* True if the document has a look. */
+bool look_exists(const struct document *doc);
+
 /*
- * Reads a look with its parents. Errors leave an assignment out. The arena keeps everything. Call
- * look_finish in the end.
+ * Reads the bindings of a scene, and a look with its parents. Errors leave an assignment out. The
+ * arena keeps everything. Call look_finish in the end.
  */
 void look_read(struct bind_look *look, const struct document *doc, elem_id element,
-               struct arena *arena, struct diag_list *diags);
+               const struct scene *scene, struct arena *arena, struct diag_list *diags);
 void look_finish(struct bind_look *look);
 
-/* Checks the assignments of every look of a document, each once. */
-void look_check_all(const struct document *doc, struct arena *scratch, struct diag_list *diags);
+/* ---- describe.c ---- */
 
-/* "day/dust", "day/#3" if it has no name. */
+/* "day/dust", "day/#3" if it has no name; "/set.material:binding" of a scene. */
 void look_assign_name(const struct bind_look *look, uint32_t assign, struct text *out);
+
+/* The place of an assignment, and of its slot. */
+struct diag_place look_assign_place(const struct bind_look *look, const struct look_assign *assign);
+struct diag_place look_slot_place(const struct bind_look *look, const struct look_assign *assign);
+
+/* Reports that the top-level element that an attribute names does not exist. */
+void look_report_unknown(struct bind_look *look, elem_id element, str_id attr, const char *what,
+                         enum element_kind kind);
+/* Adds the names of a kind of elements to a guess; of nodes those of materials. */
+void look_guess(const struct bind_look *look, struct diag_guess *guess, enum element_kind kind);
 
 /* True if collection `outer` includes collection `inner`, at any depth. Numbers from 1. */
 static inline bool look_contains(const struct bind_look *look, uint32_t outer, uint32_t inner)
@@ -119,9 +134,7 @@ static inline bool look_contains(const struct bind_look *look, uint32_t outer, u
 /* assign.c: reads one <materialassign>, and one <variantassign>. */
 void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal);
 void look_read_variant(struct bind_look *look, elem_id element);
-/* Reports that the top-level element that an attribute names does not exist. */
-void look_report_unknown(struct bind_look *look, elem_id element, str_id attr, const char *what,
-                         enum element_kind kind);
+void look_read_binding(struct bind_look *look, uint32_t binding);
 
 /* collection.c: the number of a collection, from 1; 0 after a diagnostic at the element's
  * attribute. */

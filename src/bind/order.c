@@ -28,10 +28,23 @@ static uint32_t rank_of(const struct bind_look *look, struct text_word part)
     return UINT32_MAX;
 }
 
+/* The slotorder of the look, or of the scene if no look has one; NULL: none. */
+static const char *order_of(const struct bind_look *look)
+{
+    if (look->order)
+        return text_of(look, doc_attr_value(look->doc, look->order, STR_slotorder));
+    return look->scene ? look->scene->slot_order : NULL;
+}
+
+static struct diag_place place_of_order(const struct bind_look *look)
+{
+    return look->order ? doc_attr_place(look->doc, look->order, STR_slotorder)
+                       : look->scene->slot_order_place;
+}
+
 static void report_order(struct bind_look *look, const char *part, const char *fault)
 {
-    diag_add(look->diags, DIAG_ID_bad_slot_order,
-             doc_attr_place(look->doc, look->order, STR_slotorder), part, fault);
+    diag_add(look->diags, DIAG_ID_bad_slot_order, place_of_order(look), part, fault);
 }
 
 static void read_part(struct bind_look *look, const char *text, size_t len)
@@ -51,11 +64,9 @@ static void read_part(struct bind_look *look, const char *text, size_t len)
 
 void look_read_order(struct bind_look *look)
 {
+    const char *text = order_of(look);
     look->order_parts.len = 0;
-    if (!look->order)
-        return;
-    const char *text = text_of(look, doc_attr_value(look->doc, look->order, STR_slotorder));
-    while (*text) {
+    while (text && *text) {
         const char *end = text + strcspn(text, ","), *last = end;
         while (text < last && *text == ' ')
             text++;
@@ -122,13 +133,13 @@ static unsigned last_part(const struct look_name *name)
                                                  : SLOT_SLOT;
 }
 
-/* The assignment of a name, for its place. */
-static elem_id element_of_name(const struct bind_look *look, uint32_t name)
+/* The place of a name: that of its first assignment. */
+static struct diag_place place_of_name(const struct bind_look *look, uint32_t name)
 {
-    for (uint32_t i = 0; i < look->assigns.len; i++)
-        if (look->assigns.items[i].name == name)
-            return look->assigns.items[i].element;
-    return look->element;
+    uint32_t i = 0;
+    while (look->assigns.items[i].name != name)
+        i++;
+    return look_slot_place(look, &look->assigns.items[i]);
 }
 
 /* Numbers whose order is not the order of their bytes: the number before, `below`, is greater. */
@@ -141,9 +152,7 @@ static void check_numbers(struct bind_look *look, uint32_t below, uint32_t above
     if (!are_siblings || a->ranks[part] != UINT32_MAX || b->ranks[part] != UINT32_MAX
         || !is_number(x) || !is_number(y) || compare_values(x, y) <= 0)
         return;
-    elem_id element = element_of_name(look, above);
-    diag_add(look->diags, DIAG_ID_uneven_slots, doc_attr_place(look->doc, element, STR_slot),
-             b->text, a->text);
+    diag_add(look->diags, DIAG_ID_uneven_slots, place_of_name(look, above), b->text, a->text);
 }
 
 /*
@@ -182,8 +191,7 @@ static void check_unlisted(struct bind_look *look)
         text_fmt(&list, "%s'%s'", list.len ? ", " : "", name->text);
     }
     if (list.len && look->order_parts.len)
-        diag_add(look->diags, DIAG_ID_unlisted_slots,
-                 doc_attr_place(look->doc, look->order, STR_slotorder), text_cstr(&list));
+        diag_add(look->diags, DIAG_ID_unlisted_slots, place_of_order(look), text_cstr(&list));
 }
 
 /* ---- Sorting ---- */

@@ -152,7 +152,7 @@ static void put_source(struct bind_writer *w, struct json *json, const struct pl
                        const struct bind_item *item)
 {
     const struct look_assign *a = assign_of(w, item);
-    struct diag_place at = doc_place(w->b->look.doc, a->element);
+    struct diag_place at = look_assign_place(&w->b->look, a);
     json_put_text(json, a->kind == ASSIGN_GRAPH ? "nodegraph" : "material", name_of(w, a->target));
     json_key(json, "from");
     put_path(w, bind_prim_at(w->b, place->prim, item->level));

@@ -174,8 +174,10 @@ static void report_unknown_slot(struct resolver *r, const char *text)
             diag_guess_add(&guess, r->b->look.names.items[i].text);
         near = diag_guess_text(&guess);
     }
-    diag_add(r->diags, DIAG_ID_unknown_slot, doc_place(r->b->look.doc, r->b->look.element), text,
-             near);
+    diag_add(
+        r->diags, DIAG_ID_unknown_slot,
+        doc_place(r->b->look.doc, r->b->look.element ? r->b->look.element : r->b->look.doc->root),
+        text, near);
 }
 
 /* Reads a name of the options; false after an error. */
@@ -227,7 +229,7 @@ static void warn_assign(struct resolver *r, const struct look_assign *a, bool *i
 {
     const struct bind_look *look = &r->b->look;
     const struct look_name *name = &look->names.items[a->name];
-    struct diag_place place = doc_attr_place(look->doc, a->element, STR_slot);
+    struct diag_place place = look_slot_place(look, a);
     struct text owner;
     text_init(&owner, r->scratch);
     if (!a->target)
@@ -278,7 +280,7 @@ void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
 {
     *b = (struct bindings){.arena = arena, .scene = scene};
     struct resolver r = {.b = b, .scratch = scratch, .diags = diags};
-    look_read(&b->look, doc, look, arena, diags);
+    look_read(&b->look, doc, look, scene, arena, diags);
     mute_names(&r, options);
     b->state_of = ARENA_ARRAY(arena, uint32_t, scene->prims.len);
     vec_push(scratch, &r.steps, (struct step){0});

@@ -16,12 +16,26 @@ struct scene_prim {
     prim_id parent, first_child, last_child, next; /* 0: none */
 };
 
+/* A binding that the scene brings itself; it is weaker than those of a look at the same path. */
+struct scene_binding {
+    prim_id prim;
+    const char *name;     /* of the slot */
+    const char *material; /* ""; a removal */
+    const char *label;    /* "/set/table.material:binding" */
+    struct diag_place place;
+    bool is_strong;  /* it beats the bindings of the scene below it */
+    bool is_purpose; /* it is for the asked purpose, and beats those for all purposes */
+};
+
 struct scene {
     struct arena *arena;          /* owns everything */
     VEC(struct scene_prim) prims; /* a parent stands before its children */
     struct table table;           /* (parent, name) → primitive */
     VEC(prim_id) last; /* the levels of the path that was added last; the next often shares some */
-    char *names;       /* free part of the block of names */
+    VEC(struct scene_binding) bindings;
+    const char *slot_order; /* with commas; NULL: the scene has none */
+    struct diag_place slot_order_place;
+    char *names; /* free part of the block of names */
     size_t names_left;
 };
 
@@ -56,5 +70,12 @@ void scene_add_path(struct scene *scene, const char *path, size_t len, struct di
  */
 void scene_read_list(struct scene *scene, const char *file, const char *text, size_t len,
                      struct diag_list *diags);
+
+/*
+ * stage.c: adds the primitives of a USD text layer, with their bindings. Instances of an internal
+ * reference are primitives of their own. purpose: "full", "preview", or "" for all purposes.
+ */
+void scene_read_usda(struct scene *scene, const char *file, const char *text, size_t len,
+                     const char *purpose, struct arena *scratch, struct diag_list *diags);
 
 #endif

@@ -99,6 +99,92 @@ static void sort_by_collections(const struct bind_look *look, struct stand *stan
     }
 }
 
+/* ---- Bindings of the scene ---- */
+
+static const struct scene_binding *binding_of(const struct bind_look *look, const struct stand *s)
+{
+    uint32_t binding = look->assigns.items[s->assign].binding;
+    return binding ? &look->scene->bindings.items[binding - 1] : NULL;
+}
+
+/* True if `a` beats `b` by UsdShade's rules: purpose, then strength from above, then depth. */
+static bool beats(const struct scene_binding *a, const struct stand *x,
+                  const struct scene_binding *b, const struct stand *y)
+{
+    if (a->is_purpose != b->is_purpose)
+        return a->is_purpose;
+    if (x->level == y->level)
+        return x->assign > y->assign;
+    /* the upper one if it is strong, else the deeper one */
+    bool is_above = x->level < y->level;
+    return is_above == (is_above ? a : b)->is_strong;
+}
+
+/* Moves the strongest of the scene's bindings from `from` on to `from`. */
+static void select_binding(const struct bind_look *look, struct stand *list, uint32_t from,
+                           uint32_t num)
+{
+    uint32_t best = from;
+    for (uint32_t i = from + 1; i < num; i++)
+        if (beats(binding_of(look, &list[i]), &list[i], binding_of(look, &list[best]), &list[best]))
+            best = i;
+    struct stand strongest = list[best];
+    memmove(&list[from + 1], &list[from], (best - from) * sizeof *list);
+    list[from] = strongest;
+}
+
+/*
+ * Sorts the stands of one name again, if the scene's own bindings follow other rules among
+ * themselves than depth. A binding that another one of the scene beats from above is not stronger
+ * than a look's at the level of that one.
+ */
+static void sort_by_scene(const struct bind_look *look, struct stand *stands, uint32_t num,
+                          struct stands *work)
+{
+    uint32_t num_look = 0, num_scene = 0;
+    work->rest.len = 0;
+    vec_reserve(work->scratch, &work->rest, num);
+    for (uint32_t i = 0; i < num; i++)
+        if (!binding_of(look, &stands[i]))
+            work->rest.items[num_look++] = stands[i];
+    struct stand *scene = work->rest.items + num_look;
+    for (uint32_t i = 0; i < num; i++)
+        if (binding_of(look, &stands[i]))
+            scene[num_scene++] = stands[i];
+    assert(num_look + num_scene == num);
+    uint32_t level = UINT32_MAX, next_look = 0;
+    for (uint32_t i = 0; i < num_scene; i++) {
+        select_binding(look, scene, i, num_scene);
+        level = scene[i].level < level ? scene[i].level : level;
+        while (next_look < num_look && work->rest.items[next_look].level >= level)
+            *stands++ = work->rest.items[next_look++];
+        *stands++ = scene[i];
+    }
+    while (next_look < num_look)
+        *stands++ = work->rest.items[next_look++];
+}
+
+/* True if a binding of the scene is not ranked by depth alone. */
+static bool has_own_rules(const struct bind_look *look, const struct stand *stands, uint32_t num)
+{
+    for (uint32_t i = 0; i < num; i++) {
+        const struct scene_binding *binding = binding_of(look, &stands[i]);
+        if (binding && (binding->is_strong || binding->is_purpose))
+            return true;
+    }
+    return false;
+}
+
+static void sort_names_by_scene(const struct bind_look *look, struct stands *stands)
+{
+    for (uint32_t i = 0, end; i < stands->len; i = end) {
+        for (end = i; end < stands->len && stands->items[end].name == stands->items[i].name; end++)
+            continue;
+        if (has_own_rules(look, &stands->items[i], end - i))
+            sort_by_scene(look, &stands->items[i], end - i, stands);
+    }
+}
+
 static void sort_stands(const struct bind_look *look, struct stands *stands)
 {
     if (stands->len > 1)
@@ -113,6 +199,8 @@ static void sort_stands(const struct bind_look *look, struct stands *stands)
         if (num_collections > 1)
             sort_by_collections(look, &stands->items[i], end - i, stands);
     }
+    if (look->scene->bindings.len)
+        sort_names_by_scene(look, stands);
 }
 
 static void add_stand(const struct bindings *b, struct stands *out, uint32_t assign, uint32_t level)

@@ -30,6 +30,7 @@ struct build_options {
     str_id colorspace; /* working colour space: "lin_rec709" */
     str_id distance_unit, angle_unit;
     bool strings;       /* the target has strings at run time */
+    bool closures;      /* the target has closures of its own */
     bool neutral_names; /* uniform names are numbers */
     bool short_names;   /* input names omit the name of their node */
     int environment;    /* values of option_environment… */

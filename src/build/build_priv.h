@@ -73,6 +73,7 @@ struct builder {
     VEC(ir_ref) results;
     struct resolve_out resolved;
     VEC(elem_id) public_nodes; /* nodes whose inputs form the shader's interface */
+    struct table compiled;     /* the inputs in shader->compiled + 1: interface.c */
     VEC(struct memo) memos;
     uint32_t *memo_table;
     uint32_t memo_mask;
@@ -169,6 +170,11 @@ struct shader_variable build_describe(struct builder *b, elem_id node, const str
  */
 ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
                      str_id input, ir_ref value, bool authored);
+/*
+ * Lists an input of the document among those whose value is compiled in, once. Inputs of nodes in
+ * the library are not listed. `element` holds the value; 0: the definition does.
+ */
+void build_compile_in(struct builder *b, elem_id node, const struct port *port, elem_id element);
 /* The path of an input: "SR_gold/base_color". */
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
 
@@ -185,9 +191,10 @@ ir_ref build_default(struct builder *b, const struct port *port);
 ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place);
 /*
  * The value of a constant, or the initial value of a uniform, for compile-time decisions; false for
- * other nodes.
+ * other nodes. The uniform is then listed as compiled in, because another value may decide
+ * otherwise.
  */
-bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out);
+bool build_initial(struct builder *b, ir_ref value, struct ir_value *out);
 
 /*
  * color.c: converts a color3 or color4 from `space` to the working space, with the transform nodes
@@ -235,8 +242,8 @@ bool build_has_tokens(const struct builder *b, elem_id node);
 
 /* The implementation of a definition for the target; NULL after a diagnostic. */
 const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
-/* The function that implements a definition for the target; LIBRARY_NONE if no function does. */
-uint32_t build_light_function(struct builder *b, uint32_t nodedef);
+/* The implementation of a definition for the target; NULL: there is none. */
+const struct implementation *build_best_implementation(const struct builder *b, uint32_t nodedef);
 /*
  * The definition of a node for a type: "ND_constant_color3" for "constant"; LIBRARY_NONE if the
  * library has none.
@@ -250,6 +257,13 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family);
 /* Calls an expression or function implementation. */
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
+
+/* verbatim.c: calls source for one target. Source that mxgen cannot call is an error. */
+void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *results);
+/* True if the source is the function of a light shader. */
+bool build_is_light_source(const struct builder *b, const struct implementation *impl);
+/* Adds the function of a light shader to the shader; UINT32_MAX after a diagnostic. */
+uint32_t build_light_source(struct builder *b, const struct implementation *impl);
 
 /* film.c: a thin film on a BSDF, as inputs of its microfacet leaves. `node` is the film node. */
 ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, elem_id node);
@@ -274,6 +288,12 @@ bool build_network_is_full(const struct builder *b);
 /* The default of an input in the network's layers; type VOID or 0: it has no number. */
 struct ir_value build_network_default(struct builder *b, const struct port *port);
 
+/*
+ * dynamic.c. True if the node makes a closure or shader of other closures and shaders, as layers
+ * do: mxgen's own code for such a node also serves where a library has source for it, because the
+ * closures below it are no values. For targets with closures this holds for all shaders.
+ */
+bool build_is_combined(const struct builder *b, const struct frame *frame);
 /* lang_host.too_large and bad_index. */
 void build_report_large(void *user_data);
 void build_report_index(void *user_data, int32_t index, uint32_t length);

@@ -26,7 +26,7 @@ static void consider(const struct builder *b, const struct implementation *impl,
     }
 }
 
-static const struct implementation *best_of(const struct builder *b, uint32_t nodedef)
+const struct implementation *build_best_implementation(const struct builder *b, uint32_t nodedef)
 {
     const struct implementation *best = NULL;
     unsigned best_fitness = 0;
@@ -95,7 +95,7 @@ static void report_missing(struct builder *b, uint32_t nodedef, elem_id node)
 
 const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node)
 {
-    const struct implementation *impl = best_of(b, nodedef);
+    const struct implementation *impl = build_best_implementation(b, nodedef);
     if (impl && impl->kind == IMPL_BROKEN) {
         report_deferred(b, impl);
         return NULL;
@@ -104,12 +104,6 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
         report_missing(b, nodedef, node);
     assert(!impl || impl->nodedef == nodedef);
     return impl;
-}
-
-uint32_t build_light_function(struct builder *b, uint32_t nodedef)
-{
-    const struct implementation *impl = best_of(b, nodedef);
-    return impl && impl->kind == IMPL_FUNCTION ? impl->ref : LIBRARY_NONE;
 }
 
 uint32_t build_definition_of(const struct builder *b, const char *node, str_id type)

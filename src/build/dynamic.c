@@ -460,13 +460,30 @@ static const char *find_misfit(const struct call *c, const struct dynamic_node *
     return NULL;
 }
 
+bool build_is_combined(const struct builder *b, const struct frame *frame)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    bool is_result = false, is_operand = false;
+    ir_type_id type = library_type_ir(b->lib, ports[def->num_inputs].type);
+    for (unsigned i = 0; i < def->num_inputs + def->num_outputs; i++) {
+        ir_type_id of_port = library_type_ir(b->lib, ports[i].type);
+        bool is_opaque = ir_type_is_closure(of_port) || ir_type_is_shader(of_port);
+        is_result |= is_opaque && i >= def->num_inputs;
+        is_operand |= is_opaque && i < def->num_inputs;
+    }
+    /* closures of a target combine without the structs that hardware targets have for shaders */
+    return find_code(def->node) && is_result
+           && (is_operand || (b->options->closures && !ir_type_is_closure(type)));
+}
+
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)
 {
-    assert(frame->impl->kind == IMPL_DYNAMIC && frame->impl->nodedef == frame->node.nodedef);
+    assert(frame->impl->nodedef == frame->node.nodedef);
     struct call call = {b, frame, library_nodedef(b->lib, frame->node.nodedef),
                         library_ports(b->lib, frame->node.nodedef, NULL), IR_TYPE_VOID};
     call.type = library_type_ir(b->lib, call.ports[call.def->num_inputs].type);
-    bool is_chosen = frame->impl->ref == STR_chosen_input;
+    bool is_chosen = frame->impl->kind == IMPL_DYNAMIC && frame->impl->ref == STR_chosen_input;
     const struct dynamic_node *code = find_code(is_chosen ? STR_chosen_input : call.def->node);
     if (!code)
         diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, frame->impl->element),

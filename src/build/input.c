@@ -27,6 +27,8 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
         build_constant(b, port, doc_attr_value(build_doc(b), element, STR_value), element);
     if (outermost)
         value = build_publish(b, owner, port, element, name, value, true);
+    else if (ir_is_const(b->graph, value))
+        build_compile_in(b, owner, port, element);
     if (port->type == DOC_TYPE_color3 || port->type == DOC_TYPE_color4) {
         str_id space = outermost || doc_attr(build_doc(b), element, STR_colorspace)
                            ? build_colorspace(b, element)
@@ -44,8 +46,13 @@ static ir_ref unset(struct builder *b, const struct instance *scope, elem_id own
     if (library_type_ir(b->lib, port->type) == IR_TYPE_SAMPLER)
         return texture(b, scope, owner, port, element, port->name);
     ir_ref value = build_default(b, port);
-    if (!outermost || port->geomprop || !value)
+    if (!value || port->geomprop)
         return value;
+    if (!outermost) {
+        if (ir_is_const(b->graph, value))
+            build_compile_in(b, owner, port, element);
+        return value;
+    }
     return build_publish(b, owner, port, element,
                          element ? doc_element(build_doc(b), element)->name : port->name, value,
                          false);
@@ -68,7 +75,7 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
     elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
     uint32_t nodedef = alone ? library_implemented_nodedef(b->lib, alone) : scope->nodedef;
     /* the reader of the document has reported it */
-    if (nodedef == LIBRARY_NONE && doc_attr_value(build_doc(b), alone, STR_nodedef))
+    if (nodedef == LIBRARY_NONE && alone && doc_attr_value(build_doc(b), alone, STR_nodedef))
         return unset(b, scope, doc_element(build_doc(b), binding->element)->parent, port,
                      binding->element, true);
     int index =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Inputs of the shader's interface: their names, their paths, and which of them become uniforms. */
+#include "base/hash.h"
 #include "build/build_priv.h"
 
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element)
@@ -127,19 +128,42 @@ static ir_ref add_uniform(struct builder *b, struct shader_variable v, ir_ref in
     return ir_build(b->graph, IR_UNIFORM, v.type, index, NULL, 0);
 }
 
+/*
+ * The nodes of a graph are built once per use, so an input may come again. An element has one value
+ * for all its readers; without an element, each input of the node has its own.
+ */
+static bool is_known(struct builder *b, const struct shader_compiled_input *input, bool has_element)
+{
+    uint32_t hash = hash_pair(input->element, has_element ? 0 : input->definition);
+    for (uint32_t at = hash, found; (found = table_next(&b->compiled, hash, &at));) {
+        const struct shader_compiled_input *other = &b->shader->compiled.items[found - 1];
+        if (other->element == input->element
+            && (has_element || other->definition == input->definition))
+            return true;
+    }
+    table_add(&b->compiled, b->arena, hash, b->shader->compiled.len + 1);
+    return false;
+}
+
+void build_compile_in(struct builder *b, elem_id node, const struct port *port, elem_id element)
+{
+    const struct shader_compiled_input input = {element ? element : node, port->element,
+                                                library_type_name(b->lib, port->type)};
+    bool is_of_document = input.element >= build_doc(b)->first_element;
+    if (is_of_document && !b->recorder && !is_known(b, &input, element != 0))
+        vec_push(b->arena, &b->shader->compiled, input);
+}
+
 ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
                      str_id input, ir_ref value, bool authored)
 {
-    ir_type_id type = ir_type_of(b->graph, value);
-    bool can_vary = type != IR_TYPE_STRING && ir_is_const(b->graph, value);
-    if (!can_vary && !(type == IR_TYPE_STRING && is_public(b, node)))
+    if (!ir_is_const(b->graph, value))
         return value;
-    str_id path = build_input_path(b, node, input, element);
-    if (can_vary && stays_variable(b, node, authored, path))
-        return add_uniform(b, build_describe(b, node, port, element, input, path), value);
-    if (authored && is_public(b, node))
-        vec_push(b->arena, &b->shader->compiled,
-                 (struct shader_compiled_input){path, library_type_name(b->lib, port->type),
-                                                element_attr(b, element, STR_value), element});
+    if (ir_type_of(b->graph, value) != IR_TYPE_STRING) {
+        str_id path = build_input_path(b, node, input, element);
+        if (stays_variable(b, node, authored, path))
+            return add_uniform(b, build_describe(b, node, port, element, input, path), value);
+    }
+    build_compile_in(b, node, port, element);
     return value;
 }

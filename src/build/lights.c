@@ -43,7 +43,8 @@ static struct shader_light start_light(struct builder *b, uint32_t nodedef, int3
     const struct port *ports = library_ports(b->lib, nodedef, NULL);
     struct shader_light light = {.type = type,
                                  .name = def->node,
-                                 .function = build_light_function(b, nodedef),
+                                 .function = LANG_NONE,
+                                 .source = UINT32_MAX,
                                  .first_member = shader->light_members.len};
     for (uint32_t i = 0; i < def->num_inputs; i++)
         if (is_member(b, &ports[i]))
@@ -104,7 +105,13 @@ static ir_ref shader_of(struct builder *b, uint32_t nodedef, const struct shader
 static bool add_defined_light(struct builder *b, uint32_t nodedef, int32_t type)
 {
     struct shader_light light = start_light(b, nodedef, type);
-    if (light.function == LANG_NONE) {
+    const struct implementation *impl = build_best_implementation(b, nodedef);
+    bool is_source = impl && impl->kind == IMPL_VERBATIM && build_is_light_source(b, impl);
+    if (impl && impl->kind == IMPL_FUNCTION)
+        light.function = impl->ref;
+    if (is_source && (light.source = build_light_source(b, impl)) == UINT32_MAX)
+        return false;
+    if (light.function == LANG_NONE && !is_source) {
         place_light(b, &light);
         light.shader = shader_of(b, nodedef, &light);
         if (!light.shader)
@@ -124,8 +131,10 @@ static bool add_light_element(struct builder *b, const char *path, int32_t type)
     elem_id element = doc_find(doc, path, strlen(path));
     if (!element || doc_attr_value(doc, element, STR_type) != STR_lightshader)
         return false;
-    struct shader_light light = {
-        .type = type, .name = doc_element(doc, element)->name, .function = LANG_NONE};
+    struct shader_light light = {.type = type,
+                                 .name = doc_element(doc, element)->name,
+                                 .function = LANG_NONE,
+                                 .source = UINT32_MAX};
     light.shader = build_element(b, element, 0);
     if (!light.shader || ir_get(b->graph, light.shader)->op != IR_LIGHT_SHADER
         || !ir_arg(b->graph, light.shader, 0))
@@ -212,10 +221,10 @@ void build_lights(struct builder *b, const char *const *items, uint32_t num_item
         int32_t type;
         if (strcmp(items[i], "none") == 0 || !number_of(b, items[i], (int64_t)i + 1, &type))
             continue;
-        uint32_t nodedef = find_light(b, name, strlen(name));
+        uint32_t nodedef = find_light(b, name, strlen(name)), before = b->diags->num_errors;
         bool is_bound = nodedef != LIBRARY_NONE ? add_defined_light(b, nodedef, type)
                                                 : add_light_element(b, name, type);
-        if (!is_bound && is_explicit)
+        if (!is_bound && is_explicit && b->diags->num_errors == before)
             diag_add(b->diags, DIAG_ID_unknown_light, nowhere, name,
                      light_hint(b, name, strlen(name)));
     }

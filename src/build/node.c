@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From the arguments of a node to its results, by the implementation for the target. */
-#include "base/hash.h"
 #include "build/build_priv.h"
 #include "lower/lower.h"
-
-#include <ctype.h>
 
 static void call_expressions(struct builder *b, const struct implementation *impl,
                              const ir_ref *args, ir_ref *results)
@@ -81,120 +78,6 @@ const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
     return NULL;
 }
 
-/* The length of the word between "{{" and "}}" at p; 0: none is there. */
-static size_t placeholder_length(const char *p)
-{
-    size_t len = 0;
-    if (p[0] == '{' && p[1] == '{')
-        while (isalnum((unsigned char)p[2 + len]) || p[2 + len] == '_' || p[2 + len] == ':')
-            len++;
-    return len && p[2 + len] == '}' && p[3 + len] == '}' ? len : 0;
-}
-
-/*
- * "{{in1}}" becomes "{{0}}": verbatim expressions of the shader refer to operands by number. 0
- * after a report: the definition has no such input.
- */
-static str_id number_inputs(struct builder *b, const struct implementation *impl, str_id source)
-{
-    struct text out;
-    text_init(&out, b->arena);
-    for (const char *p = build_text(b, source); *p;) {
-        size_t len = placeholder_length(p);
-        if (!len) {
-            text_char(&out, *p++);
-            continue;
-        }
-        str_id name = str_intern(b->shader->strings, p + 2, len);
-        int index = library_find_input(b->lib, impl->nodedef, name);
-        if (index < 0) {
-            diag_add(b->diags, DIAG_ID_lang_unknown, doc_place(&b->lib->doc, impl->element),
-                     "input", build_text(b, name), "");
-            return 0;
-        }
-        text_fmt(&out, "{{%d}}", index);
-        p += len + 4;
-    }
-    return str_intern(b->shader->strings, out.data, out.len);
-}
-
-/* The index of the source in the shader, which has each source once; adds it if it is new. */
-static uint32_t find_verbatim(struct shader *shader, const struct shader_verbatim *wanted)
-{
-    uint32_t hash = hash_pair(hash_pair(wanted->source, wanted->function), wanted->expression);
-    for (uint32_t at = hash, found; (found = table_next(&shader->verbatim_table, hash, &at));) {
-        const struct shader_verbatim *have = &shader->verbatim.items[found - 1];
-        if (have->source == wanted->source && have->function == wanted->function
-            && have->expression == wanted->expression)
-            return found - 1;
-    }
-    vec_push(shader->arena, &shader->verbatim, *wanted);
-    table_add(&shader->verbatim_table, shader->arena, hash, shader->verbatim.len);
-    return shader->verbatim.len - 1;
-}
-
-/* Reports outputs that verbatim source cannot compute. */
-static bool has_values(struct builder *b, const struct implementation *impl, bool is_function)
-{
-    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
-    const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
-    const char *fault = NULL;
-    if (!is_function && def->num_outputs > 1)
-        fault = "an expression has one value, but the node has several outputs";
-    for (uint32_t i = 0; i < def->num_outputs; i++)
-        if (ir_type_is_closure(library_type_ir(b->lib, outputs[i].type))
-            || ir_type_is_shader(library_type_ir(b->lib, outputs[i].type)))
-            fault = "source for one target computes no closure and no shader";
-    if (fault)
-        diag_add(b->diags, DIAG_ID_function_signature, doc_place(&b->lib->doc, impl->element),
-                 build_text(b, impl->name), build_text(b, def->name), fault);
-    return !fault;
-}
-
-/* LIBRARY_NONE after a report. */
-static uint32_t verbatim_of(struct builder *b, const struct implementation *impl)
-{
-    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
-    const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
-    const struct verbatim *source = library_verbatim(b->lib, impl->ref);
-    struct shader_verbatim v = {.first_result = b->shader->result_types.len};
-    if (!has_values(b, impl, source->function != 0))
-        return LIBRARY_NONE;
-    if (source->function) {
-        v.source = source->source;
-        v.function = source->function;
-        v.num_results = def->num_outputs;
-    } else if (!(v.expression = number_inputs(b, impl, source->source))) {
-        return LIBRARY_NONE;
-    }
-    uint32_t num_known = b->shader->verbatim.len, index = find_verbatim(b->shader, &v);
-    for (uint32_t i = 0; index == num_known && i < v.num_results; i++)
-        vec_push(b->arena, &b->shader->result_types, library_type_ir(b->lib, outputs[i].type));
-    return index;
-}
-
-/* False after a report. */
-static bool call_verbatim(struct builder *b, const struct implementation *impl, const ir_ref *args,
-                          ir_ref *results)
-{
-    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
-    const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
-    uint32_t index = verbatim_of(b, impl);
-    if (index == LIBRARY_NONE)
-        return false;
-    bool function = b->shader->verbatim.items[index].function != 0;
-    uint32_t callee = ir_add_callee(
-        b->graph,
-        (struct ir_callee){.kind = IR_CALLEE_VERBATIM, .index = index, .name = def->name});
-    ir_type_id type = function ? IR_TYPE_VOID : library_type_ir(b->lib, outputs[0].type);
-    ir_ref call = ir_build(b->graph, IR_VERBATIM, type, callee, args, def->num_inputs);
-    for (uint32_t i = 0; i < def->num_outputs; i++)
-        results[i] = function ? ir_build(b->graph, IR_RESULT,
-                                         library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1)
-                              : call;
-    return true;
-}
-
 /*
  * A light function needs the shaded point, which only the light loop has. Outside it, such a node
  * is a light without emission.
@@ -225,14 +108,16 @@ void build_report_index(void *user_data, int32_t index, uint32_t length)
 }
 
 /* False after a report. */
-static bool call(struct builder *b, const struct frame *frame, ir_ref *results)
+static void call(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct implementation *impl = frame->impl;
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
-    if (library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type)
-        == IR_TYPE_LIGHT) {
+    ir_type_id type =
+        library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type);
+    bool is_usable = impl->kind != IMPL_VERBATIM || build_is_light_source(b, impl);
+    if (type == IR_TYPE_LIGHT && is_usable) {
         results[0] = dark_light(b);
-        return true;
+        return;
     }
     uint32_t first_node = b->graph->nodes.len;
     b->called = frame->node.element;
@@ -242,12 +127,11 @@ static bool call(struct builder *b, const struct frame *frame, ir_ref *results)
         call_expressions(b, impl, frame->args, results);
     else if (impl->kind == IMPL_FUNCTION)
         lang_lower_call(b->shader->unit, b->graph, &b->host, impl->ref, frame->args, results);
-    else if (!call_verbatim(b, impl, frame->args, results))
-        return false;
+    else
+        build_verbatim(b, frame, results);
     if (has_tiles)
         build_check_tiles(b, frame, first_node);
     b->called = 0;
-    return true;
 }
 
 static void build_by_implementation(struct builder *b, const struct frame *frame, ir_ref *results)
@@ -256,18 +140,23 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     switch ((enum impl_kind)impl->kind) {
-    case IMPL_EXPRESSION:
-    case IMPL_FUNCTION:
     case IMPL_VERBATIM:
-        if (call(b, frame, results))
-            return;
-        break;
+        if (build_is_combined(b, frame)) {
+            if (build_dynamic(b, frame, results))
+                return;
+            break;
+        }
+        call(b, frame, results);
+        return;
+    case IMPL_EXPRESSION:
+    case IMPL_FUNCTION: call(b, frame, results); return;
     case IMPL_FAMILY: build_leaf(b, impl, frame->args, results); return;
     case IMPL_DYNAMIC:
         if (build_dynamic(b, frame, results))
             return;
         break;
     case IMPL_GRAPH:
+    case IMPL_FOREIGN:
     case IMPL_BROKEN: break;
     }
     for (uint32_t i = 0; i < def->num_outputs; i++)

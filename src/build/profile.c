@@ -226,8 +226,8 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
         source && source->op == IR_TEXTURE ? &b->shader->variables.items[source->attr] : NULL;
     float table[LENGTH];
     if (texture && *build_text(b, texture->file)) {
-        struct shader_compiled_input compiled = {texture->path, texture->doc_type, texture->file,
-                                                 texture->element};
+        struct shader_compiled_input compiled = {texture->element, texture->definition,
+                                                 texture->doc_type};
         vec_push(b->arena, &b->shader->compiled, compiled);
         if (read_table(b, texture->element, build_text(b, texture->file), table))
             color = ir_op2(b->graph, IR_MUL, color, look_up(b, table, normal));

@@ -76,7 +76,7 @@ static str_id said(const struct builder *b, ir_ref arg)
                : value.w[0].u;
 }
 
-static void note_input(const struct builder *b, const struct port *file, const struct port *port,
+static void note_input(struct builder *b, const struct port *file, const struct port *port,
                        ir_ref arg, struct shader_variable *texture)
 {
     const char *name = build_text(b, port->name);

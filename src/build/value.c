@@ -62,15 +62,27 @@ ir_ref build_constant(struct builder *b, const struct port *port, str_id text, e
     return ir_poison(b->graph, ir);
 }
 
-bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out)
+/* A number of the host, such as the frame, is no input of the document. */
+static void decide_by(struct builder *b, struct shader_variable *uniform)
+{
+    if (uniform->update == UPDATE_SHADER || !uniform->path || b->recorder)
+        return;
+    uniform->update = UPDATE_SHADER;
+    vec_push(
+        b->arena, &b->shader->compiled,
+        (struct shader_compiled_input){uniform->element, uniform->definition, uniform->doc_type});
+}
+
+bool build_initial(struct builder *b, ir_ref value, struct ir_value *out)
 {
     const struct ir_node *node = ir_get(b->graph, value);
     assert(node->op != IR_UNIFORM || node->attr < b->shader->variables.len);
-    const struct shader_variable *uniform =
-        node->op == IR_UNIFORM ? &b->shader->variables.items[node->attr] : NULL;
-    if (uniform)
-        *out = uniform->value;
-    return uniform ? uniform->has_default : ir_get_const(b->graph, value, out);
+    if (node->op != IR_UNIFORM)
+        return ir_get_const(b->graph, value, out);
+    struct shader_variable *uniform = &b->shader->variables.items[node->attr];
+    decide_by(b, uniform);
+    *out = uniform->value;
+    return uniform->has_default;
 }
 
 /* ---- defaults ---- */

@@ -78,6 +78,16 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host)
  */
 enum { MAX_LEAF_NODES = 50 };
 
+bool closure_has(const struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                 enum leaf_function which)
+{
+    const struct ir_node *node = ir_get(shader->graph, leaf);
+    const struct source_leaf *source = closure_source(shader, leaf);
+    assert(node->op == IR_LEAF && which < NUM_LEAF_FUNCTIONS);
+    return source ? closure_source_has(source, node->type, which)
+                  : host->leaf_functions(host->user_data, node->attr)[which] != LANG_NONE;
+}
+
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results)
 {
@@ -111,8 +121,27 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
                     enum leaf_function which, const ir_ref *light)
 {
     assert(which != LEAF_SAMPLE);
+    if (closure_source(shader, leaf))
+        return closure_call_source(shader, host, leaf, which, light);
     ir_ref result[1];
     return closure_call_all(shader, host, leaf, which, light, result) ? result[0] : 0;
+}
+
+ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf)
+{
+    struct ir_graph *g = shader->graph;
+    assert(ir_get(g, leaf)->op == IR_LEAF);
+    if (ir_type_of(g, leaf) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
+        return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    ir_ref through = closure_call(shader, host, leaf, LEAF_THROUGHPUT, NULL);
+    ir_ref weight = ir_arg(g, leaf, 0);
+    if (!through) /* opaque */
+        return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
+    if (ir_const_is(g, weight, 1.0f))
+        return through;
+    /* 1 - w (1 - T) */
+    ir_ref stopped = ir_op2(g, IR_MUL, closure_one_minus(g, through), weight);
+    return closure_one_minus(g, stopped);
 }
 
 void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const char *role)

@@ -6,7 +6,7 @@
 #ifndef MXG_CLOSURE_CLOSURE_H
 #define MXG_CLOSURE_CLOSURE_H
 
-#include "shader/shader.h"
+#include "shader/source.h"
 
 /*
  * The functions of a leaf (lang ids; LANG_NONE: absent), in the order of enum family_member in
@@ -37,7 +37,13 @@ struct closure_point {
 struct closure_host {
     void *user_data;
     struct closure_point *point;
-    /* The functions of the leaf family of a LEAF node. */
+    /*
+     * the question that throughputs answer, and the direction to the light for
+     * SOURCE_REFLECTION; only closures in source differ by it
+     */
+    enum source_context context;
+    const ir_ref *light;
+    /* The functions of the leaf family of a LEAF node, which is no leaf in source. */
     const uint32_t *(*leaf_functions)(void *user_data, uint32_t callee);
     /* The input name of operand `index` + 1 of a LEAF node; NULL after the last. */
     const char *(*leaf_input)(void *user_data, uint32_t callee, unsigned index);
@@ -99,6 +105,13 @@ bool closure_is_surface(const struct shader *shader, ir_ref root);
  */
 ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                     enum leaf_function which, const ir_ref *light);
+
+/* The source of a LEAF; NULL: its functions are portable. */
+const struct source_leaf *closure_source(const struct shader *shader, ir_ref leaf);
+
+/* True if a leaf has a function. */
+bool closure_has(const struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                 enum leaf_function which);
 
 /* Unit direction to the viewer. */
 ir_ref closure_view(struct shader *shader, const struct closure_host *host);

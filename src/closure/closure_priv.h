@@ -19,6 +19,31 @@ ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results);
 
+/* source.c: leaves whose functions are verbatim source. */
+
+/* closure_call for such a leaf. */
+ir_ref closure_call_source(struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                           enum leaf_function which, const ir_ref *light);
+bool closure_source_has(const struct source_leaf *source, ir_type_id type,
+                        enum leaf_function which);
+
+/* A closure as two colours, for source that takes a closure. An EDF has no throughput. */
+struct closure_value {
+    ir_ref response, throughput;
+};
+/* value.c: the value of a closure for host->context. root 0: no closure. */
+struct closure_value closure_evaluate(struct shader *shader, const struct closure_host *host,
+                                      ir_ref root);
+/* Calls the functions of a source leaf over the values of its closure operands (by operand). */
+struct closure_value closure_call_with(struct shader *shader, const struct closure_host *host,
+                                       ir_ref leaf, enum source_context context,
+                                       const ir_ref *light, const struct closure_value *operands);
+
+/* call.c: the throughput of a leaf with its weight. */
+ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf);
+/* value.c: the throughput of an operator whose operands let these fractions pass. */
+ir_ref closure_operator_throughput(struct ir_graph *graph, ir_ref operator_, ir_ref a, ir_ref b);
+
 /* scatter.c: writes the function for path tracers. Emission and alpha may be 0: black and 1. */
 void closure_scatter(struct shader *shader, const struct closure_host *host,
                      const struct closure_list *list, const struct closure_lighting *lighting,
@@ -82,9 +107,9 @@ ir_ref closure_differentials(struct shader *shader, ir_ref root);
 /* alpha.c: the possible values of an alpha that is not constant 1. */
 enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 
-/* a · b; 0 stands for 1. */
+/* product.c: a · b; 0 stands for 1. */
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
-/* product.c: closure_mul with the loop-invariant factors first. */
+/* closure_mul with the loop-invariant factors first. */
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 /* guard.c: finds the parts that have a loop, or need a branch. in_loop: considers only code inside
  * the loop. */

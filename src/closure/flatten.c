@@ -37,19 +37,6 @@ static bool is_operator(const struct ir_node *node)
            || node->op == IR_CLOSURE_SCALE;
 }
 
-ir_ref closure_mul(struct ir_graph *g, ir_ref a, ir_ref b)
-{
-    if (!a || !b)
-        return a ? a : b;
-    return ir_op2(g, IR_MUL, a, b);
-}
-
-ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
-{
-    ir_ref one = ir_const_splat(g, ir_type_of(g, a), 1.0f);
-    return ir_op2(g, IR_SUB, one, a);
-}
-
 ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 {
     assert(!bg || !fg || ir_type_of(g, bg) == ir_type_of(g, fg));
@@ -61,30 +48,12 @@ ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 static ir_ref modified_base(const struct flattener *f, ir_ref ref)
 {
     const struct ir_node *node = ir_get(f->graph, ref);
-    if (node->op != IR_LEAF
-        || f->host->leaf_functions(f->host->user_data, node->attr)[LEAF_FACTOR] == LANG_NONE)
+    if (node->op != IR_LEAF || !closure_has(f->shader, f->host, ref, LEAF_FACTOR))
         return 0;
     return ir_arg(f->graph, ref, node->num_args - 1);
 }
 
 /* ---- throughput, upwards ---- */
-
-static ir_ref leaf_throughput(struct flattener *f, ir_ref ref)
-{
-    assert(ir_get(f->graph, ref)->op == IR_LEAF);
-    struct ir_graph *g = f->graph;
-    if (ir_type_of(g, ref) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
-        return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
-    ir_ref through = closure_call(f->shader, f->host, ref, LEAF_THROUGHPUT, NULL);
-    ir_ref weight = ir_arg(g, ref, 0);
-    if (!through) /* opaque */
-        return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
-    if (ir_const_is(g, weight, 1.0f))
-        return through;
-    /* 1 - w (1 - T) */
-    ir_ref stopped = ir_op2(g, IR_MUL, closure_one_minus(g, through), weight);
-    return closure_one_minus(g, stopped);
-}
 
 static ir_ref through_of(const struct flattener *f, ir_ref ref)
 {
@@ -94,24 +63,11 @@ static ir_ref through_of(const struct flattener *f, ir_ref ref)
 
 static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
 {
-    struct ir_graph *g = f->graph;
-    const struct ir_node node = *ir_get(g, ref);
-    assert(is_operator(&node));
-    ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
-    switch (node.op) {
-    case IR_LAYER: return ir_op2(g, IR_MUL, through_of(f, a), through_of(f, b));
-    case IR_CLOSURE_MIX: {
-        ir_ref mix = ir_arg(g, ref, 2);
-        return ir_op3(g, IR_MIX, through_of(f, a), through_of(f, b), mix);
-    }
-    case IR_CLOSURE_ADD: {
-        /* 1 - ((1 - Ta) + (1 - Tb)), which must not become negative */
-        ir_ref sum = ir_op2(g, IR_ADD, through_of(f, a), through_of(f, b));
-        ir_ref rest = ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f));
-        return ir_op2(g, IR_MAX, rest, ir_const_float(g, 0.0f));
-    }
-    default: /* scaling a closure does not change its throughput */ return through_of(f, a);
-    }
+    assert(is_operator(ir_get(f->graph, ref)));
+    bool has_base = ir_get(f->graph, ref)->op != IR_CLOSURE_SCALE;
+    ir_ref b = has_base ? ir_arg(f->graph, ref, 1) : 0;
+    ir_ref of_a = through_of(f, ir_arg(f->graph, ref, 0)), of_b = through_of(f, b);
+    return closure_operator_throughput(f->graph, ref, of_a, of_b);
 }
 
 /* Marks the operands of the top of each layer: their throughputs are needed. */
@@ -150,7 +106,7 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
         if (modified_base(f, ref)) /* a modifier has the throughput of its base */
             f->throughputs[ref] = f->throughputs[modified_base(f, ref)];
         else if (op == IR_LEAF)
-            f->throughputs[ref] = leaf_throughput(f, ref);
+            f->throughputs[ref] = closure_leaf_throughput(f->shader, f->host, ref);
         else if (is_operator(ir_get(f->graph, ref)))
             f->throughputs[ref] = operator_throughput(f, ref);
         closure_name(f->shader, f->throughputs[ref], ref, "throughput");

@@ -37,6 +37,30 @@ static void call_function(struct shader *shader, const struct closure_host *host
 }
 
 /*
+ * Direction and intensity from verbatim source, which takes u_lightData[i] as a whole and the
+ * shaded point.
+ */
+static void call_source(struct shader *shader, const struct closure_host *host,
+                        const struct shader_light *light, ir_ref *results)
+{
+    struct ir_graph *g = shader->graph;
+    const struct shader_verbatim *verbatim = &shader->verbatim.items[light->source];
+    ir_type_id type = shader->result_types.items[verbatim->first_result];
+    uint32_t callee = ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                                          .index = light->source,
+                                                          .name = verbatim->function});
+    str_id name = str_intern_z(shader->strings, "LightData");
+    struct ir_member member_of = {STR_type, IR_TYPE_INT};
+    ir_type_id whole = (ir_type_id)ir_add_struct(g, name, &member_of, 1);
+    ir_ref args[] = {ir_build(g, IR_CONTEXT, whole, IR_WHOLE_LIGHT, NULL, 0),
+                     closure_position(shader, host)};
+    ir_ref call = ir_build(g, IR_VERBATIM, IR_TYPE_VOID, callee, args, 2);
+    ir_ref result = ir_build(g, IR_RESULT, type, 1, &call, 1);
+    results[0] = ir_build(g, IR_MEMBER, IR_TYPE_VEC3, 1, &result, 1);
+    results[1] = ir_build(g, IR_MEMBER, IR_TYPE_VEC3, 0, &result, 1);
+}
+
+/*
  * The emission of a light along `to_point`; the light's normal is the direction that it faces. 0:
  * no emission.
  */
@@ -106,6 +130,8 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
         ir_push_name(g, light->name);
         if (light->shader)
             sample_emitter(shader, host, light, results);
+        else if (light->source != UINT32_MAX)
+            call_source(shader, host, light, results);
         else
             call_function(shader, host, light, results);
         ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));

@@ -10,6 +10,19 @@
 
 #include <assert.h>
 
+ir_ref closure_mul(struct ir_graph *g, ir_ref a, ir_ref b)
+{
+    if (!a || !b)
+        return a ? a : b;
+    return ir_op2(g, IR_MUL, a, b);
+}
+
+ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
+{
+    ir_ref one = ir_const_splat(g, ir_type_of(g, a), 1.0f);
+    return ir_op2(g, IR_SUB, one, a);
+}
+
 enum { VARIES = 1, IS_VECTOR = 2, NUM_KINDS = 4, MAX_FACTORS = 16 };
 
 /* by kind, each kind in the order of its nodes, so that equal products are equal nodes */

@@ -90,8 +90,7 @@ static ir_ref weight_of(struct scatter *s, const struct closure_leaf *leaf)
 
 static bool has(const struct scatter *s, const struct closure_leaf *leaf, enum leaf_function which)
 {
-    return s->host->leaf_functions(s->host->user_data, ir_get(s->graph, leaf->leaf)->attr)[which]
-           != LANG_NONE;
+    return closure_has(s->shader, s->host, leaf->leaf, which);
 }
 
 static bool refracts(struct scatter *s, const struct closure_leaf *leaf)

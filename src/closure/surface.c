@@ -152,8 +152,7 @@ static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref f
 static bool has_function(const struct emitter *e, const struct closure_leaf *leaf,
                          enum leaf_function which)
 {
-    return e->host->leaf_functions(e->host->user_data, ir_get(e->graph, leaf->leaf)->attr)[which]
-           != LANG_NONE;
+    return closure_has(e->shader, e->host, leaf->leaf, which);
 }
 
 static bool any_has(const struct emitter *e, const struct closure_list *list,
@@ -165,13 +164,45 @@ static bool any_has(const struct emitter *e, const struct closure_list *list,
     return false;
 }
 
-/* Flattens the closure for light from a direction. */
-static void flatten_under(struct emitter *e, ir_ref bsdf, const ir_ref *direction,
-                          struct closure_list *out)
+/* Flattens the closure for a context. `light`: the direction to the light. */
+static void flatten_for(struct emitter *e, ir_ref bsdf, enum source_context context,
+                        const ir_ref *light, struct closure_list *out)
 {
     struct closure_host host = *e->host;
-    host.way_in = direction;
+    host.context = context;
+    host.light = light;
+    if (context == SOURCE_REFLECTION && e->lighting->two_sided)
+        host.way_in = light;
     closure_flatten(e->shader, &host, bsdf, out);
+}
+
+/*
+ * True if the throughputs differ by context: portable leaves have one throughput, leaves in source
+ * one per context.
+ */
+static bool has_contexts(const struct emitter *e, const struct closure_list *list)
+{
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        if (closure_source(e->shader, list->leaves.items[i].leaf))
+            return true;
+    return false;
+}
+
+/*
+ * The leaves of `list` with their weights in another context: the same leaves, because only
+ * throughputs differ.
+ */
+static const struct closure_list *in_context(struct emitter *e, ir_ref bsdf,
+                                             enum source_context context, const ir_ref *light,
+                                             const struct closure_list *list,
+                                             struct closure_list *out)
+{
+    bool is_two_sided = context == SOURCE_REFLECTION && e->lighting->two_sided;
+    if (!bsdf || (!is_two_sided && !has_contexts(e, list)))
+        return list;
+    flatten_for(e, bsdf, context, light, out);
+    assert(out->leaves.len == list->leaves.len);
+    return out;
 }
 
 static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list,
@@ -181,12 +212,7 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
         return;
     struct closure_list lit;
     closure_sample_light(e->shader, e->host, &e->lit.light);
-    if (e->lighting->two_sided) {
-        /* the same leaves: only throughputs differ */
-        flatten_under(e, bsdf, &e->lit.light.direction, &lit);
-        assert(lit.leaves.len == list->leaves.len);
-        list = &lit;
-    }
+    list = in_context(e, bsdf, SOURCE_REFLECTION, &e->lit.light.direction, list, &lit);
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
         ir_ref value = weighted(
@@ -197,25 +223,32 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
     }
 }
 
+static bool add_surrounding_part(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
+{
+    value = weighted(e, leaf, value);
+    bool is_sampled = value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
+    add_part(e, is_sampled ? PLACE_SAMPLE : PLACE_WHOLE, leaf, value);
+    return value != 0;
+}
+
 /* Finds the values of whole functions, and the values per environment sample. */
-static void find_surrounding_parts(struct emitter *e, const struct closure_list *list,
+static void find_surrounding_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list,
                                    bool *emitted)
 {
     if (!e->lighting->environment)
         return;
+    struct closure_list through;
+    const struct closure_list *behind =
+        any_has(e, list, LEAF_TRANSMISSION)
+            ? in_context(e, bsdf, SOURCE_TRANSMISSION, NULL, list, &through)
+            : list;
     for (uint32_t i = 0; i < list->leaves.len; i++) {
-        const struct closure_leaf *leaf = &list->leaves.items[i];
-        ir_ref refracted = closure_call(e->shader, e->host, leaf->leaf, LEAF_TRANSMISSION, NULL);
-        ir_ref values[2] = {closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL),
-                            refracted ? closure_mul(e->graph, refracted, leaf->medium) : 0};
-        for (unsigned k = 0; k < 2; k++) {
-            ir_ref value = weighted(e, leaf, values[k]);
-            add_part(e,
-                     value && ir_get(e->graph, value)->flags & IR_NODE_LOOP ? PLACE_SAMPLE
-                                                                            : PLACE_WHOLE,
-                     leaf, value);
-            emitted[i] |= value != 0;
-        }
+        const struct closure_leaf *leaf = &list->leaves.items[i], *other = &behind->leaves.items[i];
+        ir_ref refracted = closure_call(e->shader, e->host, other->leaf, LEAF_TRANSMISSION, NULL);
+        ir_ref reflected = closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL);
+        refracted = refracted ? closure_mul(e->graph, refracted, other->medium) : 0;
+        emitted[i] |= add_surrounding_part(e, leaf, reflected);
+        emitted[i] |= add_surrounding_part(e, other, refracted);
     }
 }
 
@@ -399,7 +432,7 @@ static const bool *find_parts(struct emitter *e, ir_ref bsdf, const struct closu
 {
     bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list->leaves.len);
     find_lit_parts(e, bsdf, list, emitted);
-    find_surrounding_parts(e, list, emitted);
+    find_surrounding_parts(e, bsdf, list, emitted);
     return emitted;
 }
 
@@ -408,12 +441,11 @@ static bool light_surface(struct emitter *e, const struct surface *s)
 {
     struct closure_list list;
     /* most environment light arrives at the mirror of the viewer's angle */
-    if (e->lighting->two_sided) {
-        ir_ref view = closure_view(e->shader, e->host);
-        flatten_under(e, s->bsdf, &view, &list);
-    } else {
-        closure_flatten(e->shader, e->host, s->bsdf, &list);
-    }
+    struct closure_host host = *e->host;
+    ir_ref view = e->lighting->two_sided ? closure_view(e->shader, e->host) : 0;
+    host.way_in = view ? &view : NULL;
+    host.context = SOURCE_INDIRECT;
+    closure_flatten(e->shader, &host, s->bsdf, &list);
     e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
     if (e->shader->scatters) {
         closure_scatter(e->shader, e->host, &list, e->lighting, e->lit.base, s->alpha);

@@ -193,9 +193,11 @@ bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const ch
                                  .word = word,
                                  .best_distance = mistakes ? mistakes + 1 : 2,
                                  .best_score = SCORE_NONE};
-    if (len < 2 || len > MAX_WORD || !diag_may_guess(list))
+    if (!diag_may_guess(list))
         return false;
-    list->num_guesses++;
+    list->num_guesses++; /* also for words without a suggestion: their callers walk, too */
+    if (len < 2 || len > MAX_WORD)
+        return false;
     guess->len = len;
     for (size_t i = 0; i < len; i++)
         add_place(guess, (unsigned char)word[i], i);

@@ -137,6 +137,7 @@ static const char *callee_problem(const struct ir_graph *graph, enum ir_op op, u
         return "there is no such callee";
     enum ir_callee_kind kind = graph->callees.items[attr].kind;
     bool fits = op == IR_LEAF ? kind == IR_CALLEE_FAMILY || kind == IR_CALLEE_CLOSURE
+                                    || kind == IR_CALLEE_SOURCE
                               : kind == (op == IR_CALL ? IR_CALLEE_FUNCTION : IR_CALLEE_VERBATIM);
     return fits ? NULL : "the callee is not of the op's kind";
 }
@@ -194,6 +195,9 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
                                    uint32_t attr, const ir_ref *args, unsigned num_args)
 {
     ir_type_id from = num_args ? ir_type_of(graph, args[0]) : IR_TYPE_VOID;
+    bool is_value = op == IR_CALL || (op == IR_RESULT && ir_get(graph, args[0])->op != IR_VERBATIM);
+    if (is_value && (ir_type_is_closure(type) || ir_type_is_shader(type)))
+        return "a call gives a closure or a shader, which no later step would see";
     switch (op) {
     case IR_CONST: return "a constant is not built from operands";
     case IR_PARAM: return param_problem(graph, type, attr);

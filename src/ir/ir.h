@@ -208,9 +208,13 @@ enum ir_callee_kind {
     IR_CALLEE_VERBATIM, /* of VERBATIM: source of the target */
     IR_CALLEE_FAMILY,   /* of LEAF: a family of functions of the portable language */
     IR_CALLEE_CLOSURE,  /* of LEAF: a closure of the target */
+    IR_CALLEE_SOURCE,   /* of LEAF: functions in source of the target */
     IR_NUM_CALLEE_KINDS
 };
 extern const char *const ir_callee_kinds[IR_NUM_CALLEE_KINDS]; /* "function" … */
+
+/* The attr of a CONTEXT that is the whole current light, for verbatim source. */
+#define IR_WHOLE_LIGHT UINT32_MAX
 
 /* A callee of CALL, VERBATIM or LEAF nodes. Equal kind and index is an equal callee. */
 struct ir_callee {

@@ -17,10 +17,9 @@ const struct ir_op_info ir_ops[IR_NUM_OPS] = {
 };
 
 const char *const ir_callee_kinds[IR_NUM_CALLEE_KINDS] = {
-    [IR_CALLEE_FUNCTION] = "function",
-    [IR_CALLEE_VERBATIM] = "verbatim",
-    [IR_CALLEE_FAMILY] = "family",
-    [IR_CALLEE_CLOSURE] = "closure",
+    [IR_CALLEE_FUNCTION] = "function", [IR_CALLEE_VERBATIM] = "verbatim",
+    [IR_CALLEE_FAMILY] = "family",     [IR_CALLEE_CLOSURE] = "closure",
+    [IR_CALLEE_SOURCE] = "source",
 };
 
 const char *ir_type_text(ir_type_id type)

@@ -39,7 +39,7 @@ static const struct section_info section_infos[] = {
     SECTION(ports),        SECTION(impls),           SECTION(families),
     SECTION(verbatims),    SECTION(graph_nodes),     SECTION(bindings),
     SECTION(geomprops),    SECTION(types),           SECTION(units),
-    SECTION(refs),
+    SECTION(refs),         SECTION(sources),
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,

@@ -74,6 +74,7 @@ static void report_dangling(const struct library *lib, elem_id asker, uint32_t n
     else
         text_str(&who, "the document");
     struct diag_guess suggestion;
+    bool may_walk = diag_may_guess(diags);
     if (diag_guess_begin(&suggestion, diags, text_of(lib, name)))
         for_inputs(lib, graph, nodedef, guess, &suggestion);
     diag_add(diags, DIAG_ID_dangling_interfacename,
@@ -81,7 +82,8 @@ static void report_dangling(const struct library *lib, elem_id asker, uint32_t n
              text_of(lib, name), diag_guess_text(&suggestion));
     struct listing inputs = {.count = 0};
     text_init(&inputs.text, diags->arena);
-    for_inputs(lib, graph, nodedef, list, &inputs);
+    if (may_walk) /* like suggestions, so that many faults take linear time */
+        for_inputs(lib, graph, nodedef, list, &inputs);
     if (graph && inputs.count)
         diag_add(diags, DIAG_ID_graph_inputs,
                  doc_place(&lib->doc, nodedef == LIBRARY_NONE

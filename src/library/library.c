@@ -18,6 +18,7 @@ void library_init(struct library *lib, struct arena *arena, struct library *base
     lib->base_impls = base->base_impls + base->impls.len;
     lib->base_families = base->base_families + base->families.len;
     lib->base_verbatims = base->base_verbatims + base->verbatims.len;
+    lib->base_sources = base->base_sources + base->sources.len;
     lib->base_types = base->base_types + base->types.len;
     lib->base_geomprops = base->base_geomprops + base->geomprops.len;
     assert(lib->doc.root == base->doc.first_element + base->doc.elements.len);
@@ -51,12 +52,48 @@ const struct family *library_family(const struct library *lib, uint32_t id)
     return &lib->families.items[id - lib->base_families];
 }
 
-const struct verbatim *library_verbatim(const struct library *lib, uint32_t id)
+const struct verbatim *library_verbatim(const struct library *lib, uint32_t id,
+                                        const struct library **out_layer)
 {
     while (id < lib->base_verbatims)
         lib = lib->base;
+    if (out_layer)
+        *out_layer = lib;
     assert(id - lib->base_verbatims < lib->verbatims.len);
     return &lib->verbatims.items[id - lib->base_verbatims];
+}
+
+const struct source_file *library_source(const struct library *lib, uint32_t id,
+                                         const struct library **out_layer)
+{
+    while (id < lib->base_sources)
+        lib = lib->base;
+    if (out_layer)
+        *out_layer = lib;
+    assert(id - lib->base_sources < lib->sources.len);
+    return &lib->sources.items[id - lib->base_sources];
+}
+
+static void add_once(struct library_sources *out, uint32_t id, struct arena *arena)
+{
+    for (uint32_t i = 0; i < out->len; i++)
+        if (out->items[i] == id)
+            return;
+    vec_push(arena, out, id);
+}
+
+void library_collect_sources(const struct library *lib, uint32_t file, struct arena *arena,
+                             struct library_sources *out)
+{
+    uint32_t next = out->len;
+    add_once(out, file, arena);
+    for (; next < out->len; next++) {
+        const struct library *layer;
+        const struct source_file *source = library_source(lib, out->items[next], &layer);
+        assert(source->first_include + source->num_includes <= layer->refs.len);
+        for (uint32_t i = 0; i < source->num_includes; i++)
+            add_once(out, layer->refs.items[source->first_include + i], arena);
+    }
 }
 
 const struct library *library_of_element(const struct library *lib, elem_id element)

@@ -13,6 +13,7 @@
 #include "document/document.h"
 #include "parse/parse.h"
 #include "print/print.h"
+#include "shader/source.h"
 
 #define LIBRARY_NONE UINT32_MAX
 
@@ -52,6 +53,7 @@ enum impl_kind {
     /* C code builds it; the node's name selects the code, or `ref` if that is chosen_input */
     IMPL_DYNAMIC,
     IMPL_VERBATIM, /* ref: verbatim source */
+    IMPL_FOREIGN,  /* for a target that mxgen does not have: its source is unread */
     /* its diagnostics are deferred: [ref, ref + count) of the layer's deferred list */
     IMPL_BROKEN,
 };
@@ -90,9 +92,45 @@ struct family {
     uint32_t nodedef;
 };
 
+/* A file with source for one target. */
+struct source_file {
+    str_id name; /* as the reader gave it */
+    str_id text;
+    uint32_t first_include, num_includes; /* in refs: source files, one per #include, in order */
+};
+
+/*
+ * A file that a generator of MaterialX adds for a function that no file includes: the environment.
+ * `environment` is the value of the option that selects the file; -1: any.
+ */
+struct implied_include {
+    const char *target, *function, *file;
+    int environment;
+};
+extern const struct implied_include library_implied_includes[];
+
+/* Parameters that a function may have after the inputs of its node, with their values. */
+struct extra_input {
+    const char *name;
+    ir_type_id type;
+    float value; /* of every component */
+};
+enum { LIBRARY_NUM_EXTRA_INPUTS = 2 };
+extern const struct extra_input library_extra_inputs[LIBRARY_NUM_EXTRA_INPUTS];
+
 struct verbatim {
-    str_id source;   /* the text of the file, including the files that it includes */
-    str_id function; /* 0: the text is an inline expression */
+    uint32_t file;                       /* source file; LIBRARY_NONE: there is none */
+    str_id function;                     /* 0: expressions */
+    uint32_t first_expression;           /* in refs: str_id per output */
+    uint32_t first_implied, num_implied; /* in refs: pairs of implied include and source file */
+    bool is_plain;                       /* f(inputs, results): no convention */
+    bool has_suffixes;                   /* a function per context: f_reflection */
+    uint8_t convention;                  /* enum source_convention */
+    uint8_t contexts;                    /* of a closure: bits by enum source_context */
+    uint8_t extra;                       /* bits: which of library_extra_inputs it takes */
+    /* the first reason why it is not portable, and its place */
+    str_id reason, reason_file;
+    uint32_t reason_line, reason_column;
 };
 
 /* The source of the value of a node's input. */
@@ -154,15 +192,19 @@ struct library {
     /* hash of the bytes of this layer and the layers below; unused for documents */
     uint64_t digest;
     enum library_trust trust;
+    /* true for the MaterialX name of a target that mxgen has; NULL: it has all */
+    bool (*knows_target)(const char *materialx_name);
     struct strpool strings;
     struct document doc;
     struct lang_unit unit;
-    uint32_t base_nodedefs, base_impls, base_families, base_verbatims, base_types, base_geomprops;
+    uint32_t base_nodedefs, base_impls, base_families, base_verbatims, base_sources, base_types,
+        base_geomprops;
     VEC(struct nodedef) nodedefs;
     VEC(struct port) ports;
     VEC(struct implementation) impls;
     VEC(struct family) families;
     VEC(struct verbatim) verbatims;
+    VEC(struct source_file) sources;
     /*
      * nodes of nodegraphs with a nodedef, resolved before use; image layers only; saves a sixth of
      * mxgen check (docs/benchmarks.md)
@@ -192,7 +234,17 @@ const struct nodedef *library_nodedef(const struct library *lib, uint32_t id);
 const struct implementation *library_impl(const struct library *lib, uint32_t id,
                                           const struct library **out_layer);
 const struct family *library_family(const struct library *lib, uint32_t id);
-const struct verbatim *library_verbatim(const struct library *lib, uint32_t id);
+const struct verbatim *library_verbatim(const struct library *lib, uint32_t id,
+                                        const struct library **out_layer);
+const struct source_file *library_source(const struct library *lib, uint32_t id,
+                                         const struct library **out_layer);
+/* Adds a source file and its includes to `out`, each once. */
+struct library_sources { /* layout of VEC(uint32_t) */
+    uint32_t *items;
+    uint32_t len, cap;
+};
+void library_collect_sources(const struct library *lib, uint32_t file, struct arena *arena,
+                             struct library_sources *out);
 const struct geomprop *library_geomprop(const struct library *lib, str_id name);
 uint32_t library_num_nodedefs(const struct library *lib); /* including lower layers */
 /*

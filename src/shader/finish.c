@@ -3,7 +3,7 @@
  * finish: makes a built shader ready for the speller. The pixel stage comes first, because it
  * decides which vertex data the vertex stage must write.
  */
-#include "shader/shader.h"
+#include "shader/source.h"
 
 #include <assert.h>
 
@@ -31,10 +31,11 @@ static void complete_loops(struct shader *shader, enum shader_stage_id id)
         mark_read(shader, shader->light_members.items[i], id);
 }
 
-/* Adds the uniforms and streams that called portable functions read. */
+/* Adds the host data that called portable functions and verbatim sources read. */
 static void add_globals(struct shader *shader, enum shader_stage_id id)
 {
     const struct lang_reach *reach = &shader->stages[id].reach;
+    shader_mark_sources(shader, id);
     for (uint32_t i = 0; i < reach->globals.len; i++) {
         const struct lang_global *global = lang_global(shader->unit, reach->globals.items[i], NULL);
         if (global->kind == LANG_GLOBAL_UNIFORM)

@@ -203,6 +203,11 @@ static const struct uniform_row *find_uniform(str_id name)
     }
 }
 
+bool shader_knows_uniform(str_id name)
+{
+    return find_uniform(name) != NULL;
+}
+
 static str_id semantic_of(struct shader *shader, str_id name)
 {
     const char *text = str_text(shader->strings, name);

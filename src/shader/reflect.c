@@ -87,22 +87,18 @@ static void put_place(struct reflect *r, const struct shader_variable *variable)
     }
 }
 
-static void put_ui(struct reflect *r, const struct shader_variable *variable)
+static void put_ui(struct reflect *r, const struct shader_ui *ui)
 {
-    struct shader_ui ui = {0};
-    if (!r->options->ui)
-        return;
-    r->options->ui(r->options->user_data, variable, &ui);
     const struct {
         const char *key, *value;
     } fields[] = {
-        {"name", ui.name},        {"folder", ui.folder},
-        {"min", ui.min},          {"max", ui.max},
-        {"softMin", ui.soft_min}, {"softMax", ui.soft_max},
-        {"step", ui.step},        {"doc", ui.doc},
-        {"enum", ui.enum_names},  {"enumValues", ui.enum_values},
+        {"name", ui->name},        {"folder", ui->folder},
+        {"min", ui->min},          {"max", ui->max},
+        {"softMin", ui->soft_min}, {"softMax", ui->soft_max},
+        {"step", ui->step},        {"doc", ui->doc},
+        {"enum", ui->enum_names},  {"enumValues", ui->enum_values},
     };
-    bool any = ui.advanced;
+    bool any = ui->advanced;
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
         any |= fields[i].value && *fields[i].value;
     if (!any)
@@ -111,7 +107,7 @@ static void put_ui(struct reflect *r, const struct shader_variable *variable)
     json_open(&r->json, '{');
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
         json_put_text(&r->json, fields[i].key, fields[i].value);
-    if (ui.advanced)
+    if (ui->advanced)
         json_put_bool(&r->json, "advanced", true);
     json_close(&r->json, '}');
 }
@@ -151,6 +147,7 @@ static void put_tiles(struct reflect *r, const struct shader_variable *variable)
 
 static void put_variable(struct reflect *r, const struct shader_variable *variable)
 {
+    struct shader_ui ui = {0};
     json_item(&r->json);
     json_open(&r->json, '{');
     reflect_id(r, "name", variable->name);
@@ -171,7 +168,9 @@ static void put_variable(struct reflect *r, const struct shader_variable *variab
     reflect_id(r, "file", variable->file);
     put_sampling(r, &variable->sampling);
     put_tiles(r, variable);
-    put_ui(r, variable);
+    if (r->options->ui)
+        r->options->ui(r->options->user_data, variable, &ui);
+    put_ui(r, &ui);
     json_close(&r->json, '}');
 }
 
@@ -221,13 +220,17 @@ static void put_compiled(struct reflect *r)
 {
     json_key(&r->json, "compiledInputs");
     json_open(&r->json, '[');
-    for (uint32_t i = 0; i < r->shader->compiled.len; i++) {
-        const struct shader_compiled_input *input = &r->shader->compiled.items[i];
+    for (uint32_t i = 0; r->options->compiled && i < r->shader->compiled.len; i++) {
+        struct shader_compiled_text input = {0};
+        r->options->compiled(r->options->user_data, i, &input);
         json_item(&r->json);
         json_open(&r->json, '{');
-        reflect_id(r, "path", input->path);
-        reflect_id(r, "documentType", input->doc_type);
-        reflect_id(r, "value", input->value);
+        json_put_text(&r->json, "path", input.path);
+        json_put_text(&r->json, "documentType", input.type);
+        json_put_text(&r->json, "value", input.value);
+        if (input.authored)
+            json_put_bool(&r->json, "authored", true);
+        put_ui(r, &input.ui);
         json_close(&r->json, '}');
     }
     json_close(&r->json, ']');
@@ -249,7 +252,10 @@ static void put_lights(struct reflect *r)
         if (light->shader)
             reflect_id(r, "shader", light->name);
         else
-            reflect_id(r, "function", lang_function(shader->unit, light->function, NULL)->name);
+            reflect_id(r, "function",
+                       light->source != UINT32_MAX
+                           ? shader->verbatim.items[light->source].function
+                           : lang_function(shader->unit, light->function, NULL)->name);
         json_key(&r->json, "members");
         json_open(&r->json, '[');
         for (uint32_t m = 0; m < light->num_members; m++) {

@@ -82,6 +82,9 @@ static inline unsigned note_needs(struct scheduler *s, ir_ref ref, const struct 
     switch (node->op) {
     case IR_LOCAL: s->any_local = true; return PLAN_LOCAL;
     case IR_CONTEXT:
+        if (node->attr != IR_WHOLE_LIGHT)
+            note_variable(s, node->attr);
+        return 0;
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE: note_variable(s, node->attr); return 0;

@@ -35,7 +35,7 @@ enum shader_stage_id { STAGE_VERTEX, STAGE_PIXEL, NUM_STAGES };
 /* The reaction of a host to a new value of an input. */
 enum shader_update {
     UPDATE_UNIFORM, /* set the variable */
-    UPDATE_SHADER,  /* generate again, because the value is compiled in */
+    UPDATE_SHADER,  /* generate again, because the build read the initial value */
 };
 
 /* The mode in which a node reads a texture, from its inputs of these names; 0: absent. */
@@ -91,10 +91,11 @@ struct shader_variable {
 /* The kind of a shader for targets without stages. */
 enum shader_kind { SHADER_VALUE, SHADER_SURFACE, SHADER_VOLUME };
 
-/* An input whose value is compiled in. A host needs a new shader when it changes. */
+/* An input of the document whose value is compiled in. A new value needs a new shader. */
 struct shader_compiled_input {
-    str_id path, doc_type, value;
-    uint32_t element;
+    uint32_t element;    /* holds the value; or the node whose definition does */
+    uint32_t definition; /* element of the nodedef's input; 0 = none */
+    str_id doc_type;
 };
 
 /* A bound light shader: its number in u_lightData[].type and its code. */
@@ -103,6 +104,8 @@ struct shader_light {
     str_id name; /* of the node, for comments and reflection */
     /* lang function: inputs, P, out direction, out intensity; or LANG_NONE with */
     uint32_t function;
+    /* verbatim source: (LightData, P, out lightshader); or UINT32_MAX with */
+    uint32_t source;
     /* a LIGHT_SHADER over members of LightData, with a position and a direction */
     ir_ref shader;
     uint32_t position, direction; /* variables, for a LIGHT_SHADER */
@@ -112,12 +115,14 @@ struct shader_light {
 
 /* Verbatim source, the callee of a VERBATIM node. The id of the callee is its index. */
 struct shader_verbatim {
-    str_id source; /* definitions that the call needs, written once before it; 0 = none */
+    /* in source_refs: the sources that the call needs, in their order (shader/source.h) */
+    uint32_t first_source, num_sources;
     /* the function, with the operands and an `out` argument per RESULT; 0: use `expression` */
     str_id function;
     str_id expression; /* {{i}} stands for operand i */
     /* types of a function's results, in shader->result_types; RESULT 1 is the first */
     uint32_t num_results, first_result;
+    bool has_initial; /* the last operands are the values of the results before the call */
 };
 
 /*
@@ -210,6 +215,11 @@ struct shader_layout_rules {
     uint32_t set;        /* descriptor set of everything */
 };
 
+struct source_language;
+struct shader_source;
+struct shader_token;
+struct source_leaf;
+
 struct shader {
     struct arena *arena;
     struct strpool *strings;
@@ -224,8 +234,14 @@ struct shader {
     VEC(struct shader_light) lights;
     VEC(uint32_t) light_members;
     VEC(struct shader_verbatim) verbatim;
-    struct table verbatim_table;  /* its indices + 1 */
-    VEC(ir_type_id) result_types; /* of verbatim functions */
+    VEC(ir_type_id) result_types;                  /* of verbatim functions */
+    const struct source_language *source_language; /* of the target; NULL: it has none */
+    VEC(struct shader_source) sources;             /* source.h */
+    VEC(uint32_t) source_refs;
+    VEC(struct shader_token) tokens; /* of all sources */
+    VEC(struct source_leaf) source_leaves;
+    bool source_is_1_38;       /* it has closures of MaterialX 1.38 */
+    struct table helper_table; /* names of the target's helpers to bits + 1 */
     /* used variables, block by block, in the order of their layout */
     VEC(uint32_t) interface;
     /* start of each block in `interface`, and the end of the last */
@@ -268,6 +284,9 @@ uint32_t shader_add_variable(struct shader *shader, const struct shader_variable
 bool shader_name_is_free(struct shader *shader, str_id name);
 /* UINT32_MAX: none. */
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name);
+
+/* True if streams.def has the private uniform. */
+bool shader_knows_uniform(str_id name);
 
 /* The IR node that reads a variable: UNIFORM, TEXTURE or STREAM by its block. */
 ir_ref shader_read(struct shader *shader, uint32_t variable);
@@ -373,6 +392,12 @@ struct shader_ui {
         *enum_values;
     bool advanced;
 };
+/* An input that is compiled in, as text. */
+struct shader_compiled_text {
+    const char *path, *type, *value;
+    bool authored; /* the document has the value, not the definition */
+    struct shader_ui ui;
+};
 struct reflect; /* reflect.h */
 struct network;
 struct shader_reflect_options {
@@ -380,6 +405,8 @@ struct shader_reflect_options {
     void *user_data;
     /* Fills the strings for a variable, which is zeroed before; NULL: none. */
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
+    /* Describes an item of shader->compiled; NULL: nothing is compiled in. */
+    void (*compiled)(void *user_data, uint32_t index, struct shader_compiled_text *out);
     const struct network *network; /* described in the place of the shader; NULL: it is none */
     uint64_t network_topology;
     void (*reflect_network)(const struct network *network, struct reflect *r);

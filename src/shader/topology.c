@@ -8,7 +8,7 @@
  * and size, and a version of it node by node.
  */
 #include "base/hash.h"
-#include "shader/shader.h"
+#include "shader/source.h"
 #include "tree/walk.h"
 
 #include <assert.h>
@@ -112,6 +112,7 @@ static uint64_t attribute(struct hasher *h, ir_ref ref)
     case IR_POISON: /* an origin */
     case IR_CONST: return 0;
     case IR_CONTEXT:
+        return node->attr == IR_WHOLE_LIGHT ? IR_WHOLE_LIGHT : h->variable_numbers[node->attr];
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE: return h->variable_numbers[node->attr];
@@ -183,7 +184,13 @@ static void add_stage(struct hasher *h, const struct shader_stage *stage)
     for (uint32_t i = 0; i < stage->verbatim.len; i++) {
         const struct shader_verbatim *verbatim =
             &h->shader->verbatim.items[stage->verbatim.items[i]];
-        add_text(h, verbatim->source);
+        struct source_list sources = {0};
+        for (uint32_t k = 0; k < verbatim->num_sources; k++)
+            shader_collect_sources(h->shader,
+                                   h->shader->source_refs.items[verbatim->first_source + k],
+                                   h->arena, &sources);
+        for (uint32_t k = 0; k < sources.len; k++)
+            add_text(h, h->shader->sources.items[sources.items[k]].text);
         add_text(h, verbatim->function);
         add_text(h, verbatim->expression);
     }

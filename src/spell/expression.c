@@ -97,14 +97,18 @@ void spell_argument(struct spell *spell, ir_ref ref)
     spell_text(spell, LANG_SAMPLER_SUFFIX);
 }
 
-static void write_list(struct spell *spell, ir_ref ref)
+static void write_first(struct spell *spell, ir_ref ref, uint32_t n)
 {
-    const struct ir_node *node = ir_get(spell->shader->graph, ref);
-    for (uint32_t i = 0; i < node->num_args; i++) {
+    for (uint32_t i = 0; i < n; i++) {
         if (i)
             text_mem(spell->out, ", ", 2);
         spell_argument(spell, ir_arg(spell->shader->graph, ref, i));
     }
+}
+
+static void write_list(struct spell *spell, ir_ref ref)
+{
+    write_first(spell, ref, ir_get(spell->shader->graph, ref)->num_args);
 }
 
 static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
@@ -174,12 +178,23 @@ static const char *callee_name(const struct spell *spell, ir_ref call)
     return spell_function_name(spell, callee);
 }
 
+/* The last operands of a verbatim call that are the values of its results before it. */
+static uint32_t initial_operands(const struct spell *spell, ir_ref call)
+{
+    if (ir_get(spell->shader->graph, call)->op != IR_VERBATIM)
+        return 0;
+    const struct shader_verbatim *verbatim =
+        &spell->shader->verbatim.items[shader_callee(spell->shader, call)];
+    return verbatim->has_initial ? verbatim->num_results : 0;
+}
+
 unsigned spell_call_open(struct spell *spell, ir_ref call)
 {
+    uint32_t n = ir_get(spell->shader->graph, call)->num_args - initial_operands(spell, call);
     spell_text(spell, callee_name(spell, call));
     text_char(spell->out, '(');
-    write_list(spell, call);
-    return ir_get(spell->shader->graph, call)->num_args;
+    write_first(spell, call, n);
+    return n;
 }
 
 static void write_call(struct spell *spell, ir_ref ref)
@@ -264,8 +279,11 @@ static void write_source(struct spell *spell, const struct ir_node *node)
         break;
     case IR_LOCAL: spell_name(spell, spell->locals[node->attr]); break;
     case IR_CONTEXT:
-        SPELL(spell, "u_lightData[", spell->loop_index, "].");
-        spell_name(spell, spell->variables[node->attr]);
+        SPELL(spell, "u_lightData[", spell->loop_index, "]");
+        if (node->attr != IR_WHOLE_LIGHT) {
+            text_char(spell->out, '.');
+            spell_name(spell, spell->variables[node->attr]);
+        }
         break;
     case IR_SAMPLE: spell_text(spell, spell->loop_index); break;
     default: /* after an error, nobody uses the text */

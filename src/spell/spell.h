@@ -144,10 +144,16 @@ void spell_wrap(struct spell *spell, size_t begin);
  */
 void spell_helper(struct spell *spell, const char *text);
 void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", without a newline */
-void spell_verbatim_sources(struct spell *spell); /* each once */
 
 /* Writes the stage of a C-like target: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
+
+/* ---- source.c ---- */
+
+/* The verbatim sources of the stage and the helpers that they use, each once. */
+void spell_verbatim_sources(struct spell *spell);
+/* Takes the names that these declare at file scope. */
+void spell_take_source_names(struct spell *spell);
 
 /* Writes "// …", the first sentence of the library's comment above a function, if there is one. */
 void spell_function_doc(struct spell *spell, uint32_t function);

@@ -177,33 +177,6 @@ void spell_title(struct spell *spell)
     write_plural(spell->out, textures, "texture");
 }
 
-/* True the first time; adds the text. */
-static bool is_first(struct table *seen, struct arena *arena, str_id text)
-{
-    uint32_t hash = hash_pair(text, 0), at = hash, found;
-    while ((found = table_next(seen, hash, &at)) && found != text) {
-    }
-    if (!found)
-        table_add(seen, arena, hash, text);
-    return !found;
-}
-
-void spell_verbatim_sources(struct spell *spell)
-{
-    const struct shader *shader = spell->shader;
-    struct table written = {0};
-    spell->verbatim_begin = spell->out->len;
-    for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
-        assert(spell->stage->verbatim.items[i] < shader->verbatim.len);
-        str_id source = shader->verbatim.items[spell->stage->verbatim.items[i]].source;
-        if (!source || !is_first(&written, spell->scratch, source))
-            continue;
-        spell_text(spell, str_text(shader->strings, source));
-        spell_text(spell, "\n");
-    }
-    spell->verbatim_end = spell->out->len;
-}
-
 void spell_function_doc(struct spell *spell, uint32_t function)
 {
     str_id doc = lang_function(spell->shader->unit, function, NULL)->doc;
@@ -327,6 +300,7 @@ static void init(struct spell *spell)
     if (spell->options->shader_name)
         names_take(&spell->names, spell->options->shader_name, strlen(spell->options->shader_name));
     spell_name_interface(spell);
+    spell_take_source_names(spell);
     name_types(spell);
     name_functions(spell);
 }

@@ -119,7 +119,7 @@ static struct call_out describe_out(const struct spell *spell, ir_ref call, unsi
     const struct shader_verbatim *verbatim = &shader->verbatim.items[shader_callee(shader, call)];
     assert(index < verbatim->num_results);
     return (struct call_out){shader->result_types.items[verbatim->first_result + index], "result",
-                             false};
+                             verbatim->has_initial};
 }
 
 /*
@@ -167,6 +167,10 @@ static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t firs
 /* The operand of an `inout` parameter, by its index among the `out` and `inout` parameters. */
 static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned index)
 {
+    const struct ir_node *node = ir_get(spell->shader->graph, call);
+    if (node->op == IR_VERBATIM)
+        return ir_arg(spell->shader->graph, call,
+                      node->num_args - shader_call_outs(spell->shader, call) + index);
     const struct lang_unit *layer;
     const struct lang_function *fn =
         lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);

@@ -105,6 +105,7 @@ struct target {
     const char *const *versions;
     const struct lang_syntax *syntax;
     const struct target_closures *closures; /* NULL: no closures */
+    const struct source_language *source;   /* of verbatim source; NULL: from base */
     const struct target_network *network;   /* NULL: no networks */
     const struct target_frame *frame;       /* of spell_stage; NULL: from base */
     /*

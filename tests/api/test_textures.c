@@ -360,6 +360,7 @@ static void test_profile(void)
 {
     struct shot shot;
     mxg_compiled_input file = {sizeof file};
+    uint32_t last;
     shoot(&shot, LAMP("lamp.ies"), false, NULL, NULL, MXG_OK);
     REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)), 0);
     const char *table =
@@ -369,7 +370,10 @@ static void test_profile(void)
     REQUIRE_EQ(mxg_result_num_files(shot.result), 1);
     REQUIRE_STR(mxg_result_file(shot.result, 0), "lamp.ies");
     REQUIRE(!mxg_result_file(shot.result, 1));
-    REQUIRE_EQ(mxg_result_compiled_input(shot.result, 0, &file), MXG_OK);
+    /* the texture is no variable: the shader has its numbers */
+    last = mxg_result_num_compiled_inputs(shot.result) - 1;
+    REQUIRE_EQ(mxg_result_compiled_input(shot.result, last, &file), MXG_OK);
+    REQUIRE_EQ(mxg_result_input_state(shot.result, "light/file"), MXG_INPUT_COMPILED);
     REQUIRE_STR(file.path, "light/file");
     finish(&shot);
     shoot(&shot, LAMP("tilted.ies"), false, NULL, NULL, MXG_OK);

@@ -27,7 +27,7 @@ END
 make_show() {
     rm -rf show && mkdir -p show/deep show/maps
     material Near >show/deep/near.mtlx
-    material Bad '1, 2' >show/bad.mtlx
+    material Bad rough >show/bad.mtlx
     touch show/maps/oak.png show/maps/elm.png
     wood maps/oak.png >show/wood.mtlx
 }
@@ -121,7 +121,7 @@ check 'a deleted shader line is told' eval '"$mxgen" check show "${quick[@]}" "$
 make_show
 printf '%s\n' '2i <!-- a comment -->' | sed -i -f - show/bad.mtlx
 changed 'a known error in another line' '[]'
-material Near '1, 2' >show/deep/near.mtlx
+material Near rough >show/deep/near.mtlx
 changed 'a new failure' "[('near.mtlx', 'fails'), ('near.mtlx', 'new-errors'), ('near.mtlx', 'fails'), ('near.mtlx', 'fails')]" always
 sed -i 's|<surfacematerial|<nonsense name="n" type="float"/>\n<surfacematerial|' show/bad.mtlx
 changed 'a new error in a document that fails' "[('bad.mtlx', 'new-errors')]" always
@@ -168,12 +168,12 @@ else
 fi
 
 # What is new comes first, then what else has changed, then one summary
-material Near '1, 2' >show/deep/near.mtlx
+material Near rough >show/deep/near.mtlx
 material Aaa >show/aaa.mtlx
 rm show/wood.mtlx
 check 'a run with changes of all sorts' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --html all.html --sarif all.sarif --junit all.xml --json all.json
 check 'tells failures first' is "$(grep -n '^changed' out | head -n 1 | cut -d: -f1)" "$(($(grep -n '^FAILED' out | tail -n 1 | cut -d: -f1) + 1))"
-check 'with the source of a new error' is "$(grep -A 2 '(new-errors)' out | tail -n 1 | tr -d ' ')" '^'
+check 'with the source of a new error' is "$(grep -A 2 '(new-errors)' out | tail -n 1 | tr -d ' ')" '^~~~~'
 check 'then the rest' eval 'grep -q "^changed show/aaa.mtlx (new): is new" out && grep -q "^changed show/wood.mtlx (gone): is in the baseline, but not in this run" out'
 check 'and one summary' is "$(tail -n 3 out)" '3 documents, 3 elements, 6 shaders
 since the baseline: 1 document fails (fails 1, new-errors 1); others: new 1, gone 1

@@ -12,7 +12,7 @@ export PATH=$work/programs:$PATH
 
 mkdir show
 for i in $(seq 12); do material "M$i" "0.$i" >"show/m$i.mtlx"; done
-material Bad '1, 2' >show/bad.mtlx
+material Bad rough >show/bad.mtlx
 cat >show/part.mtlx <<'END'
 <materialx version="1.39"><standard_surface name="SR" type="surfaceshader"/></materialx>
 END

@@ -90,7 +90,6 @@ check 'leaves the slot' grep -qE '^/set/cup/handle +\(000 Clay\)  \[050 Dust\]$'
 # fails ID ARGUMENT...: the command ends with 1 and tells the message.
 fails() { exits 1 "$mxgen" bind "${@:2}" && grep -qF "[$1]" err; }
 check 'an unknown slot' fails unknown-slot look.mtlx --stage stage.txt --solo 051
-check 'is compared' grep -qF "did you mean '050'" err
 check 'no slot at all' fails bad-slot look.mtlx --stage stage.txt --mute 'a b'
 check 'an unknown primitive' fails unknown-primitive look.mtlx --stage stage.txt --geom /set/cap
 check 'is compared, too' grep -qF "did you mean '/set/cup'" err
@@ -104,6 +103,111 @@ check 'with its line' eval 'grep -q "^bad.txt:2:1: error" err && grep -q "^bad.t
 check 'a stage that is missing' fails file-missing look.mtlx --stage none.txt
 check 'no stage' exits 2 "$mxgen" bind look.mtlx
 check 'a document in the folder of the output' exits 1 bind --json none/out.json
+
+# Stages of USD.
+cat >stage.usda <<'USD'
+#usda 1.0
+(
+    defaultPrim = "set"
+)
+over "Flattened_Prototype_1"
+{
+    def Mesh "leg"
+    {
+        rel material:binding = </Looks/Clay>
+    }
+}
+def Xform "set"
+{
+    uniform token[] material:slotOrder = ["000", "dust", "base"]
+    rel material:slotBinding:_dust = </Looks/Dust>
+    rel material:slotBinding:_base = </Looks/Clay>
+    def Xform "table" (
+        instanceable = true
+        references = </Flattened_Prototype_1>
+    )
+    {
+        rel material:slotBinding:_dust:_:_010 = </Looks/Clay>
+    }
+    def Xform "stool" (
+        references = </Flattened_Prototype_1>
+    )
+    {
+    }
+    def Mesh "cup"
+    {
+        rel material:slotBinding:_dust = None
+        rel material:binding = None
+        rel material:binding:full = </Looks/Dust>
+        rel material:binding:preview = </Looks/Clay>
+        def GeomSubset "rim"
+        {
+            uniform token familyName = "materialBind"
+            rel material:slotBinding:_000 = </Looks/Dust>
+            rel material:binding = </Looks/Clay>
+        }
+        def GeomSubset "faces"
+        {
+            uniform token familyName = "other"
+        }
+    }
+    def Xform "shelf"
+    {
+        rel material:binding = </Looks/Dust> (
+            bindMaterialAs = "strongerThanDescendants"
+        )
+        def Mesh "board"
+        {
+            rel material:binding = </Looks/Clay>
+        }
+    }
+}
+def Material "Clay"
+{
+    def Shader "S"
+    {
+    }
+}
+USD
+usd() { "$mxgen" bind "${document:-materials.mtlx}" --stage stage.usda "$@"; }
+row() { sed 's/  */ /g' out | grep -qxF "$1" || { cat out; return 1; }; }
+check 'a stage of USD, without a look' exits 0 usd
+check 'brings its own bindings, in its slotOrder' row '/set [dust Dust] [base Clay]'
+check 'instances are primitives' row '/set/table/leg [000 Clay] (dust Dust) (::010 Clay) (base Clay)'
+check 'each by itself' row '/set/stool/leg [000 Clay] (dust Dust) (base Clay)'
+check 'None removes a slot' row '/set/cup (base Clay)'
+check 'a slot binding beats a plain one' row '/set/cup/rim [000 Dust] (base Clay)'
+check 'a stronger binding beats those below' row '/set/shelf/board (000 Dust) (dust Dust) (base Clay)'
+check 'no shading and no other subsets' eval '! grep -qE "/Clay|/faces|Prototype" out'
+check 'JSON names the property' exits 0 usd --json -
+check 'and its line' json 'p["/set/table/leg"]["layers"][0]["assign"] == "/set/table/leg.material:binding stage.usda:9"'
+check 'a purpose' exits 0 usd --purpose full
+check 'beats all others' row '/set/cup/rim (000 Dust) (base Clay)'
+check 'the other purpose' exits 0 usd --purpose preview
+check 'has its own binding' row '/set/cup [000 Clay] (base Clay)'
+sed 's|<look name="day">|&<materialassign slot="000" material="Clay" geom="/set/shelf, /set/stool"/>|' look.mtlx >over.mtlx
+check 'with a look' exits 0 env document=over.mtlx "$mxgen" bind over.mtlx --stage stage.usda --mute 050
+check 'a look beats the scene at one path' row '/set/shelf [000 Clay] (dust Dust) (base Clay)'
+check 'and what a stronger binding has beaten' row '/set/shelf/board (000 Clay) (dust Dust) (base Clay)'
+check 'but deeper wins' row '/set/stool/leg [000 Clay] (dust Dust) (base Clay)'
+check 'reasons name it' exits 0 usd --geom /set/shelf/board
+check 'as stronger' grep -q 'loses to /set/shelf.material:binding, which is stronger than bindings of the scene below it' out
+check 'an unknown slot of the stage' fails unknown-slot materials.mtlx --stage stage.usda --solo dsut
+check 'is compared' grep -qF "did you mean 'dust'" err
+# broken SCRIPT ID [LINE]: the stage, edited by sed.
+broken() {
+    sed "$1" stage.usda >broken.usda
+    fails "$2" materials.mtlx --stage broken.usda && grep -q "^broken.usda:${3:-}" err
+}
+check 'a syntax error' broken 's/def Xform "shelf"/def Xform shelf/' usda-syntax 46:15
+check 'no text' broken '1s/.*/PXR-USDC/' usda-syntax 1:1
+check 'another arc' broken 's/instanceable = true/payload = @x.usda@/' usda-arc 17
+check 'a reference to a file' broken 's|references = </Flattened_Prototype_1>|references = @x.usda@|' usda-reference 17
+check 'a reference to nothing' broken 's|references = </Flattened_Prototype_1>|references = </Prototype>|' usda-reference 17
+check 'a cycle' broken 's|def Mesh "leg"|def Mesh "leg" ( references = </Flattened_Prototype_1> )|' usda-cycle 7
+check 'a slot that is none' broken 's/slotBinding:_dust = None/slotBinding:dust = None/' bad-binding 31
+check 'a material that is none' broken 's|</Looks/Dust>|</Looks/Duts>|' unknown-assigned 15:
+check 'a collection' eval 'sed "s|rel material:binding = None|rel material:binding:collection:x = [</a.collection:x>, </Looks/Clay>]|" stage.usda >broken.usda; "$mxgen" bind materials.mtlx --stage broken.usda 2>err && grep -qF "[collection-binding]" err'
 
 # The example, as docs/slots.md shows it.
 check 'examples/slots.mtlx' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished

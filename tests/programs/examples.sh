@@ -17,7 +17,7 @@ for document in "$examples"/*.mtlx; do
     check "${document##*/}" exits 0 "$mxgen" "$document" --target vulkan -o out.d
     check "${document##*/} without a warning" test ! -s err
     [ -z "$compile" ] || check "${document##*/} compiles" exits 0 "$compile" "$document"
-    check "${document##*/} as OSL" exits 0 "$mxgen" "$document" --target osl -o out.osl
+    check "${document##*/} as OSL" exits 0 "$mxgen" "$document" --target osl -o osl.d
     [ -z "$compile_osl" ] || check "${document##*/} compiles as OSL" exits 0 "$compile" "$document" --targets osl
     check "${document##*/} is in the list" grep -qF "\`${document##*/}\`" "$examples/README.md"
 done
@@ -78,6 +78,13 @@ check 'edit' exits 0 "${program[edit]}"
 sed '1,/<\/materialx>/d' out >polished.mtlx
 check 'writes what it built' eval 'sed "/<\/materialx>/q" out | "$mxgen" --target vulkan --stdout - | grep -q noise'
 check 'and what it edited' eval '"$mxgen" --target vulkan --stdout polished.mtlx >edited && [ -s edited ] && ! grep -q noise edited'
+check 'embedding' exits 0 "${program[embedding]}"
+check 'tells blocks with sizes' grep -q '^PublicUniforms: set 0, binding 1, [1-9][0-9]* bytes$' out
+check 'tells an input that is compiled in' grep -q '^compiled in: vector2 Wood/uvtiling = 4.0, 4.0$' out
+check 'keeps its program for a value' grep -q '^change 1, 1 values$' out
+check 'compiles another one for a constant' eval '[ "$(sed -n "/^change/{s/.* \([0-9]\), .*/\1/;p}" out | tr "\n" " ")" = "1 2 " ]'
+check 'tells a misspelt input' grep -qx 'there is no SR/metal' out
+check 'tells the place of an error' grep -q '^broken.mtlx:1:[0-9]*: dangling-nodename$' out
 check 'host_resolver' exits 0 "${program[host_resolver]}"
 check 'reads three assets' grep -q 'fract' out
 [ -z "${program[c_minimal]:-}" ] || check 'c_minimal' exits 0 "${program[c_minimal]}" "$examples/gold.mtlx"

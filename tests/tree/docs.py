@@ -122,6 +122,38 @@ def check_program():
         check(result.returncode == 0, f"README.md: the program does not compile: {result.stderr}")
 
 
+def check_embedding():
+    """The code of docs/embedding.md is that of examples/embedding.c."""
+    program = text_of(ROOT / "examples/embedding.c")
+    excerpts = re.findall(r"^```c\n(.*?)^```", text_of(ROOT / "docs/embedding.md"), re.MULTILINE | re.DOTALL)
+    check(len(excerpts) >= 10, f"docs/embedding.md has {len(excerpts)} excerpts only")
+    for excerpt in excerpts:
+        check(excerpt in program, f"docs/embedding.md: examples/embedding.c does not have\n{excerpt}")
+
+
+SEMANTIC = re.compile(r'^SEMANTIC\((\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)$', re.MULTILINE)
+
+
+def check_semantics():
+    """The table of docs/reflection.md is that of semantics.def, which has every row of streams.def."""
+    rows = SEMANTIC.findall(text_of(ROOT / "src/shader/semantics.def"))
+    names = {block: "".join(word.capitalize() for word in block.split("_")) for block, *_ in rows}
+    wanted = [f"| `{names[block]}` | `{semantic}` | {f'`{kind}` ' if kind else ''}| {meaning} |" for block, semantic, kind, meaning in rows]
+    table = re.search(r"<!-- semantics -->\n(.*?)<!-- end -->", text_of(ROOT / "docs/reflection.md"), re.DOTALL)
+    check(table and table[1].splitlines()[2:] == wanted, "docs/reflection.md: the table of semantics differs from src/shader/semantics.def")
+    known = {semantic for _, semantic, *_ in rows}
+    streams = text_of(ROOT / "src/shader/streams.def")
+    for name in re.findall(r"^UNIFORM\((\w+)", streams, re.MULTILINE):
+        check(name in known, f"semantics.def: there is no {name}")
+    for name in re.findall(r"^MATRICES\((\w+)\)", streams, re.MULTILINE):
+        check({f"{name}Matrix", f"{name}*Matrix"} <= known, f"semantics.def: there is no {name}Matrix")
+    for name in re.findall(r'^FAMILY\("(\w+)_"', streams, re.MULTILINE):
+        check(f"{name}:*" in known, f"semantics.def: there is no {name}:*")
+    for name in re.findall(r"^STREAM\((\w+)", streams, re.MULTILINE):
+        semantic = re.sub(r"(World|Object)$", lambda space: f":{space[0].lower()}", name)
+        check(semantic in known, f"semantics.def: there is no {semantic}")
+
+
 pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 for page in pages:
     check_links(page)
@@ -130,4 +162,6 @@ for page in set(pages) - reached(ROOT / "README.md"):
 check_references()
 check_commands()
 check_program()
+check_semantics()
+check_embedding()
 finish("docs")

@@ -182,19 +182,19 @@ static void test_interface(void)
         enum build_interface interface;
         const char *const *uniform, *const *constant;
         const char *expected, *value;
-        unsigned compiled; /* authored inputs that are compiled in */
+        unsigned compiled; /* inputs that are compiled in */
     } cases[] = {
         {"n", INTERFACE_COMPLETE, NULL, NULL, "n_in=0.25 n_amount=2", "0.5", 0},
-        {"n", INTERFACE_AUTHORED, NULL, NULL, "n_in=0.25", "0.5", 0},
-        {"n", INTERFACE_REDUCED, NULL, NULL, "", "0.5", 1},
+        {"n", INTERFACE_AUTHORED, NULL, NULL, "n_in=0.25", "0.5", 1},
+        {"n", INTERFACE_REDUCED, NULL, NULL, "", "0.5", 2},
         {"n", INTERFACE_REDUCED, amount, NULL, "n_amount=2", "0.5", 1},
         {"n", INTERFACE_COMPLETE, NULL, in, "n_amount=2", "0.5", 1},
-        {"n", INTERFACE_REDUCED, amount, all, "", "0.5", 1},          /* constant wins */
-        {"o", INTERFACE_COMPLETE, NULL, NULL, "o_amount=2", "28", 0}, /* m is no part of it */
+        {"n", INTERFACE_REDUCED, amount, all, "", "0.5", 2},          /* constant wins */
+        {"o", INTERFACE_COMPLETE, NULL, NULL, "o_amount=2", "28", 2}, /* m is no part of it */
         {"o", INTERFACE_COMPLETE, all, NULL, "m_in=7 m_amount=2 o_amount=2", "28", 0},
-        {"g/out", INTERFACE_COMPLETE, NULL, NULL, "g_k=4", "8", 0},
-        {"g/out", INTERFACE_AUTHORED, NULL, NULL, "g_k=4", "8", 0},
-        {"g/out", INTERFACE_REDUCED, NULL, NULL, "", "8", 1},
+        {"g/out", INTERFACE_COMPLETE, NULL, NULL, "g_k=4", "8", 1},
+        {"g/out", INTERFACE_AUTHORED, NULL, NULL, "g_k=4", "8", 1},
+        {"g/out", INTERFACE_REDUCED, NULL, NULL, "", "8", 2},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct work w;

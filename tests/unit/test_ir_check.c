@@ -72,6 +72,8 @@ static const struct {
      "the operands do not fit the op"},
     {"%1 = uniform float\n%2 = construct vec3 %1", 2, TYPE, IR_TYPE_INT,
      "the parts do not make the type"},
+    {FUNCTION "%5 = result float %4", 5, TYPE, IR_TYPE_BSDF,
+     "a call gives a closure or a shader, which no later step would see"},
     {"%1 = uniform float\n%2 = convert int %1", 2, TYPE, IR_TYPE_VEC3,
      "there is no such conversion"},
     {"%1 = uniform vec3\n%2 = swizzle float .z %1", 2, ATTR, 0x103,

@@ -12,7 +12,7 @@ static const struct layer_file files[] = {
                   "void split(vec3 v, out float low, out float high) { low = v.x; high = v.z; }\n"},
     {"matte.glsl", "vec3 matte_eval(vec3 color, vec3 L) { return color * L.z; }\n"
                    "vec3 matte_albedo(vec3 color) { return color; }\n"},
-    {"old.c", "float old(float x) { goto end; end: return x; }\n"},
+    {"old.c", "void old(float x, float by, int mode, out float y) { goto end; end: y = x; }\n"},
     {NULL, NULL},
 };
 
@@ -190,8 +190,8 @@ static void test_inheritance(void)
 /* "expression, verbatim genold": the implementations of a definition in its layer. */
 static const char *implementations(struct layers *l, const char *name)
 {
-    static const char *const kinds[] = {"expression", "function", "family", "graph",
-                                        "dynamic",    "verbatim", "broken"};
+    static const char *const kinds[] = {"expression", "function", "family",  "graph",
+                                        "dynamic",    "verbatim", "foreign", "broken"};
     struct text text;
     text_init(&text, &l->arena);
     for (uint32_t i = library_nodedef(&l->lib, def(l, name))->first_impl; i != LIBRARY_NONE;) {
@@ -232,9 +232,9 @@ static void test_implementations(void)
     REQUIRE(family->functions[FAMILY_EVAL] != LANG_NONE);
     REQUIRE(family->functions[FAMILY_ALBEDO] != LANG_NONE);
     REQUIRE_EQ(family->functions[FAMILY_THROUGHPUT], LANG_NONE);
-    const struct verbatim *verbatim = library_verbatim(&l.lib, 0);
+    const struct verbatim *verbatim = library_verbatim(&l.lib, 0, NULL);
     REQUIRE_STR(layers_text(&l, verbatim->function), "old");
-    REQUIRE_STR(layers_text(&l, verbatim->source), files[2].text);
+    REQUIRE_STR(layers_text(&l, library_source(&l.lib, verbatim->file, NULL)->text), files[2].text);
     layers_close(&l);
 }
 

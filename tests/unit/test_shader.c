@@ -594,6 +594,17 @@ static void describe_ui(void *user_data, const struct shader_variable *variable,
             .name = "Base", .folder = "Main", .min = "0", .soft_max = "1", .advanced = true};
 }
 
+static void describe_compiled(void *user_data, uint32_t index, struct shader_compiled_text *out)
+{
+    (void)user_data;
+    if (index == 0)
+        *out = (struct shader_compiled_text){.path = "SR/\"x\"",
+                                             .type = "float",
+                                             .value = "1",
+                                             .authored = true,
+                                             .ui.soft_max = "2"};
+}
+
 static void test_json(void)
 {
     struct fixture f;
@@ -601,15 +612,15 @@ static void test_json(void)
     ir_ref base = uniform(&f, "base", IR_TYPE_FLOAT);
     f.shader.variables.items[0].doc_type = word(&f, "float");
     f.shader.variables.items[0].value.w[0].f = 0.5f;
-    vec_push(
-        &f.arena, &f.shader.compiled,
-        (struct shader_compiled_input){word(&f, "SR/\"x\""), word(&f, "float"), word(&f, "1"), 0});
+    vec_push(&f.arena, &f.shader.compiled, (struct shader_compiled_input){0});
     effect(&f, EFFECT_OUTPUT, add_output(&f), ir_construct(&f.graph, IR_TYPE_VEC4, &base, 1));
     shader_finish(&f.shader, &(struct shader_layout_rules){.blocks = true, .bindings = true});
     struct text out;
     text_init(&out, &f.arena);
-    shader_reflect_json(
-        &f.shader, &(struct shader_reflect_options){.target = "vulkan", .ui = describe_ui}, &out);
+    shader_reflect_json(&f.shader,
+                        &(struct shader_reflect_options){
+                            .target = "vulkan", .ui = describe_ui, .compiled = describe_compiled},
+                        &out);
     const char *json = text_cstr(&out);
     static const char *const parts[] = {
         "{\n  \"name\": \"Gold\",\n  \"element\": \"surfacematerial\",\n  \"target\": "
@@ -628,7 +639,8 @@ static void test_json(void)
         "\"semantic\": \"position:object\"",
         "\"location\": 0",
         "\"matrixStride\": 16",
-        "\"path\": \"SR/\\\"x\\\"\"",
+        "\"path\": \"SR/\\\"x\\\"\",\n      \"documentType\": \"float\",\n      \"value\": "
+        "\"1\",\n      \"authored\": true,\n      \"ui\": {\n        \"softMax\": \"2\"",
     };
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (!REQUIRE(strstr(json, parts[i]) != NULL))

@@ -3,6 +3,8 @@
  * The speller and its targets. With a folder as argument, the shaders of the op walk and of the
  * whole stages are written there, for a GLSL compiler to judge.
  */
+#include "shader/source.h"
+
 #include "shader_fixture.h"
 #include "test.h"
 
@@ -302,11 +304,15 @@ static void test_verbatim(void)
     struct fixture f;
     fixture_open(&f, NULL);
     vec_push(&f.arena, &f.shader.result_types, IR_TYPE_VEC3);
-    vec_push(
-        &f.arena, &f.shader.verbatim,
-        (struct shader_verbatim){.source = word(&f, "void theirs(vec3 a, out vec3 b) { b = a; }\n"),
-                                 .function = word(&f, "theirs"),
-                                 .num_results = 1});
+    struct source_fault fault;
+    str_id text = word(&f, "void theirs(vec3 a, out vec3 b) { b = a; }\n");
+    uint32_t source = shader_add_source(&f.shader, text, NULL, 0, &fault);
+    vec_push(&f.arena, &f.shader.source_refs, source);
+    vec_push(&f.arena, &f.shader.verbatim,
+             (struct shader_verbatim){.first_source = f.shader.source_refs.len - 1,
+                                      .num_sources = 1,
+                                      .function = word(&f, "theirs"),
+                                      .num_results = 1});
     vec_push(&f.arena, &f.shader.verbatim,
              (struct shader_verbatim){.expression = word(&f, "{{0}} * {{1}}")});
     uint32_t callees[2];
@@ -677,7 +683,7 @@ static void check_infinities(const struct target *target)
         fixture_close(&f);
         return;
     }
-    REQUIRE(!"a target without a spelling of infinity");
+    REQUIRE(false); /* no target has a spelling of infinity */
 }
 
 static void test_targets(void)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""mxgen compiles MaterialX documents to shaders.
+
+    import mxgen
+
+    document = mxgen.Context().load("gold.mtlx")
+    shader = document.generate("glsl")
+    print(shader.pixel)
+
+docs/python.md is the guide; the C library's header, include/mxgen/mxgen.h, has every detail."""
+from .catalogue import Option, OptionType, Target, options, targets
+from .context import Context, File, ListFolder, Resolver, Rewriting, Rewritten
+from .definition import Library, NodeDef, Port
+from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, diagnostic_kinds, library_version
+from .document import Connection, Document, Element, Renderable, Value, equal
+from .edit import Draft, Edit, NewValue
+from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, OutOfMemoryError
+from .shader import (Alpha, Block, CompiledInput, OptionValue, Part, Place, Shader, ShaderInfo, Stage, Tile, Variable, View)
+
+__version__ = library_version()
+
+__all__ = ["Alpha", "ArgumentError", "Block", "CancelledError", "CompiledInput", "Connection", "Context", "Diagnostic",
+           "DiagnosticKind", "Diagnostics", "Document", "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "File",
+           "InternalError", "Library", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType", "OptionValue",
+           "OutOfMemoryError", "Part", "Place", "Port", "Renderable", "Resolver", "Rewriting", "Rewritten", "Severity", "Shader",
+           "ShaderInfo", "Stage", "Target", "Tile", "Value", "Variable", "View", "diagnostic_kinds", "equal", "library_version",
+           "options", "targets"]

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The targets and the options of generation, for lists and user interfaces."""
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+from ._calls import lib, record
+
+
+@dataclass(frozen=True)
+class Target:
+    """A language that mxgen writes."""
+
+    name: str
+    #: MaterialX's name of the target
+    materialx_name: str
+    brief: str
+    #: file endings of the vertex and the pixel stage; None: no such stage
+    stage_suffix: tuple[str | None, str | None]
+
+
+class OptionType(enum.IntEnum):
+    """The type of an option."""
+
+    BOOL = lib.MXG_OPTION_BOOL
+    INT = lib.MXG_OPTION_INT
+    STRING = lib.MXG_OPTION_STRING
+    ENUM = lib.MXG_OPTION_ENUM
+    LIST = lib.MXG_OPTION_LIST
+
+
+@dataclass(frozen=True)
+class Option:
+    """An option of generation."""
+
+    key: str
+    type: OptionType
+    #: ENUM: "complete|authored|reduced"; INT: "0..1024"
+    values: str
+    #: the default, as text
+    initial: str
+    doc: str
+
+
+def targets() -> tuple[Target, ...]:
+    """Every target."""
+    found = []
+    for index in range(lib.mxg_num_targets()):
+        values = record("mxg_target", lib.mxg_get_target, index)
+        assert values is not None
+        found.append(Target(**values))
+    return tuple(found)
+
+
+def options() -> tuple[Option, ...]:
+    """Every option of `Document.generate`."""
+    found = []
+    for index in range(lib.mxg_num_options()):
+        values = record("mxg_option", lib.mxg_get_option, index)
+        assert values is not None
+        values["type"] = OptionType(values["type"])
+        found.append(Option(**values))
+    return tuple(found)

@@ -1,0 +1,347 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Contexts: where files come from, the limits, and the start of every other object."""
+from __future__ import annotations
+
+import enum
+import os
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, Union
+
+from ._calls import Handle, Native, c_path, c_text, error_of, ffi, keep_text, lib, py_text
+from .definition import Library
+from .diagnostic import Diagnostics
+from .document import Document
+from .edit import Edit
+from .error import ArgumentError, DocumentError, Error, OutOfMemoryError
+
+
+@dataclass(frozen=True)
+class File:
+    """A file that a resolver gives."""
+
+    data: bytes | str
+    #: canonical name: messages show it, and includes in the file are relative to it; None: the name of the reference
+    name: str | None = None
+
+
+#: Finds a file: (canonical name of the referring file or "", reference) to its content, or None if there is no such file.
+Resolver = Callable[[str, str], Union[File, bytes, str, None]]
+#: Lists the files of a texture folder: (canonical name of the referring file, folder) to names, or None: no such folder.
+ListFolder = Callable[[str, str], Union[Sequence[str], None]]
+
+
+class Rewriting(enum.IntEnum):
+    """What `Context.rewrite` does."""
+
+    #: the document as it is, in one layout
+    FORMAT = lib.MXG_REWRITE_FORMAT
+    #: the same after the upgrade of an older version to 1.39
+    UPGRADE = lib.MXG_REWRITE_UPGRADE
+
+
+@dataclass(frozen=True)
+class Rewritten:
+    """A document as new text."""
+
+    text: str
+    #: the remarks `upgraded` describe each change of an upgrade
+    diagnostics: Diagnostics
+
+
+class _Holder(Native):
+    """The owner of a result of which Python shows a part."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+
+class _Host:
+    """The callbacks of a context, as C calls them. An exception in a callback waits until the call of C returns."""
+
+    def __init__(self, resolver: Resolver | None, list_folder: ListFolder | None, cancel: Callable[[], bool] | None) -> None:
+        for name, callback in ("resolver", resolver), ("list_folder", list_folder), ("cancel", cancel):
+            if callback is not None and not callable(callback):
+                raise TypeError(f"{name} must be callable, not {type(callback).__name__}")
+        self.resolver = resolver
+        self.list_folder = list_folder
+        self.cancel = cancel
+        self.raised: BaseException | None = None
+        self._lent: dict[int, list[Any]] = {}
+        self._next = 1
+
+    def open(self, origin: str, reference: str, blob: Any) -> bool:
+        assert self.resolver is not None
+        found = self.resolver(origin, reference)
+        if found is None:
+            return False
+        file = found if isinstance(found, File) else File(found)
+        data = file.data.encode("utf-8", "surrogateescape") if isinstance(file.data, str) else file.data
+        if not isinstance(data, bytes):
+            raise TypeError(f"the resolver must return File, bytes, str or None, not {type(found).__name__}")
+        view = ffi.from_buffer(data)
+        keep = [data, view]
+        blob.data = view
+        blob.size = len(data)
+        if file.name is not None:
+            blob.name = keep_text(c_text(file.name, "File.name"), keep)
+        blob.handle = ffi.cast("void *", self._next)
+        self._lent[self._next] = keep
+        self._next += 1
+        return True
+
+    def release(self, blob: Any) -> None:
+        del self._lent[int(ffi.cast("uintptr_t", blob.handle))]
+
+    def list(self, origin: str, folder: str) -> bytes:
+        assert self.list_folder is not None
+        names = self.list_folder(origin, folder)
+        if names is None:
+            return b""
+        if isinstance(names, (str, bytes)):
+            raise TypeError("list_folder must return a sequence of names")
+        return b"".join(c_text(name, "a name of list_folder") + b"\0" for name in names)
+
+
+def _host_of(user_data: Any) -> _Host:
+    host: _Host = ffi.from_handle(user_data)
+    return host
+
+
+def _keep_exception(_type: Any, error: BaseException | None, traceback: Any) -> None:
+    """cffi calls it instead of printing the exception of a callback."""
+    frame = traceback.tb_frame
+    host = _host_of(frame.f_locals["user_data"])
+    if host.raised is None:
+        host.raised = error
+
+
+@ffi.def_extern(error=False, onerror=_keep_exception)
+def callback_open(user_data: Any, origin: Any, reference: Any, blob: Any, out_reason: Any) -> bool:
+    """mxg_resolver.open"""
+    host = _host_of(user_data)
+    return host.raised is None and host.open(py_text(origin), py_text(reference), blob)
+
+
+@ffi.def_extern(onerror=_keep_exception)
+def callback_release(user_data: Any, blob: Any) -> None:
+    """mxg_resolver.release"""
+    _host_of(user_data).release(blob)
+
+
+@ffi.def_extern(error=0, onerror=_keep_exception)
+def callback_list_folder(user_data: Any, origin: Any, folder: Any, names: Any, capacity: int) -> int:
+    """mxg_resolver.list_folder"""
+    host = _host_of(user_data)
+    if host.raised is not None:
+        return 0
+    listed = host.list(py_text(origin), py_text(folder))
+    if len(listed) <= capacity:
+        ffi.memmove(names, listed, len(listed))
+    return len(listed)
+
+
+@ffi.def_extern(error=True, onerror=_keep_exception)
+def callback_cancel(user_data: Any) -> bool:
+    """mxg_context_desc.cancel"""
+    host = _host_of(user_data)
+    assert host.cancel is not None
+    return host.raised is not None or bool(host.cancel())
+
+
+class Context(Native):
+    """Loads documents and libraries. All arguments have defaults, and names as in mxg_context_desc:
+
+    resolver       finds files; None: files of the file system
+    list_folder    lists texture folders, beside a resolver
+    cancel         is called repeatedly by generation and inspection, and stops them when it returns True
+    max_...        limits (include/mxgen/mxgen.h); 0: the default
+    warnings       changes the severity of diagnostics: "error,no-unused-input"
+    trust          accepts shader source in documents
+    sandbox        keeps references of a document in its folder and in `include_roots`
+
+    An exception in a callback stops the call and leaves it unchanged. A callback cannot use its own context. Threads take turns
+    with a context; give each thread its own to generate at the same time."""
+
+    def __init__(self, *, resolver: Resolver | None = None, list_folder: ListFolder | None = None,
+                 cancel: Callable[[], bool] | None = None, max_memory: int = 0, max_file_mib: int = 0, max_elements: int = 0,
+                 max_nodes: int = 0, max_output_mib: int = 0, max_errors: int = 0, max_depth: int = 0, max_include_depth: int = 0,
+                 max_includes: int = 0, warnings: str | None = None, trust: bool = False, sandbox: bool = False,
+                 include_roots: Sequence[str | os.PathLike[str]] = ()) -> None:
+        if list_folder is not None and resolver is None:
+            raise ValueError("list_folder needs a resolver")
+        self._host = _Host(resolver, list_folder, cancel)
+        self._host_handle = ffi.new_handle(self._host)
+        self._lock = threading.Lock()
+        self._user: int | None = None
+        keep: list[Any] = []
+        desc = ffi.new("mxg_context_desc *", {"size": ffi.sizeof("mxg_context_desc"), "max_memory": max_memory,
+                                              "max_file_mib": max_file_mib, "max_elements": max_elements, "max_nodes": max_nodes,
+                                              "max_output_mib": max_output_mib, "max_errors": max_errors, "max_depth": max_depth,
+                                              "max_include_depth": max_include_depth, "max_includes": max_includes,
+                                              "trust": trust, "sandbox": sandbox})
+        if resolver is not None:
+            desc.resolver = self._make_resolver(list_folder is not None, keep)
+        if cancel is not None:
+            desc.cancel = lib.callback_cancel
+            desc.cancel_user_data = self._host_handle
+        if warnings is not None:
+            desc.warnings = keep_text(c_text(warnings, "warnings"), keep)
+        if isinstance(include_roots, str):
+            raise TypeError("include_roots must be a sequence of paths, not str")
+        roots = [keep_text(c_path(root, "an include root"), keep) for root in include_roots]
+        root_array = ffi.new("const char *[]", roots)
+        desc.include_roots = root_array
+        desc.num_include_roots = len(roots)
+        out = ffi.new("mxg_context **")
+        status = lib.mxg_context_create(desc, out)
+        if status == lib.MXG_ERROR_ARGUMENT and warnings:
+            raise ArgumentError(f"warnings has an unknown word, or a limit is out of range: '{warnings}'")
+        if status != lib.MXG_OK:
+            raise error_of(status)
+        host_handle = self._host_handle  # the callbacks need it until the context ends
+
+        def destroy(pointer: Any, _keep: Any = host_handle) -> None:
+            lib.mxg_context_destroy(pointer)
+
+        self._handle = Handle(out[0], destroy)
+        self._library: Library | None = None
+
+    def _make_resolver(self, lists_folders: bool, keep: list[Any]) -> Any:
+        resolver = ffi.new("mxg_resolver *", {"user_data": self._host_handle, "open": lib.callback_open,
+                                              "release": lib.callback_release})
+        if lists_folders:
+            resolver.list_folder = lib.callback_list_folder
+        keep.append(resolver)
+        return resolver
+
+    # ---- Calls ----
+
+    @contextmanager
+    def _turn(self) -> Iterator[Any]:
+        """A call of C that uses the context. Gives the context's pointer, and raises the exception of a callback afterwards."""
+        me = threading.get_ident()
+        if self._user == me:
+            raise Error("a callback cannot use its own context; make another context")
+        with self._lock:
+            try:
+                self._user = me
+                yield self._handle.pointer
+            finally:
+                self._user = None
+                raised, self._host.raised = self._host.raised, None
+            if raised is not None:
+                raise raised
+
+    def _make(self, ctype: str, function: Callable[..., int], destroy: Callable[[Any], None], parents: Sequence[Handle],
+              *arguments: Any) -> tuple[Handle, int]:
+        """Calls a function that makes an object: with the context, the arguments and a place for the object."""
+        out = ffi.new(f"{ctype} **")
+        handle = None
+        try:
+            with self._turn() as pointer:
+                status: int = function(pointer, *arguments, out)
+                if out[0]:
+                    handle = Handle(out[0], destroy, (self._handle, *parents))
+            if status not in (lib.MXG_OK, lib.MXG_ERROR_DOCUMENT):
+                raise error_of(status)
+            if handle is None:
+                raise OutOfMemoryError("there is no memory for the result")
+        except BaseException:
+            if handle is not None:
+                handle.release()
+            raise
+        return handle, status
+
+    # ---- Libraries ----
+
+    @property
+    def library(self) -> Library:
+        """The library that is built in."""
+        if self._library is None:
+            with self._turn() as pointer:
+                made = lib.mxg_library_builtin(pointer)
+            if not made:
+                raise OutOfMemoryError("there is no memory for the library")
+            # The library holds its context's handle and not the context, so that no cycle delays the end of both.
+            self._library = Library(Handle(made, lib.mxg_library_unref, (self._handle,)))
+        return self._library
+
+    def load_library(self, *paths: str | os.PathLike[str], base: Library | None = None, standalone: bool = False) -> Library:
+        """Makes a library of files, folders (every .mtlx below) or an image (.mxlib), on top of `base` (None: the built-in
+        library). `standalone`: on top of nothing; an image needs it. Raises DocumentError."""
+        if base is not None and standalone:
+            raise ValueError("a standalone library has no base")
+        below = None if standalone else self.library if base is None else base
+        if below is not None and not isinstance(below, Library):
+            raise TypeError(f"base must be Library, not {type(below).__name__}")
+        keep: list[Any] = []
+        names = ffi.new("const char *[]", [keep_text(c_path(path, "a path"), keep) for path in paths])
+        handle, status = self._make("mxg_library", lib.mxg_library_load, lib.mxg_library_unref,
+                                    (below._handle,) if below else (), below._handle.pointer if below else ffi.NULL, names,
+                                    len(paths))
+        library = Library(handle)
+        if status != lib.MXG_OK:
+            raise DocumentError(library.diagnostics)
+        return library
+
+    # ---- Documents ----
+
+    def _library_for(self, library: Library | None) -> Library:
+        if library is not None and not isinstance(library, Library):
+            raise TypeError(f"library must be Library, not {type(library).__name__}")
+        return self.library if library is None else library
+
+    def _document(self, library: Library, function: Callable[..., int], *arguments: Any) -> Document:
+        handle, status = self._make("mxg_document", function, lib.mxg_document_destroy, (library._handle,),
+                                    library._handle.pointer, *arguments)
+        document = Document(self, library, handle)
+        if status != lib.MXG_OK:
+            raise DocumentError(document.diagnostics, document)
+        return document
+
+    def load(self, path: str | os.PathLike[str], *, library: Library | None = None) -> Document:
+        """Reads a file. Raises DocumentError; its `document` has the parts without errors."""
+        return self._document(self._library_for(library), lib.mxg_document_load, c_path(path, "path"))
+
+    def parse(self, text: str | bytes, *, name: str = "<text>", library: Library | None = None) -> Document:
+        """Reads a document from its text. `name` appears in messages and is the base of includes. Raises DocumentError."""
+        data = _document_bytes(text)
+        return self._document(self._library_for(library), lib.mxg_document_parse, c_text(name, "name"), data, len(data))
+
+    def edit(self, document: Document | None = None, *, name: str = "<edit>", library: Library | None = None) -> Edit:
+        """Begins a new document, or a changed copy of one. `library` is for a new one; a copy keeps its own."""
+        if document is not None and not isinstance(document, Document):
+            raise TypeError(f"document must be Document, not {type(document).__name__}")
+        if document is not None and library is not None and library is not document.library:
+            raise ValueError("a changed document keeps its library")
+        used = document.library if document is not None else self._library_for(library)
+        return Edit(self, used, document, name)
+
+    def rewrite(self, rewriting: Rewriting, name: str | os.PathLike[str], text: str | bytes | None = None) -> Rewritten:
+        """Reads a document and writes it again. `text` None: reads the file `name`. Raises DocumentError."""
+        data = ffi.NULL if text is None else _document_bytes(text)
+        size = 0 if text is None else len(data)
+        handle, status = self._make("mxg_result", lib.mxg_rewrite, lib.mxg_result_destroy, (), Rewriting(rewriting),
+                                    c_path(name, "name"), data, size)
+        owner = _Holder(handle)
+        diagnostics = Diagnostics(lib.mxg_result_diagnostics(handle.pointer), owner)
+        if status != lib.MXG_OK:
+            raise DocumentError(diagnostics)
+        return Rewritten(py_text(lib.mxg_result_text(handle.pointer, ffi.NULL)), diagnostics)
+
+    def format(self, text: str | bytes, *, name: str = "<text>") -> str:
+        """The text of a document in one layout; comments stay."""
+        return self.rewrite(Rewriting.FORMAT, name, text).text
+
+    def upgrade(self, text: str | bytes, *, name: str = "<text>") -> Rewritten:
+        """A document of an older version as version 1.39."""
+        return self.rewrite(Rewriting.UPGRADE, name, text)
+
+
+def _document_bytes(text: str | bytes) -> bytes:
+    if not isinstance(text, (str, bytes)):
+        raise TypeError(f"text must be str or bytes, not {type(text).__name__}")
+    return text.encode("utf-8", "surrogateescape") if isinstance(text, str) else text

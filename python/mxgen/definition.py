@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Libraries and the node definitions in them."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from ._calls import Handle, Native, c_text, error_of, ffi, lib, py_text, record
+from .diagnostic import Diagnostics
+
+
+@dataclass(frozen=True)
+class Port:
+    """An input or output of a definition. A text that the definition does not have is ""."""
+
+    name: str
+    type: str
+    #: the default of an input
+    value: str
+    defaultgeomprop: str
+    enum_names: str
+    unit: str
+    doc: str
+    uniform: bool
+    #: uiadvanced
+    advanced: bool
+    enum_values: str
+    unittype: str
+    uiname: str
+    uifolder: str
+    uimin: str
+    uimax: str
+    uisoftmin: str
+    uisoftmax: str
+    uistep: str
+
+
+@dataclass(frozen=True)
+class NodeDef:
+    """A node definition. A text that the definition does not have is ""."""
+
+    name: str
+    #: the category of its nodes
+    node: str
+    version: str
+    group: str
+    doc: str
+    file: str
+    num_inputs: int
+    num_outputs: int
+    #: for at least one target
+    has_implementation: bool
+    #: a node without a version uses this definition
+    is_default_version: bool
+    _owner: Native = field(repr=False, compare=False)
+    _index: int = field(repr=False, compare=False)
+    _read_port: Callable[..., int] = field(repr=False, compare=False)
+
+    def _ports(self, first: int, count: int) -> tuple[Port, ...]:
+        found = []
+        for index in range(first, first + count):
+            values = record("mxg_port", self._read_port, self._owner._handle.pointer, self._index, index)
+            assert values is not None
+            found.append(Port(**values))
+        return tuple(found)
+
+    @property
+    def inputs(self) -> tuple[Port, ...]:
+        """The inputs, in the order of the definition."""
+        return self._ports(0, self.num_inputs)
+
+    @property
+    def outputs(self) -> tuple[Port, ...]:
+        """The outputs, in the order of the definition."""
+        return self._ports(self.num_inputs, self.num_outputs)
+
+    def input(self, name: str) -> Port | None:
+        """An input by name."""
+        return next((port for port in self.inputs if port.name == name), None)
+
+
+def read_nodedefs(owner: Native, count: int, read: Callable[..., int], read_port: Callable[..., int]) -> tuple[NodeDef, ...]:
+    """The definitions of a library or document."""
+    return tuple(read_nodedef(owner, index, read, read_port) for index in range(count))
+
+
+def read_nodedef(owner: Native, index: int, read: Callable[..., int], read_port: Callable[..., int]) -> NodeDef:
+    """One definition of a library or document; the index is below their number."""
+    values = record("mxg_nodedef", read, owner._handle.pointer, index)
+    assert values is not None
+    return NodeDef(**values, _owner=owner, _index=index, _read_port=read_port)
+
+
+class Library(Native):
+    """Node definitions; immutable. `Context.library` and `Context.load_library` give libraries."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+    @property
+    def diagnostics(self) -> Diagnostics:
+        """The diagnostics of loading it."""
+        return Diagnostics(lib.mxg_library_diagnostics(self._handle.pointer), self)
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Its files, and those of its bases. The built-in library has none."""
+        pointer = self._handle.pointer
+        return tuple(py_text(lib.mxg_library_file(pointer, index)) for index in range(lib.mxg_library_num_files(pointer)))
+
+    @property
+    def nodedefs(self) -> tuple[NodeDef, ...]:
+        """Every definition, with those of the bases."""
+        return read_nodedefs(self, lib.mxg_library_num_nodedefs(self._handle.pointer), lib.mxg_library_nodedef,
+                             lib.mxg_library_port)
+
+    def nodedef(self, name: str) -> NodeDef | None:
+        """The definition of a name: "ND_image_color3"."""
+        c_text(name, "name")
+        # A later definition replaces an earlier one.
+        return next((nodedef for nodedef in reversed(self.nodedefs) if nodedef.name == name), None)
+
+    def nodedefs_of(self, node: str) -> tuple[NodeDef, ...]:
+        """The definitions of a node category: "image"."""
+        c_text(node, "node")
+        return tuple(nodedef for nodedef in self.nodedefs if nodedef.node == node)
+
+    def supports(self, nodedef: NodeDef, target: str) -> bool:
+        """Whether a definition of this library has an implementation for a target."""
+        if not isinstance(nodedef, NodeDef):
+            raise TypeError(f"nodedef must be NodeDef, not {type(nodedef).__name__}")
+        if nodedef._owner is not self:
+            raise ValueError(f"'{nodedef.name}' is not a definition of this library")
+        return bool(lib.mxg_library_supports(self._handle.pointer, nodedef._index, c_text(target, "target")))
+
+    def image(self) -> bytes:
+        """The library image, for `Context.load_library(..., standalone=True)`. The library must be standalone."""
+        data, size = ffi.new("const void **"), ffi.new("size_t *")
+        self._read(lib.mxg_library_image, data, size)
+        return bytes(ffi.buffer(data[0], size[0]))
+
+    def expand(self) -> str:
+        """The library as a plain MaterialX document with all templates expanded."""
+        text, size = ffi.new("const char **"), ffi.new("size_t *")
+        self._read(lib.mxg_library_expand, text, size)
+        return py_text(text[0])
+
+    def _read(self, function: Callable[..., int], data: Any, size: Any) -> None:
+        status = function(self._handle.pointer, data, size)
+        if status != lib.MXG_OK:
+            raise error_of(status, "the library must be standalone" if status == lib.MXG_ERROR_ARGUMENT else "")

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Diagnostics: the errors, warnings and notes of a document, library or call."""
+from __future__ import annotations
+
+import enum
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, overload
+
+from ._calls import Native, ffi, lib, py_text, record, sized_text
+
+
+class Severity(enum.IntEnum):
+    """How bad a diagnostic is."""
+
+    ERROR = lib.MXG_SEVERITY_ERROR
+    WARNING = lib.MXG_SEVERITY_WARNING
+    NOTE = lib.MXG_SEVERITY_NOTE
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """One diagnostic."""
+
+    severity: Severity
+    #: stable, for example "type-mismatch"
+    id: str
+    #: one line, without the place
+    message: str
+    #: None: no file
+    file: str | None
+    #: from 1, columns in code points; 0: unknown
+    line: int
+    column: int
+    length: int
+    #: for a note: the index of its error or warning; otherwise its own index
+    parent: int
+    #: the path of an element that an edit added and that has no line; otherwise ""
+    path: str
+    _list: Diagnostics = field(repr=False, compare=False)
+    _index: int = field(repr=False, compare=False)
+
+    @property
+    def notes(self) -> tuple[Diagnostic, ...]:
+        """The notes that explain this error or warning."""
+        found = []
+        for other in self._list[self._index + 1:]:
+            if other.parent != self._index:
+                break
+            found.append(other)
+        return tuple(found)
+
+    def format(self, source: str | None = None, *, line: str | None = None, colour: bool = False) -> str:
+        """The diagnostic as compilers write it. With `source`, the text of the file, or `line`, the text of the line, the output
+        shows the line with a caret."""
+        if source is not None and line is not None:
+            raise ValueError("source and line exclude each other")
+        for name, text in ("source", source), ("line", line):
+            if text is not None and not isinstance(text, str):
+                raise TypeError(f"{name} must be str, not {type(text).__name__}")
+        function = lib.mxg_diagnostics_format_line if line is not None else lib.mxg_diagnostics_format
+        shown = line if line is not None else source
+        data = ffi.NULL if shown is None else shown.encode("utf-8", "surrogateescape")
+        size = 0 if shown is None else len(data)
+        native = self._list._pointer
+        return sized_text(lambda out, capacity: function(native, self._index, data, size, bool(colour), out, capacity))
+
+    def __str__(self) -> str:
+        return self.format().rstrip("\n")
+
+
+class Diagnostics(Sequence[Diagnostic]):
+    """The diagnostics of a document, library or call, in order of discovery. Notes follow the diagnostic that they explain."""
+
+    def __init__(self, pointer: Any, owner: Native) -> None:
+        self._pointer = pointer
+        self._owner = owner
+
+    def __len__(self) -> int:
+        return int(lib.mxg_diagnostics_count(self._pointer))
+
+    @overload
+    def __getitem__(self, index: int) -> Diagnostic: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Diagnostic]: ...
+
+    def __getitem__(self, index: int | slice) -> Diagnostic | Sequence[Diagnostic]:
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(len(self)))]
+        place = range(len(self))[index]
+        values = record("mxg_diagnostic", lib.mxg_diagnostics_get, self._pointer, place)
+        assert values is not None
+        values["severity"] = Severity(values["severity"])
+        return Diagnostic(**values, _list=self, _index=place)
+
+    @property
+    def errors(self) -> int:
+        """The number of errors, including those beyond `max_errors` of the context."""
+        return int(lib.mxg_diagnostics_errors(self._pointer))
+
+    @property
+    def warnings(self) -> int:
+        """The number of warnings."""
+        return int(lib.mxg_diagnostics_warnings(self._pointer))
+
+    def format(self, source: str | None = None, *, colour: bool = False) -> str:
+        """All diagnostics as compilers write them."""
+        return "".join(diagnostic.format(source, colour=colour) for diagnostic in self)
+
+    def __str__(self) -> str:
+        return self.format().rstrip("\n")
+
+    def __repr__(self) -> str:
+        return f"<Diagnostics: {self.errors} errors, {self.warnings} warnings>"
+
+
+@dataclass(frozen=True)
+class DiagnosticKind:
+    """A diagnostic that mxgen can report: `mxgen explain`."""
+
+    id: str
+    #: the default; the context's `warnings` can change it
+    severity: Severity
+    #: a format with %s and %u
+    message: str
+    cause: str
+    cure: str
+    #: an example as a diff (include/mxgen/mxgen.h describes the format); "": no example
+    example: str
+
+
+def diagnostic_kinds() -> tuple[DiagnosticKind, ...]:
+    """Every diagnostic that mxgen can report."""
+    found = []
+    for index in range(lib.mxg_num_diagnostic_kinds()):
+        values = record("mxg_diagnostic_kind", lib.mxg_get_diagnostic_kind, index)
+        assert values is not None
+        values["severity"] = Severity(values["severity"])
+        found.append(DiagnosticKind(**values))
+    return tuple(found)
+
+
+def library_version() -> str:
+    """The version of the C library."""
+    return py_text(lib.mxg_version_string())

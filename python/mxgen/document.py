@@ -1,0 +1,383 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Documents and their elements."""
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Any, Union
+
+from ._calls import Handle, Native, c_text, error_of, ffi, keep_text, lib, py_text, record, sized_text
+from .definition import Library, NodeDef, read_nodedef, read_nodedefs
+from .diagnostic import Diagnostics
+from .error import ArgumentError, DocumentError, OutOfMemoryError
+from .shader import OptionValue, Shader, View, make_options
+
+if TYPE_CHECKING:
+    from .context import Context
+    from .edit import Edit
+
+#: The value of an element: a tuple for a colour, vector or matrix; the text for other types and for arrays.
+Value = Union[bool, int, float, str, tuple[float, ...]]
+
+
+@dataclass(frozen=True)
+class Renderable:
+    """An element that mxgen can generate."""
+
+    #: "Gold", "NG_marble1/out"
+    path: str
+    #: "material", "surfaceshader", "color3" …
+    type: str
+    #: "surfacematerial", "output" …
+    category: str
+
+
+@dataclass(frozen=True)
+class Connection:
+    """The element that an input or output is connected to, as the document says it."""
+
+    #: a node or nodegraph, or the input of the nodegraph; None: the document has no such element, or a definition declares the input
+    source: Element | None
+    #: the name of the output of `source`; "" if the document names none
+    output: str
+    #: "" if absent
+    interfacename: str
+
+
+class Element:
+    """An element of a document. Two are equal if they are the same element of the same document."""
+
+    __slots__ = ("document", "number")
+
+    def __init__(self, document: Document, number: int) -> None:
+        if not isinstance(document, Document):
+            raise TypeError(f"document must be Document, not {type(document).__name__}")
+        self.document = document
+        #: documents made by edits keep the number
+        self.number = number
+        self._info()
+
+    def _info(self) -> dict[str, Any]:
+        info = record("mxg_element_info", lib.mxg_document_element, self.document._handle.pointer, self.number)
+        if info is None:
+            raise ArgumentError(f"the document has no element {self.number}")
+        return info
+
+    def _element(self, number: int) -> Element | None:
+        return Element(self.document, number) if number else None
+
+    @property
+    def category(self) -> str:
+        """"nodegraph", "input", "standard_surface" …"""
+        return str(self._info()["category"])
+
+    @property
+    def name(self) -> str:
+        """The name; "" if it has none."""
+        return str(self._info()["name"])
+
+    @property
+    def type(self) -> str:
+        """The attribute `type`; "" if absent."""
+        return str(self._info()["type"])
+
+    @property
+    def path(self) -> str:
+        """"NG_marble1/out"; "" for the root."""
+        pointer = self.document._handle.pointer
+        return sized_text(lambda out, capacity: lib.mxg_document_path(pointer, self.number, out, capacity))
+
+    @property
+    def file(self) -> str | None:
+        """The file of the element; None after an edit."""
+        file: str | None = self._info()["file"]
+        return file
+
+    @property
+    def line(self) -> int:
+        """The line where it begins, from 1; 0 after an edit."""
+        return int(self._info()["line"])
+
+    @property
+    def column(self) -> int:
+        """The column where it begins, from 1; 0 after an edit."""
+        return int(self._info()["column"])
+
+    # ---- The tree ----
+
+    @property
+    def parent(self) -> Element | None:
+        """The element around it; None for the root."""
+        return self._element(self._info()["parent"])
+
+    @property
+    def children(self) -> Iterator[Element]:
+        """The elements directly below."""
+        child = self._element(self._info()["first_child"])
+        while child is not None:
+            yield child
+            child = self._element(child._info()["next"])
+
+    def child(self, name: str) -> Element | None:
+        """The element of a name directly below."""
+        return self._element(lib.mxg_document_child(self.document._handle.pointer, self.number, c_text(name, "name")))
+
+    def children_of(self, category: str) -> Iterator[Element]:
+        """The elements of a category directly below."""
+        return (child for child in self.children if child.category == category)
+
+    @property
+    def inputs(self) -> Iterator[Element]:
+        """The inputs that the document writes. `definition` has those that keep their defaults, too."""
+        return self.children_of("input")
+
+    @property
+    def outputs(self) -> Iterator[Element]:
+        """The outputs of a nodegraph."""
+        return self.children_of("output")
+
+    def walk(self) -> Iterator[Element]:
+        """The element and all elements below, in the order of the document."""
+        ahead = [self]
+        while ahead:
+            element = ahead.pop()
+            yield element
+            ahead.extend(reversed(list(element.children)))
+
+    # ---- Attributes ----
+
+    def get(self, attribute: str) -> str | None:
+        """The text of an attribute ("name" included); None if it is absent."""
+        text = lib.mxg_document_attribute_value(self.document._handle.pointer, self.number, c_text(attribute, "attribute"))
+        return py_text(text) if text else None
+
+    @property
+    def attributes(self) -> Mapping[str, str]:
+        """The attributes without the name, in the order of the document."""
+        found = {}
+        for index in range(self._info()["num_attributes"]):
+            values = record("mxg_attribute", lib.mxg_document_attribute, self.document._handle.pointer, self.number, index)
+            assert values is not None
+            found[values["name"]] = values["value"]
+        return found
+
+    @property
+    def value(self) -> Value | None:
+        """The value of an input, output or token by its type; the text if it is not a value of the type; None if it has none."""
+        values = record("mxg_value", lib.mxg_document_value, self.document._handle.pointer, self.number)
+        if values is None:
+            return None
+        numbers: tuple[float, ...] = values["values"][:values["num_values"]]
+        if not numbers:
+            return str(values["text"])
+        if values["type"] == "boolean":
+            return bool(numbers[0])
+        if values["type"] == "integer":
+            return int(values["integer"])
+        return numbers[0] if len(numbers) == 1 else numbers
+
+    # ---- The graph ----
+
+    @property
+    def connection(self) -> Connection | None:
+        """The connection of an input or output; None if it has none."""
+        out = ffi.new("mxg_connection *", {"size": ffi.sizeof("mxg_connection")})
+        status = lib.mxg_document_connection(self.document._handle.pointer, self.number, out)
+        if status == lib.MXG_ERROR_ARGUMENT:
+            return None
+        if status not in (lib.MXG_OK, lib.MXG_ERROR_DOCUMENT): # the latter: the source does not exist
+            raise error_of(status)
+        return Connection(self._element(out.source), py_text(out.output), py_text(out.interfacename))
+
+    @property
+    def upstream(self) -> Iterator[Element]:
+        """The nodes and nodegraphs that the element depends on, each once, the nearest first. Goes into nodegraphs."""
+        seen: set[Element] = set()
+        ahead = [self]
+        for element in ahead:
+            ports = [element] if element.category in ("input", "output") else [*element.inputs, *element.outputs]
+            for port in ports:
+                connection = port.connection
+                source = connection.source if connection is not None else None
+                if source is None or source in seen:
+                    continue
+                seen.add(source)
+                ahead.append(source)
+                if source.category != "input":
+                    yield source
+
+    @property
+    def definition(self) -> NodeDef | None:
+        """The definition of a node, or of the nodegraph that implements it; None: there is none, or it does not fit. The
+        diagnostics of `Document.validate` give the reason."""
+        index = ffi.new("uint32_t *")
+        if not lib.mxg_document_definition(self.document._handle.pointer, self.number, index):
+            return None
+        return read_nodedef(self.document, index[0], lib.mxg_document_nodedef, lib.mxg_document_port)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Element) and other.document is self.document and other.number == self.number
+
+    def __hash__(self) -> int:
+        return hash((id(self.document), self.number))
+
+    def __repr__(self) -> str:
+        return f"<Element {self.category} '{self.path}'>"
+
+
+class Document(Native):
+    """A document; immutable. `Context.load`, `Context.parse` and edits give documents."""
+
+    def __init__(self, context: Context, library: Library, handle: Handle) -> None:
+        self._handle = handle
+        #: the context that made it
+        self.context = context
+        #: the library of its nodes
+        self.library = library
+
+    # ---- Contents ----
+
+    @property
+    def diagnostics(self) -> Diagnostics:
+        """The diagnostics of reading it."""
+        return Diagnostics(lib.mxg_document_diagnostics(self._handle.pointer), self)
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The files of the document, itself first."""
+        pointer = self._handle.pointer
+        return tuple(py_text(lib.mxg_document_file(pointer, index)) for index in range(lib.mxg_document_num_files(pointer)))
+
+    @property
+    def root(self) -> Element:
+        """<materialx>. The tree is the one that generation sees: after includes, templates and the upgrade to 1.39."""
+        return Element(self, lib.mxg_document_root(self._handle.pointer))
+
+    def find(self, path: str) -> Element | None:
+        """An element by path: "NG_marble1/out"."""
+        number = lib.mxg_document_find(self._handle.pointer, c_text(path, "path"))
+        return Element(self, number) if number else None
+
+    def __getitem__(self, path: str) -> Element:
+        """An element by path. Raises KeyError."""
+        element = self.find(path)
+        if element is None:
+            raise KeyError(path)
+        return element
+
+    def __iter__(self) -> Iterator[Element]:
+        """The elements of the root."""
+        return self.root.children
+
+    def walk(self) -> Iterator[Element]:
+        """All elements, in the order of the document, the root first."""
+        return self.root.walk()
+
+    @property
+    def renderables(self) -> tuple[Renderable, ...]:
+        """The materials. A document without materials has its graph outputs and the shaders that nothing uses."""
+        found = []
+        for index in range(lib.mxg_document_num_renderables(self._handle.pointer)):
+            values = record("mxg_renderable", lib.mxg_document_renderable, self._handle.pointer, index)
+            assert values is not None
+            found.append(Renderable(**values))
+        return tuple(found)
+
+    def look_materials(self, look: str) -> tuple[Renderable, ...]:
+        """The materials that a look or a look group assigns; empty if `look` is not the path of a look."""
+        path = c_text(look, "look")
+        found: list[Renderable] = []
+        while (values := record("mxg_renderable", lib.mxg_document_look_material, self._handle.pointer, path, len(found))):
+            found.append(Renderable(**values))
+        return tuple(found)
+
+    @property
+    def nodedefs(self) -> tuple[NodeDef, ...]:
+        """The definitions of the library and of the document."""
+        return read_nodedefs(self, lib.mxg_document_num_nodedefs(self._handle.pointer), lib.mxg_document_nodedef,
+                             lib.mxg_document_port)
+
+    def xml(self) -> str:
+        """The document as MaterialX XML. Reading the text gives an equal tree."""
+        text = lib.mxg_document_xml(self._handle.pointer, ffi.NULL)
+        if not text:
+            raise OutOfMemoryError("there is no memory for the text")
+        return py_text(text)
+
+    def edit(self) -> Edit:
+        """Begins a changed copy."""
+        return self.context.edit(self)
+
+    # ---- Calls ----
+
+    def _context_for(self, context: Context | None) -> Context:
+        used = self.context if context is None else context
+        if not isinstance(used, type(self.context)):
+            raise TypeError(f"context must be Context, not {type(used).__name__}")
+        return used
+
+    def _call(self, context: Context | None, function: Callable[..., int], *arguments: Any) -> tuple[Shader, int]:
+        """Makes a result with this document, and with another context if one is given."""
+        handle, status = self._context_for(context)._make("mxg_result", function, lib.mxg_result_destroy, (self._handle,),
+                                                          self._handle.pointer, *arguments)
+        return Shader(handle), status
+
+    def validate(self, *, context: Context | None = None) -> Diagnostics:
+        """Checks every node, connection and value against the library, without generating. Errors are in the result."""
+        return self._call(context, lib.mxg_document_validate)[0].diagnostics
+
+    def _request(self, context: Context | None, target: str, element: str | Element | None,
+                 options: Mapping[str, OptionValue] | None, keep: list[Any]) -> Any:
+        """A mxg_generate_desc; it lives as long as `keep`."""
+        desc = ffi.new("mxg_generate_desc *", {"size": ffi.sizeof("mxg_generate_desc")})
+        if isinstance(element, Element):
+            if element.document is not self:
+                raise ValueError("the element is of another document")
+            element = element.path
+        desc.target = keep_text(c_text(target, "target"), keep)
+        if element is not None:
+            desc.element = keep_text(c_text(element, "element"), keep)
+        if options is not None:
+            made_options = make_options(self._context_for(context), options)
+            keep.append(made_options)
+            desc.options = made_options._handle.pointer
+        return desc
+
+    def generate(self, target: str, element: str | Element | None = None, *, options: Mapping[str, OptionValue] | None = None,
+                 without_source: bool = False, only_diagnostics: bool = False, context: Context | None = None) -> Shader:
+        """Makes a shader. `element` is a material, shader, node or output, a graph with one output, or a look with one material;
+        None: the first renderable. `options` has the keys of `mxgen.options()`; a list gives several values. Raises
+        DocumentError.
+
+        `without_source` leaves out the source, `only_diagnostics` everything but the diagnostics. A thread that generates at the
+        same time as another one gives its own `context`."""
+        keep: list[Any] = []
+        desc = self._request(context, target, element, options, keep)
+        desc.without_source = without_source
+        desc.only_diagnostics = only_diagnostics
+        shader, status = self._call(context, lib.mxg_generate, desc)
+        if status != lib.MXG_OK:
+            raise DocumentError(shader.diagnostics)
+        return shader
+
+    def inspect(self, view: View, element: str | Element | None = None, *, target: str = "glsl",
+                options: Mapping[str, OptionValue] | None = None, context: Context | None = None) -> str:
+        """A text for people: the tree, the graph, the IR or the closures. Raises DocumentError."""
+        keep: list[Any] = []
+        desc = self._request(context, target, element, options, keep)
+        result, status = self._call(context, lib.mxg_inspect, View(view), desc)
+        if status != lib.MXG_OK:
+            raise DocumentError(result.diagnostics)
+        return result._text()
+
+
+def equal(one: Document | Element, other: Document | Element) -> bool:
+    """Whether two trees have the same elements in the same order, with the same attributes."""
+
+    def contents(part: Document | Element) -> Iterator[tuple[object, ...]]:
+        # The number of children at each element determines the shape of the tree.
+        for element in part.walk():
+            yield element.category, element.name, element.attributes, sum(1 for _ in element.children)
+
+    return all(a == b for a, b in zip_longest(contents(one), contents(other)))

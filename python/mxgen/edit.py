@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Edits: documents made from nothing or from other documents."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from numbers import Real
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Union
+
+from ._calls import Handle, Native, c_text, error_of, ffi, lib, py_text
+from .definition import Library
+from .document import Document, Element
+from .error import DocumentError, EditError, Error
+
+if TYPE_CHECKING:
+    from .context import Context
+
+#: A value for an input: the text of any type, or a number, a boolean, or the components of a colour, vector or matrix.
+NewValue = Union[bool, int, float, str, Sequence[float]]
+
+
+class Draft:
+    """An element of an edit. Its methods change the edit."""
+
+    __slots__ = ("edit", "number")
+
+    def __init__(self, edit: Edit, number: int) -> None:
+        self.edit = edit
+        #: the number of the element in the document that the edit makes
+        self.number = number
+
+    def add(self, category: str, name: str | None = None, type: str | None = None) -> Draft:
+        """Appends an element below. The name must be new there."""
+        return self.edit._made(lib.mxg_edit_add, self.number, c_text(category, "category"), _optional(name, "name"),
+                               _optional(type, "type"))
+
+    def child(self, name: str) -> Draft | None:
+        """The element of a name directly below."""
+        number = lib.mxg_edit_child(self.edit._pointer(), self.number, c_text(name, "name"))
+        return Draft(self.edit, number) if number else None
+
+    def set(self, attribute: str, value: str | None) -> Draft:
+        """Sets an attribute; None removes it."""
+        self.edit._change(lib.mxg_edit_set, self.number, c_text(attribute, "attribute"), _optional(value, "value"))
+        return self
+
+    def rename(self, name: str) -> Draft:
+        """Renames the element, and changes the references to it."""
+        self.edit._change(lib.mxg_edit_rename, self.number, c_text(name, "name"))
+        return self
+
+    def value(self, input: str, value: NewValue, type: str | None = None) -> Draft:
+        """Gives an input of a node a value, and removes its connection. An input that the node does not have yet needs a type."""
+        name, kind = c_text(input, "input"), _optional(type, "type")
+        if kind is ffi.NULL or isinstance(value, (str, int)):
+            self.edit._change(lib.mxg_edit_value, self.number, name, kind, _text_of(value))
+        else:
+            numbers = _numbers_of(value)
+            self.edit._change(lib.mxg_edit_numbers, self.number, name, kind, ffi.new("float[]", numbers), len(numbers))
+        return self
+
+    def connect(self, input: str | None, source: Draft, output: str | None = None) -> Draft:
+        """Connects an input of a node, or an <output> element (then `input` is None), to a node, a nodegraph or an input of the
+        nodegraph around it. `output` None: the only output of the source."""
+        self.edit._own(source)
+        self.edit._change(lib.mxg_edit_connect, self.number, _optional(input, "input"), source.number, _optional(output, "output"))
+        return self
+
+    def remove(self) -> None:
+        """Removes the element with all below it."""
+        self.edit._change(lib.mxg_edit_remove, self.number)
+
+    def move(self, parent: Draft | None = None, before: Draft | None = None) -> Draft:
+        """Moves the element before another one (None: to the end) below `parent` (None: the root)."""
+        for other in parent, before:
+            if other is not None:
+                self.edit._own(other)
+        self.edit._change(lib.mxg_edit_move, self.number, parent.number if parent else 0, before.number if before else 0)
+        return self
+
+    def copy(self, element: Element, name: str | None = None) -> Draft:
+        """Appends a copy of an element of any document, with all below it."""
+        if not isinstance(element, Element):
+            raise TypeError(f"element must be Element, not {_type_name(element)}")
+        return self.edit._made(lib.mxg_edit_copy, self.number, element.document._handle.pointer, element.number,
+                               _optional(name, "name"))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Draft) and other.edit is self.edit and other.number == self.number
+
+    def __hash__(self) -> int:
+        return hash((id(self.edit), self.number))
+
+    def __repr__(self) -> str:
+        return f"<Draft {self.number}>"
+
+
+class Edit(Native):
+    """A document under construction. `Context.edit` and `Document.edit` begin one; `end` makes the document.
+
+    As a context manager it ends at the end of the block, and `document` is the document; an exception cancels the edit. An edit
+    that fails raises EditError and changes nothing."""
+
+    def __init__(self, context: Context, library: Library, source: Document | None, name: str) -> None:
+        parents = (library._handle,) if source is None else (library._handle, source._handle)
+        handle, _ = context._make("mxg_edit", lib.mxg_edit_begin, lib.mxg_edit_cancel, parents, library._handle.pointer,
+                                  ffi.NULL if source is None else source._handle.pointer, c_text(name, "name"))
+        self._handle = handle
+        self._context = context
+        self._library = library
+        self._source = source
+        self._document: Document | None = None
+
+    # ---- Calls ----
+
+    def _pointer(self) -> Any:
+        if getattr(self, "_handle", None) is None:
+            raise Error("the edit has ended")
+        return self._handle.pointer
+
+    def _own(self, draft: Draft) -> None:
+        if not isinstance(draft, Draft):
+            raise TypeError(f"an element of the edit must be Draft, not {_type_name(draft)}")
+        if draft.edit is not self:
+            raise ValueError("the element is of another edit")
+
+    def _change(self, function: Any, *arguments: Any) -> None:
+        pointer = self._pointer()
+        with self._context._turn():
+            status = function(pointer, *arguments)
+            reason = py_text(lib.mxg_edit_error(pointer)) if status == lib.MXG_ERROR_ARGUMENT else ""
+        if status == lib.MXG_ERROR_ARGUMENT:
+            raise EditError(reason or "the edit is impossible")
+        if status != lib.MXG_OK:
+            raise error_of(status)
+
+    def _made(self, function: Any, *arguments: Any) -> Draft:
+        pointer = self._pointer()
+        with self._context._turn():
+            number = function(pointer, *arguments)
+            reason = "" if number else py_text(lib.mxg_edit_error(pointer))
+        if not number:
+            raise EditError(reason) if reason else error_of(lib.MXG_ERROR_MEMORY)
+        return Draft(self, number)
+
+    # ---- Elements ----
+
+    @property
+    def root(self) -> Draft:
+        """<materialx>."""
+        self._pointer()
+        return Draft(self, 0)
+
+    def find(self, path: str) -> Draft | None:
+        """An element by path, as the edit is now."""
+        number = lib.mxg_edit_find(self._pointer(), c_text(path, "path"))
+        return Draft(self, number) if number else None
+
+    def __getitem__(self, path: str | Element) -> Draft:
+        """An element by path, or an element of the document that the edit comes from, also after a new name. Raises KeyError."""
+        if isinstance(path, Element):
+            self._pointer()
+            if path.document is not self._source:
+                raise ValueError("the edit comes from another document")
+            return Draft(self, path.number)
+        found = self.find(path)
+        if found is None:
+            raise KeyError(path)
+        return found
+
+    def add(self, category: str, name: str | None = None, type: str | None = None) -> Draft:
+        """Appends an element to the root."""
+        return self.root.add(category, name, type)
+
+    def copy(self, element: Element, name: str | None = None) -> Draft:
+        """Appends a copy of an element of any document to the root."""
+        return self.root.copy(element, name)
+
+    # ---- End ----
+
+    def end(self) -> Document:
+        """Makes the document. The edit is over, also after an error. Raises DocumentError."""
+        pointer, handle = self._pointer(), self._handle
+        out = ffi.new("mxg_document **")
+        del self._handle
+        made = None
+        try:
+            with self._context._turn():
+                handle.forget() # mxg_edit_end frees the edit in every case
+                status = lib.mxg_edit_end(pointer, out)
+                if out[0]:
+                    made = Handle(out[0], lib.mxg_document_destroy, (self._context._handle, self._library._handle))
+        except BaseException: # of a callback
+            if made is not None:
+                made.release()
+            raise
+        finally:
+            handle.release()
+        if made is None:
+            raise error_of(status)
+        document = Document(self._context, self._library, made)
+        if status == lib.MXG_ERROR_DOCUMENT:
+            raise DocumentError(document.diagnostics, document)
+        if status != lib.MXG_OK:
+            raise error_of(status)
+        self._document = document
+        return document
+
+    def cancel(self) -> None:
+        """Drops the edit."""
+        if getattr(self, "_handle", None) is not None:
+            handle = self._handle
+            del self._handle
+            handle.release()
+
+    @property
+    def document(self) -> Document:
+        """The document that the edit made."""
+        if self._document is None:
+            raise Error("the edit has not made a document")
+        return self._document
+
+    def __enter__(self) -> Edit:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None) -> None:
+        if kind is not None:
+            self.cancel()
+        elif getattr(self, "_handle", None) is not None:
+            self.end()
+
+
+def _type_name(value: object) -> str:
+    return type(value).__name__
+
+
+def _optional(text: str | None, what: str) -> Any:
+    return ffi.NULL if text is None else c_text(text, what)
+
+
+def _numbers_of(value: float | Sequence[float]) -> list[float]:
+    if isinstance(value, Real):
+        return [float(value)]
+    if not isinstance(value, Sequence) or isinstance(value, (str, bytes, bytearray)):
+        raise TypeError(f"value must be a number, str or a sequence of numbers, not {_type_name(value)}")
+    for number in value:
+        if not isinstance(number, Real):
+            raise TypeError(f"a component of value must be a number, not {_type_name(number)}")
+    return [float(number) for number in value]
+
+
+def _text_of(value: NewValue) -> bytes:
+    """A value as MaterialX text."""
+    if isinstance(value, str):
+        return c_text(value, "value")
+    if isinstance(value, bool):
+        return b"true" if value else b"false"
+    if isinstance(value, int):
+        return str(value).encode()
+    return ", ".join(repr(number) for number in _numbers_of(value)).encode()

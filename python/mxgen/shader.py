@@ -1,0 +1,356 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shaders: sources and reflection."""
+from __future__ import annotations
+
+import enum
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
+
+from ._calls import Handle, Native, c_text, error_of, ffi, lib, py_text, record, sized_text
+from .diagnostic import Diagnostics
+from .error import ArgumentError, OutOfMemoryError
+
+if TYPE_CHECKING:
+    from .context import Context
+
+#: The value of an option of generation; a sequence gives several values of a list.
+OptionValue = Union[bool, int, str, Sequence[str]]
+
+
+class Stage(enum.IntEnum):
+    """A stage of a shader."""
+
+    VERTEX = lib.MXG_STAGE_VERTEX
+    PIXEL = lib.MXG_STAGE_PIXEL
+
+
+class Block(enum.IntEnum):
+    """The block of a variable."""
+
+    PUBLIC_UNIFORMS = lib.MXG_BLOCK_PUBLIC_UNIFORMS
+    PRIVATE_UNIFORMS = lib.MXG_BLOCK_PRIVATE_UNIFORMS
+    LIGHT_DATA = lib.MXG_BLOCK_LIGHT_DATA
+    TEXTURES = lib.MXG_BLOCK_TEXTURES
+    APP_DATA = lib.MXG_BLOCK_APP_DATA
+    VERTEX_DATA = lib.MXG_BLOCK_VERTEX_DATA
+    OUTPUTS = lib.MXG_BLOCK_OUTPUTS
+
+
+class Alpha(enum.IntEnum):
+    """How a host draws a shader."""
+
+    #: without blending
+    OPAQUE = lib.MXG_ALPHA_OPAQUE
+    #: with the depth test alone; the shader discards pixels below u_alphaThreshold
+    MASK = lib.MXG_ALPHA_MASK
+    #: back to front, blended over the pixels behind; colours are premultiplied
+    BLEND = lib.MXG_ALPHA_BLEND
+
+
+class View(enum.IntEnum):
+    """What `Document.inspect` shows."""
+
+    ELEMENTS = lib.MXG_VIEW_ELEMENTS
+    GRAPH = lib.MXG_VIEW_GRAPH
+    #: for Graphviz
+    DOT = lib.MXG_VIEW_DOT
+    IR = lib.MXG_VIEW_IR
+    CLOSURES = lib.MXG_VIEW_CLOSURES
+    STATISTICS = lib.MXG_VIEW_STATISTICS
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A tile of a texture: texture coordinates from (u, v) to (u + 1, v + 1)."""
+
+    file: str
+    u: int
+    v: int
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A uniform, attribute, texture or output of a shader (docs/reflection.md)."""
+
+    #: as in the source; a member does not include the name of its block
+    name: str
+    block: Block
+    #: bit s: stage s reads the variable
+    stages: int
+    #: a type of the shading language
+    type: str
+    #: "color3"; "" for private variables
+    document_type: str
+    #: "SR_gold/base_color"; "" for private variables
+    path: str
+    #: "worldMatrix", "geomprop:st"; "" for public variables
+    semantic: str
+    colorspace: str
+    unit: str
+    #: 0: not an array
+    array_length: int
+    set: int
+    binding: int
+    location: int
+    #: in a block
+    offset: int
+    byte_size: int
+    array_stride: int
+    matrix_stride: int
+    num_values: int
+    #: components of the default; integers and booleans as numbers
+    values: tuple[float, ...]
+    file: str
+    uaddressmode: str
+    vaddressmode: str
+    filtertype: str
+    uiname: str
+    uifolder: str
+    uimin: str
+    uimax: str
+    uisoftmin: str
+    uisoftmax: str
+    doc: str
+    #: the name of the file's layer
+    layer: str
+    #: the frames of a sequence
+    framerange: str
+    frameendaction: str
+    frameoffset: int
+    num_tiles: int
+    unittype: str
+    uistep: str
+    enum_names: str
+    enum_values: str
+    #: uiadvanced
+    advanced: bool
+    #: not interpolated between vertices
+    flat: bool
+    _shader: Shader = field(repr=False, compare=False)
+    _index: int = field(repr=False, compare=False)
+
+    @property
+    def tiles(self) -> tuple[Tile, ...]:
+        """The tiles of an image; tile n is layer n of the texture array."""
+        found = []
+        for tile in range(self.num_tiles):
+            values = record("mxg_tile", lib.mxg_result_tile, self._shader._handle.pointer, self._index, tile)
+            assert values is not None
+            found.append(Tile(**values))
+        return tuple(found)
+
+    def texture_file(self, frame: int = 0, tile: int = 0) -> str | None:
+        """The file of a texture, or of one of its tiles, at a frame; None: the host shows the default colour."""
+        pointer = self._shader._handle.pointer
+        text = sized_text(lambda out, capacity: lib.mxg_result_texture_file(pointer, self._index, tile, frame, out, capacity))
+        return text or None
+
+
+@dataclass(frozen=True)
+class CompiledInput:
+    """An input whose value is compiled in. A new value needs a new generation."""
+
+    path: str
+    type: str
+    value: str
+
+
+@dataclass(frozen=True)
+class Part:
+    """A layer of an OSL network: the file "<name>.osl"."""
+
+    name: str
+    source: str
+    #: "" for the last shader of a group
+    nodedef: str
+
+
+class Place(NamedTuple):
+    """The place in the document that produced a line of a source."""
+
+    file: str | None
+    line: int
+    column: int
+    path: str
+
+
+@dataclass(frozen=True)
+class ShaderInfo:
+    """A shader as a whole."""
+
+    name: str
+    path: str
+    target: str
+    #: a hash: equal for shaders that differ only in names and uniform values
+    topology: int
+    num_closures: int
+    num_textures: int
+    num_lights: int
+    transparent: bool
+    lit: bool
+    #: the vertex stage moves the surface
+    displaced: bool
+    alpha: Alpha
+
+
+class Shader(Native):
+    """A generated shader; immutable. `Document.generate` gives shaders."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+    # ---- Source ----
+
+    def source(self, stage: Stage) -> str | None:
+        """The source of a stage; None if the shader has no such stage."""
+        text = lib.mxg_result_source(self._handle.pointer, Stage(stage), ffi.NULL)
+        return py_text(text) if text else None
+
+    @property
+    def vertex(self) -> str | None:
+        """The source of the vertex stage (OSL: of displacement)."""
+        return self.source(Stage.VERTEX)
+
+    @property
+    def pixel(self) -> str | None:
+        """The source of the pixel stage (OSL: of the shader)."""
+        return self.source(Stage.PIXEL)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """With the option `osl-network`: the shaders of the layers."""
+        found = []
+        for index in range(lib.mxg_result_num_parts(self._handle.pointer)):
+            values = record("mxg_part", lib.mxg_result_part, self._handle.pointer, index)
+            assert values is not None
+            del values["source_size"]
+            found.append(Part(**values))
+        return tuple(found)
+
+    def source_place(self, stage: Stage, line: int) -> Place | None:
+        """The place in the document that produced a line (from 1)."""
+        file, row, column, path = ffi.new("const char **"), ffi.new("uint32_t *"), ffi.new("uint32_t *"), ffi.new("const char **")
+        if not lib.mxg_result_source_place(self._handle.pointer, Stage(stage), line, file, row, column, path):
+            return None
+        return Place(py_text(file[0]) if file[0] else None, row[0], column[0], py_text(path[0]) if path[0] else "")
+
+    def source_path(self, stage: Stage, line: int) -> str | None:
+        """The path of the node that produced a line, also of a node inside a definition: "SR_gold/coat_bsdf"."""
+        pointer, place = self._handle.pointer, Stage(stage)
+        return sized_text(lambda out, capacity: lib.mxg_result_source_path(pointer, place, line, out, capacity)) or None
+
+    @property
+    def closure_paths(self) -> tuple[str, ...]:
+        """The paths of the nodes that produced the closures."""
+        pointer = self._handle.pointer
+
+        def path(index: int) -> str:
+            return sized_text(lambda out, capacity: lib.mxg_result_closure_path(pointer, index, out, capacity))
+
+        return tuple(path(index) for index in range(self.info.num_closures))
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Files beside those of the document that the shader depends on: photometric profiles."""
+        pointer = self._handle.pointer
+        return tuple(py_text(lib.mxg_result_file(pointer, index)) for index in range(lib.mxg_result_num_files(pointer)))
+
+    @property
+    def diagnostics(self) -> Diagnostics:
+        """The diagnostics of the call: warnings, if it succeeded."""
+        return Diagnostics(lib.mxg_result_diagnostics(self._handle.pointer), self)
+
+    # ---- Reflection ----
+
+    @property
+    def info(self) -> ShaderInfo:
+        """The shader as a whole. Raises ArgumentError with `only_diagnostics`."""
+        values = record("mxg_shader_info", lib.mxg_result_info, self._handle.pointer)
+        if values is None:
+            raise ArgumentError("the call made diagnostics only")
+        values["alpha"] = Alpha(values["alpha"])
+        return ShaderInfo(**values)
+
+    def _variable(self, index: int) -> Variable:
+        values = record("mxg_variable", lib.mxg_result_variable, self._handle.pointer, index)
+        assert values is not None
+        values["block"] = Block(values["block"])
+        values["values"] = values["values"][:values["num_values"]]
+        return Variable(**values, _shader=self, _index=index)
+
+    @property
+    def variables(self) -> tuple[Variable, ...]:
+        """Every variable of the interface."""
+        return tuple(self._variable(index) for index in range(lib.mxg_result_num_variables(self._handle.pointer)))
+
+    def find_variable(self, path: str) -> Variable | None:
+        """The variable for a document path; None: the input is unused or compiled in."""
+        index = ffi.new("uint32_t *")
+        if not lib.mxg_result_find_variable(self._handle.pointer, c_text(path, "path"), index):
+            return None
+        return self._variable(index[0])
+
+    @property
+    def compiled_inputs(self) -> tuple[CompiledInput, ...]:
+        """Inputs whose value is compiled in."""
+        found = []
+        for index in range(lib.mxg_result_num_compiled_inputs(self._handle.pointer)):
+            values = record("mxg_compiled_input", lib.mxg_result_compiled_input, self._handle.pointer, index)
+            assert values is not None
+            found.append(CompiledInput(**values))
+        return tuple(found)
+
+    @property
+    def reflection_json(self) -> str:
+        """The variables, inputs and info as JSON (docs/reflection.md)."""
+        text = lib.mxg_result_reflection_json(self._handle.pointer, ffi.NULL)
+        if not text:
+            raise OutOfMemoryError("there is no shader, or no memory for the text")
+        return py_text(text)
+
+    def reflection(self) -> dict[str, Any]:
+        """The same, parsed."""
+        parsed: dict[str, Any] = json.loads(self.reflection_json)
+        return parsed
+
+    def _text(self) -> str:
+        """The text of an inspection."""
+        return py_text(lib.mxg_result_text(self._handle.pointer, ffi.NULL))
+
+
+# ---- Options ----
+
+class _Options(Native):
+    """The options of one call."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+    def set(self, key: str, value: str) -> None:
+        status = lib.mxg_options_set(self._handle.pointer, c_text(key, "the key of an option"), c_text(value, f"option '{key}'"))
+        if status == lib.MXG_ERROR_ARGUMENT:
+            raise ArgumentError(py_text(lib.mxg_options_error(self._handle.pointer)))
+        if status != lib.MXG_OK:
+            raise error_of(status)
+
+
+def make_options(context: Context, values: Mapping[str, OptionValue]) -> _Options:
+    """The native options of a call with the context."""
+    if not isinstance(values, Mapping):
+        raise TypeError(f"options must be a mapping, not {type(values).__name__}")
+    made = _Options(context._make("mxg_options", lib.mxg_options_create, lib.mxg_options_destroy, ())[0])
+    for key, value in values.items():
+        if isinstance(value, bool):
+            made.set(key, "true" if value else "false")
+        elif isinstance(value, int):
+            made.set(key, str(value))
+        elif isinstance(value, str):
+            made.set(key, value)
+        elif isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
+            for item in value:
+                made.set(key, item)
+        else:
+            raise TypeError(f"option '{key}' must be bool, int, str or a sequence of str, not {type(value).__name__}")
+    return made

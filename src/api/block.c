@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Blocks of uniforms: their places, and their bytes for upload. */
+#include "api/generation.h"
+
+static bool has_block(const mxg_result *result, mxg_block block)
+{
+    return result && result->has_shader && (unsigned)block < MXG_NUM_BLOCKS;
+}
+
+/* The buffer that holds a block; NULL: the block has none. */
+static const struct shader_buffer *buffer_of(const mxg_result *result, mxg_block block)
+{
+    const struct shader_buffer *buffer =
+        has_block(result, block) ? &result->shader.buffers[block] : NULL;
+    return buffer && buffer->size ? buffer : NULL;
+}
+
+mxg_status mxg_result_block(const mxg_result *result, mxg_block block, mxg_block_info *out)
+{
+    if (!has_block(result, block))
+        return MXG_ERROR_ARGUMENT;
+    const struct shader *shader = &result->shader;
+    const struct shader_buffer *buffer = &shader->buffers[block];
+    uint32_t first = shader->first_of_block[block];
+    mxg_block_info full = {
+        .name = shader_block_name((enum shader_block)block),
+        .first_variable = first,
+        .num_variables = shader->first_of_block[block + 1] - first,
+        .byte_size = buffer->size,
+        .set = buffer->size ? buffer->set : 0,
+        .binding = buffer->size ? buffer->binding : 0,
+    };
+    assert(first + full.num_variables <= shader->interface.len);
+    if (block == MXG_BLOCK_LIGHT_DATA && full.num_variables) {
+        full.array_length = shader->max_lights;
+        full.array_stride = buffer->stride;
+        assert(!buffer->size || buffer->size == buffer->stride * shader->max_lights);
+    }
+    return struct_write(out, &full, sizeof full);
+}
+
+/* ---- Values ---- */
+
+/* Columns are matrix_stride bytes apart, and their components follow each other. */
+static void write_words(const struct shader_variable *v, const union ir_word *words, char *to)
+{
+    const struct ir_type_info *info = ir_type_info(v->type);
+    uint32_t columns = info->columns > 1 ? info->columns : 1, rows = info->components / columns;
+    for (uint32_t i = 0; i < info->components; i++)
+        memcpy(to + i / rows * v->matrix_stride + i % rows * sizeof *words, &words[i],
+               sizeof *words);
+}
+
+size_t mxg_result_pack(const mxg_result *result, mxg_block block, void *bytes, size_t capacity)
+{
+    const struct shader_buffer *buffer = buffer_of(result, block);
+    if (!buffer)
+        return 0;
+    if (!bytes || capacity < buffer->size)
+        return buffer->size;
+    memset(bytes, 0, buffer->size);
+    const struct shader *shader = &result->shader;
+    for (uint32_t i = shader->first_of_block[block];
+         block != MXG_BLOCK_LIGHT_DATA && i < shader->first_of_block[block + 1]; i++) {
+        const struct shader_variable *v = result_variable(result, i);
+        assert(v->offset + v->size <= buffer->size);
+        if (v->has_default && v->value.type == v->type && !v->array_length)
+            write_words(v, v->value.w, (char *)bytes + v->offset);
+    }
+    return buffer->size;
+}
+
+static union ir_word word_of(ir_type_id scalar, float number)
+{
+    union ir_word word = {.f = number};
+    if (scalar == IR_TYPE_BOOL)
+        word.u = number != 0;
+    else if (scalar != IR_TYPE_FLOAT)
+        word.i = number >= 2147483648.0f   ? INT32_MAX
+                 : number > -2147483648.0f ? (int32_t)number
+                                           : INT32_MIN;
+    return word;
+}
+
+/* Where element `element` of a variable begins in its buffer; false: it has no such element. */
+static bool find_place(const mxg_result *result, const struct shader_variable *v, uint32_t element,
+                       uint32_t *out_offset)
+{
+    bool is_of_light = v->block == BLOCK_LIGHT_DATA;
+    uint32_t count = is_of_light       ? result->shader.max_lights
+                     : v->array_length ? v->array_length
+                                       : 1,
+             stride =
+                 is_of_light ? result->shader.buffers[BLOCK_LIGHT_DATA].stride : v->array_stride;
+    *out_offset = v->offset + element * stride;
+    return element < count;
+}
+
+mxg_status mxg_result_pack_value(const mxg_result *result, uint32_t variable, uint32_t element,
+                                 const float *values, uint32_t num_values, void *bytes,
+                                 size_t capacity)
+{
+    if (variable >= mxg_result_num_variables(result) || !values || !bytes)
+        return MXG_ERROR_ARGUMENT;
+    const struct shader_variable *v = result_variable(result, variable);
+    const struct shader_buffer *buffer = buffer_of(result, (mxg_block)v->block);
+    uint32_t offset;
+    if (!buffer || capacity < buffer->size || !find_place(result, v, element, &offset)
+        || num_values != ir_type_info(v->type)->components)
+        return MXG_ERROR_ARGUMENT;
+    union ir_word words[16];
+    assert(num_values <= sizeof words / sizeof *words && offset < buffer->size);
+    for (uint32_t i = 0; i < num_values; i++)
+        words[i] = word_of(ir_type_info(v->type)->scalar, values[i]);
+    write_words(v, words, (char *)bytes + offset);
+    return MXG_OK;
+}
+
+/* ---- Lights ---- */
+
+uint32_t mxg_result_num_light_types(const mxg_result *result)
+{
+    bool reads_lights = result && result->has_shader
+                        && result->shader.first_of_block[BLOCK_LIGHT_DATA]
+                               < result->shader.first_of_block[BLOCK_LIGHT_DATA + 1];
+    return reads_lights ? result->shader.lights.len : 0;
+}
+
+mxg_status mxg_result_light_type(const mxg_result *result, uint32_t index, mxg_light_type *out)
+{
+    if (index >= mxg_result_num_light_types(result))
+        return MXG_ERROR_ARGUMENT;
+    const struct shader_light *light = &result->shader.lights.items[index];
+    str_id name = light->shader ? light->name
+                                : lang_function(result->shader.unit, light->function, NULL)->name;
+    mxg_light_type full = {.type = light->type,
+                           .name = str_text(&result->strings, name),
+                           .is_shader = light->shader != 0,
+                           .num_members = light->num_members};
+    return struct_write(out, &full, sizeof full);
+}
+
+bool mxg_result_light_member(const mxg_result *result, uint32_t index, uint32_t member,
+                             uint32_t *out_variable)
+{
+    if (index >= mxg_result_num_light_types(result)
+        || member >= result->shader.lights.items[index].num_members)
+        return false;
+    const struct shader *shader = &result->shader;
+    uint32_t wanted =
+        shader->light_members.items[shader->lights.items[index].first_member + member];
+    for (uint32_t i = shader->first_of_block[BLOCK_LIGHT_DATA];
+         i < shader->first_of_block[BLOCK_LIGHT_DATA + 1]; i++) {
+        if (shader->interface.items[i] != wanted)
+            continue;
+        if (out_variable)
+            *out_variable = i;
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The primitives and bindings of a USD text layer (docs/slots.md, "In USD"). */
+#include "bind/name.h"
+#include "bind/scene.h"
+#include "usda/usda.h"
+
+#include <assert.h>
+
+/* A prim of the layer that becomes a primitive; `above` is the number of its parent on the stack.
+ */
+struct visit {
+    usda_prim_id prim;
+    prim_id parent;
+    uint32_t above; /* 1 + index in `open`; 0: none */
+};
+
+/* A prim whose children are visited, for cycles of references. */
+struct open_prim {
+    usda_prim_id prim;
+    uint32_t above, depth;
+};
+
+struct stage {
+    struct scene *scene;
+    struct usda_layer layer;
+    const char *purpose;
+    struct arena *scratch;
+    struct diag_list *diags;
+    VEC(struct visit) visits;
+    VEC(struct open_prim) open;
+};
+
+/* Nested instances multiply, so both have a limit. */
+enum { MAX_REFERENCES = 64, MAX_PRIMS = 1 << 25 };
+
+static struct diag_place place_of(const struct stage *s, uint32_t line, uint32_t column)
+{
+    return (struct diag_place){s->layer.file, line, column, 0};
+}
+
+static const char *text_of(struct stage *s, struct text_word word)
+{
+    return arena_strndup(s->scene->arena, word.bytes, word.len);
+}
+
+/* ---- Bindings ---- */
+
+static bool begins(struct text_word word, const char *prefix)
+{
+    size_t len = strlen(prefix);
+    return word.len >= len && memcmp(word.bytes, prefix, len) == 0;
+}
+
+/* True if a purpose counts: none, or the asked one. */
+static bool has_purpose(const struct stage *s, const char *rest, size_t len, bool *out_restricted)
+{
+    *out_restricted = len != 0;
+    return !len || (len == strlen(s->purpose) && memcmp(rest, s->purpose, len) == 0);
+}
+
+/* The name of the last prim of a path. */
+static struct text_word last_name(struct text_word path)
+{
+    size_t begin = path.len;
+    while (begin && path.bytes[begin - 1] != '/')
+        begin--;
+    return (struct text_word){path.bytes + begin, path.len - begin};
+}
+
+static void report_binding(struct stage *s, const struct usda_property *property, const char *fault)
+{
+    diag_add(s->diags, DIAG_ID_bad_binding, place_of(s, property->line, property->column),
+             text_of(s, property->name), fault);
+}
+
+/*
+ * What a relationship's name says: the slot and the rest behind it, without ':'. false: it is no
+ * direct binding.
+ */
+static bool read_binding_name(struct stage *s, const struct usda_property *property,
+                              const char **out_slot, struct text_word *out_rest)
+{
+    static const char plain[] = "material:binding", slots[] = "material:slotBinding:";
+    const char *end = property->name.bytes + property->name.len, *rest;
+    if (begins(property->name, slots)) {
+        struct slot_name name;
+        const char *code = property->name.bytes + strlen(slots);
+        rest = slot_decode(code, (size_t)(end - code), &name);
+        if (!rest) {
+            report_binding(s, property,
+                           "is not the name of a slot; expected for example "
+                           "material:slotBinding:_050:_:_010");
+            return false;
+        }
+        struct text text;
+        text_init(&text, s->scene->arena);
+        slot_write(&name, &text);
+        *out_slot = text_cstr(&text);
+    } else if (begins(property->name, plain)) {
+        rest = property->name.bytes + strlen(plain);
+        *out_slot = SLOT_DEFAULT;
+        if (rest < end && *rest != ':')
+            return false;
+    } else {
+        return false;
+    }
+    rest += rest < end;
+    *out_rest = (struct text_word){rest, (size_t)(end - rest)};
+    return true;
+}
+
+static const char *label_of(struct stage *s, prim_id prim, const struct usda_property *property)
+{
+    struct text label;
+    text_init(&label, s->scene->arena);
+    scene_path(s->scene, prim, &label);
+    text_char(&label, '.');
+    text_put(&label, property->name);
+    return text_cstr(&label);
+}
+
+/* The material that a relationship names; false: it names none, or the binding does not count. */
+static bool read_target(struct stage *s, const struct usda_property *property,
+                        const char **out_material)
+{
+    struct text_word rest = property->value, target;
+    bool is_slot = begins(property->name, "material:slotBinding:");
+    *out_material = "";
+    /* on a plain binding it only clears what weaker layers say */
+    if (usda_is(property->value, "None") || usda_is(property->value, "[]"))
+        return is_slot;
+    if (!usda_next_item(&rest, &target))
+        return false;
+    *out_material = text_of(s, last_name(target));
+    if (usda_next_item(&rest, &target))
+        report_binding(s, property, "names several materials; expected one");
+    return true;
+}
+
+static void add_binding(struct stage *s, prim_id prim, const struct usda_property *property)
+{
+    struct scene_binding added = {.prim = prim};
+    struct text_word rest;
+    if (!usda_is(property->type, "rel") || !read_binding_name(s, property, &added.name, &rest))
+        return;
+    if (begins(rest, "collection")) {
+        diag_add(s->diags, DIAG_ID_collection_binding,
+                 place_of(s, property->line, property->column), text_of(s, property->name));
+        return;
+    }
+    if (!has_purpose(s, rest.bytes, rest.len, &added.is_purpose)
+        || !read_target(s, property, &added.material))
+        return;
+    added.label = label_of(s, prim, property);
+    added.place = place_of(s, property->line, property->column);
+    added.is_strong = usda_is(property->bind_as, "strongerThanDescendants");
+    vec_push(s->scene->arena, &s->scene->bindings, added);
+}
+
+/*
+ * A slot binding of 000 beats a plain binding of the same prim, whatever their order: of equal
+ * bindings the later wins.
+ */
+static void add_bindings(struct stage *s, prim_id prim, const struct usda_prim *source)
+{
+    const struct usda_property *properties = s->layer.properties.items;
+    for (unsigned with_slots = 0; with_slots < 2; with_slots++)
+        for (uint32_t i = source->first_property; i; i = properties[i].next)
+            if (begins(properties[i].name, "material:slotBinding:") == (with_slots != 0))
+                add_binding(s, prim, &properties[i]);
+}
+
+/* ---- Prims ---- */
+
+/* True for what a scene is drawn of: groups and geometry, but no shading, and no settings. */
+static bool is_primitive(const struct stage *s, const struct usda_prim *prim)
+{
+    static const char *const others[] = {"Material",       "Shader",        "NodeGraph",
+                                         "RenderSettings", "RenderProduct", "RenderVar"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (usda_is(prim->type, others[i]))
+            return false;
+    if (usda_is(prim->type, "GeomSubset")) {
+        const struct usda_property *family = usda_find_property(&s->layer, prim, "familyName");
+        struct text_word rest = family ? family->value : (struct text_word){0}, name;
+        return family && usda_next_item(&rest, &name) && usda_is(name, "materialBind");
+    }
+    return prim->specifier == USDA_DEF && !prim->is_variant;
+}
+
+/* True if a prim is open already: its reference leads to itself. */
+static bool is_open(const struct stage *s, uint32_t above, usda_prim_id prim)
+{
+    for (; above; above = s->open.items[above - 1].above)
+        if (s->open.items[above - 1].prim == prim)
+            return true;
+    return false;
+}
+
+/* The prim that an internal reference names; 0: none. Reports other arcs. */
+static usda_prim_id reference_of(struct stage *s, usda_prim_id id, uint32_t above)
+{
+    const struct usda_prim *prim = &s->layer.prims.items[id];
+    struct diag_place place = place_of(s, prim->line, prim->column);
+    struct text_word rest = prim->references, target;
+    if (prim->arc.len)
+        diag_add(s->diags, DIAG_ID_usda_arc, place, text_of(s, prim->name), text_of(s, prim->arc));
+    if (!rest.len || usda_is(rest, "None") || !usda_next_item(&rest, &target))
+        return 0;
+    usda_prim_id found = *target.bytes == '/' ? usda_find(&s->layer, target.bytes, target.len) : 0;
+    bool is_cycle = found
+                    && (found == id || is_open(s, above, found)
+                        || (above && s->open.items[above - 1].depth > MAX_REFERENCES));
+    if (!found || is_cycle)
+        diag_add(s->diags, is_cycle ? DIAG_ID_usda_cycle : DIAG_ID_usda_reference, place,
+                 text_of(s, prim->name), text_of(s, target));
+    return is_cycle ? 0 : found;
+}
+
+/* Children are visited in their order: the last one is pushed first. */
+static void push_children(struct stage *s, usda_prim_id source, prim_id parent, uint32_t above)
+{
+    uint32_t first = s->visits.len;
+    const struct usda_prim *prims = s->layer.prims.items;
+    for (usda_prim_id child = prims[source].first_child; child; child = prims[child].next)
+        vec_push(s->scratch, &s->visits, (struct visit){child, parent, above});
+    for (uint32_t i = first, k = s->visits.len; i + 1 < k; i++) {
+        k--;
+        struct visit swapped = s->visits.items[i];
+        s->visits.items[i] = s->visits.items[k];
+        s->visits.items[k] = swapped;
+    }
+}
+
+static void visit(struct stage *s, struct visit at)
+{
+    const struct usda_prim *prim = &s->layer.prims.items[at.prim];
+    if (!is_primitive(s, prim))
+        return;
+    prim_id added = scene_child(s->scene, at.parent, prim->name.bytes, prim->name.len);
+    usda_prim_id reference = reference_of(s, at.prim, at.above);
+    uint32_t depth = at.above ? s->open.items[at.above - 1].depth + 1 : 1;
+    if (reference) {
+        /* what the instance says itself is stronger, so it comes later */
+        add_bindings(s, added, &s->layer.prims.items[reference]);
+        vec_push(s->scratch, &s->open, (struct open_prim){reference, at.above, depth});
+        push_children(s, reference, added, s->open.len);
+    }
+    add_bindings(s, added, prim);
+    push_children(s, at.prim, added, at.above);
+}
+
+/* uniform token[] material:slotOrder on the default prim. */
+static void read_slot_order(struct stage *s)
+{
+    struct text_word prim = s->layer.default_prim, rest, item;
+    usda_prim_id id = prim.len ? usda_find(&s->layer, prim.bytes, prim.len) : 0;
+    const struct usda_property *order =
+        id ? usda_find_property(&s->layer, &s->layer.prims.items[id], "material:slotOrder") : NULL;
+    struct text text;
+    if (!order)
+        return;
+    text_init(&text, s->scene->arena);
+    for (rest = order->value; usda_next_item(&rest, &item);) {
+        text_str(&text, text.len ? "," : "");
+        text_put(&text, item);
+    }
+    s->scene->slot_order = text_cstr(&text);
+    s->scene->slot_order_place = place_of(s, order->line, order->column);
+}
+
+void scene_read_usda(struct scene *scene, const char *file, const char *text, size_t len,
+                     const char *purpose, struct arena *scratch, struct diag_list *diags)
+{
+    struct stage s = {.scene = scene, .purpose = purpose, .scratch = scratch, .diags = diags};
+    if (!usda_read(&s.layer, file, text, len, scratch, diags))
+        return;
+    if (s.layer.prims.items[0].arc.len)
+        diag_add(diags, DIAG_ID_usda_arc, place_of(&s, 1, 1), file,
+                 text_of(&s, s.layer.prims.items[0].arc));
+    read_slot_order(&s);
+    push_children(&s, 0, 0, 0);
+    while (s.visits.len && scene->prims.len < MAX_PRIMS) {
+        struct visit at = vec_pop(&s.visits);
+        visit(&s, at);
+    }
+    if (s.visits.len)
+        diag_add(diags, DIAG_ID_usda_size, place_of(&s, 0, 0), file, (unsigned)MAX_PRIMS);
+}

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Implementations: from their elements to parsed functions and expressions. */
+#include "library/index_priv.h"
+
+#include <assert.h>
+
+static bool is_closure(doc_type type)
+{
+    return type == DOC_TYPE_BSDF || type == DOC_TYPE_EDF || type == DOC_TYPE_VDF;
+}
+
+static uint32_t input_types(const struct indexer *ix, uint32_t nodedef, struct lang_input *out,
+                            uint32_t max)
+{
+    const struct nodedef *def = library_nodedef(ix->lib, nodedef);
+    assert(def->num_inputs <= max);
+    const struct port *ports = library_ports(ix->lib, nodedef, NULL);
+    uint32_t n = def->num_inputs < max ? def->num_inputs : max;
+    for (uint32_t i = 0; i < n; i++)
+        out[i] = (struct lang_input){ports[i].name, library_type_ir(ix->lib, ports[i].type)};
+    return n;
+}
+
+static uint32_t parse_expression(struct indexer *ix, uint32_t nodedef, unsigned output,
+                                 str_id source, uint32_t file, struct diag_place where,
+                                 struct diag_list *diags)
+{
+    struct lang_input inputs[INDEX_MAX_PORTS];
+    uint32_t n = input_types(ix, nodedef, inputs, INDEX_MAX_PORTS);
+    const struct nodedef *def = library_nodedef(ix->lib, nodedef);
+    assert(output < def->num_outputs);
+    const struct port *out = library_ports(ix->lib, nodedef, NULL) + def->num_inputs + output;
+    return lang_parse_expression(&ix->lib->unit, index_text(ix, source),
+                                 str_len(&ix->lib->strings, source), inputs, n,
+                                 library_type_ir(ix->lib, out->type), file, where, diags);
+}
+
+bool index_parse_expressions(struct indexer *ix, struct implementation *impl, str_id source,
+                             uint32_t file, struct diag_list *diags)
+{
+    const struct document *doc = &ix->lib->doc;
+    const struct nodedef *def = library_nodedef(ix->lib, impl->nodedef);
+    const struct port *outputs = library_ports(ix->lib, impl->nodedef, NULL) + def->num_inputs;
+    uint32_t ids[INDEX_MAX_PORTS];
+    for (unsigned i = 0; i < def->num_outputs; i++) {
+        elem_id child = doc_child_of_kind(doc, impl->element, KIND_OUTPUT, outputs[i].name);
+        str_id own = child ? doc_attr_value(doc, child, STR_sourcecode) : 0;
+        struct diag_place where = doc_attr_place(doc, own ? child : impl->element, STR_sourcecode);
+        if (!own && (def->num_outputs > 1 || !source)) {
+            diag_add(diags, DIAG_ID_function_signature, where, "sourcecode",
+                     index_text(ix, def->name),
+                     "each output needs an <output> child with sourcecode");
+            return false;
+        }
+        ids[i] = parse_expression(ix, impl->nodedef, i, own ? own : source, file, where, diags);
+        if (ids[i] == LANG_NONE)
+            return false;
+    }
+    impl->kind = IMPL_EXPRESSION;
+    impl->ref = ix->lib->refs.len;
+    impl->count = def->num_outputs;
+    for (unsigned i = 0; i < def->num_outputs; i++)
+        vec_push(ix->arena, &ix->lib->refs, ids[i]);
+    assert(impl->ref + impl->count == ix->lib->refs.len);
+    return true;
+}
+
+static const char *const family_suffixes[NUM_FAMILY_MEMBERS] = {
+    [FAMILY_EVAL] = "_eval",
+    [FAMILY_ENVIRONMENT] = "_environment",
+    [FAMILY_TRANSMISSION] = "_transmission",
+    [FAMILY_THROUGHPUT] = "_throughput",
+    [FAMILY_EMISSION] = "_emission",
+    [FAMILY_FACTOR] = "_factor",
+    [FAMILY_ABSORPTION] = "_absorption",
+    [FAMILY_ALBEDO] = "_albedo",
+    [FAMILY_REFRACTION] = "_refraction",
+    [FAMILY_SAMPLE] = "_sample",
+    [FAMILY_PDF] = "_pdf",
+    [FAMILY_SCATTERING] = "_scattering",
+    [FAMILY_ANISOTROPY] = "_anisotropy",
+};
+
+static bool find_family(struct indexer *ix, struct implementation *impl, str_id name, uint32_t file)
+{
+    struct family family = {.name = name, .nodedef = impl->nodedef};
+    bool any = false;
+    for (unsigned i = 0; i < NUM_FAMILY_MEMBERS; i++) {
+        char full[256];
+        size_t len = str_len(&ix->lib->strings, name), suffix = strlen(family_suffixes[i]);
+        family.functions[i] = LANG_NONE;
+        if (len + suffix >= sizeof full)
+            continue;
+        memcpy(full, index_text(ix, name), len);
+        memcpy(full + len, family_suffixes[i], suffix);
+        str_id id = str_find(&ix->lib->strings, full, len + suffix);
+        if (id)
+            family.functions[i] = lang_find_function(&ix->lib->unit, file, id, NULL, 0);
+        any = any || family.functions[i] != LANG_NONE;
+    }
+    impl->kind = IMPL_FAMILY;
+    impl->ref = ix->lib->base_families + ix->lib->families.len;
+    vec_push(ix->arena, &ix->lib->families, family);
+    return any;
+}
+
+static const char *check_signature(const struct indexer *ix, const struct implementation *impl,
+                                   uint32_t function)
+{
+    const struct lang_unit *unit;
+    const struct lang_function *fn = lang_function(&ix->lib->unit, function, &unit);
+    const struct nodedef *def = library_nodedef(ix->lib, impl->nodedef);
+    const struct port *ports = library_ports(ix->lib, impl->nodedef, NULL);
+    uint32_t outs = fn->return_type == IR_TYPE_VOID ? def->num_outputs : 0u;
+    if (library_type_ir(ix->lib, ports[def->num_inputs].type) == IR_TYPE_LIGHT)
+        return NULL; /* lights have a different signature, see library.md */
+    if (fn->num_params != def->num_inputs + outs)
+        return "it needs one parameter per input, then one `out` parameter per output (or a return "
+               "value)";
+    if (fn->return_type != IR_TYPE_VOID && def->num_outputs != 1)
+        return "it returns a value, but the node has several outputs";
+    assert(fn->first_slot + fn->num_params <= unit->slots.len);
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
+        bool out = i >= def->num_inputs;
+        if (slot->type != library_type_ir(ix->lib, ports[i].type))
+            return "a parameter differs in type from its input or output";
+        if ((slot->mode != LANG_IN) != out)
+            return "inputs need `in` parameters, and outputs need `out` parameters";
+    }
+    return NULL;
+}
+
+bool index_find_function(struct indexer *ix, struct implementation *impl, str_id name,
+                         uint32_t file, struct diag_list *diags)
+{
+    const struct library *lib = ix->lib;
+    const struct nodedef *def = library_nodedef(lib, impl->nodedef);
+    assert(def->num_outputs > 0);
+    const struct port *ports = library_ports(lib, impl->nodedef, NULL);
+    struct diag_place where = doc_attr_place(&lib->doc, impl->element, STR_function);
+    if (is_closure(ports[def->num_inputs].type)) {
+        if (find_family(ix, impl, name, file))
+            return true;
+        diag_add(diags, DIAG_ID_missing_function, where, str_text(&lib->strings, name),
+                 " with a suffix of a closure family, for example '_eval'");
+        return false;
+    }
+    struct lang_input inputs[INDEX_MAX_PORTS];
+    ir_type_id types[2 * INDEX_MAX_PORTS];
+    uint32_t n = input_types(ix, impl->nodedef, inputs, INDEX_MAX_PORTS);
+    for (uint32_t i = 0; i < n; i++)
+        types[i] = inputs[i].type;
+    uint32_t function = lang_find_function(&ix->lib->unit, file, name, types, n);
+    for (uint32_t i = n; function == LANG_NONE && i < n + def->num_outputs; i++) {
+        types[i] = library_type_ir(lib, ports[i].type);
+        function = lang_find_function(&ix->lib->unit, file, name, types, i + 1);
+    }
+    if (function == LANG_NONE)
+        function = lang_find_function(&ix->lib->unit, file, name, NULL, 0);
+    if (function == LANG_NONE) {
+        diag_add(diags, DIAG_ID_missing_function, where, str_text(&lib->strings, name), "");
+        return false;
+    }
+    const char *fault = check_signature(ix, impl, function);
+    if (fault) {
+        diag_add(diags, DIAG_ID_function_signature, where, str_text(&lib->strings, name),
+                 str_text(&lib->strings, def->name), fault);
+        return false;
+    }
+    impl->kind = IMPL_FUNCTION;
+    impl->ref = function;
+    return true;
+}
+
+static bool parse_source(struct indexer *ix, struct implementation *impl, struct diag_list *diags)
+{
+    elem_id element = impl->element;
+    str_id file_name = index_attr(ix, element, STR_file),
+           function = index_attr(ix, element, STR_function);
+    str_id source = index_attr(ix, element, STR_sourcecode);
+    uint32_t file = LANG_NONE;
+    const char *from = index_file(ix, element);
+    if (file_name && index_is_inline(ix, file_name)) {
+        source = index_read_source(ix, element, file_name, diags);
+        if (!source)
+            return false;
+    } else if (file_name) {
+        if (!ix->reader)
+            return index_read_source(ix, element, file_name, diags) != 0;
+        file = lang_parse_file(&ix->lib->unit, ix->reader, from, index_text(ix, file_name),
+                               doc_attr_place(&ix->lib->doc, element, STR_file), diags);
+        if (file == LANG_NONE)
+            return false;
+    }
+    if (function)
+        return index_find_function(ix, impl, function, file, diags);
+    if (source && impl->target)
+        source = index_expression(ix, source);
+    return index_parse_expressions(ix, impl, source, file, diags);
+}
+
+static void refuse_source(struct indexer *ix, const struct implementation *impl, const char *reason,
+                          struct diag_list *diags)
+{
+    diag_add(diags, DIAG_ID_untrusted_source, doc_place(&ix->lib->doc, impl->element),
+             index_text(ix, impl->name), reason);
+}
+
+void index_break(struct indexer *ix, struct implementation *impl, const struct diag_list *faults)
+{
+    impl->kind = IMPL_BROKEN;
+    impl->ref = ix->lib->deferred->items.len;
+    impl->count = faults->items.len;
+    for (uint32_t i = 0; i < faults->items.len; i++)
+        vec_push(ix->arena, &ix->lib->deferred->items, faults->items.items[i]);
+}
+
+/* Source for a target that does not parse stays verbatim; a portable implementation must parse. */
+static void parse_implementation(struct indexer *ix, struct implementation *impl)
+{
+    struct diag_list faults;
+    diag_list_init(&faults, ix->arena);
+    if (ix->lib->trust == LIBRARY_TRUST_GRAPHS)
+        refuse_source(ix, impl, "a sandbox allows no source", &faults);
+    else if (impl->target && ix->lib->trust == LIBRARY_TRUST_PORTABLE)
+        refuse_source(ix, impl, "it is for one target only", &faults);
+    else if (parse_source(ix, impl, &faults))
+        return;
+    struct diag_list unfit;
+    diag_list_init(&unfit, ix->arena);
+    bool is_trusted = impl->target && ix->lib->trust == LIBRARY_TRUST_ALL;
+    if (is_trusted && index_verbatim(ix, impl, &faults, &unfit))
+        return;
+    index_break(ix, impl, is_trusted ? &unfit : &faults);
+}
+
+static void add_impl(struct indexer *ix, struct implementation impl)
+{
+    struct library *lib = ix->lib;
+    if (impl.nodedef < lib->base_nodedefs)
+        vec_push(ix->arena, &lib->overrides, lib->impls.len);
+    vec_push(ix->arena, &lib->impls, impl);
+}
+
+/* Backwards, so that the first implementation of a definition becomes the head. */
+void index_link_implementations(struct library *lib)
+{
+    for (uint32_t i = lib->impls.len; i-- > 0;) {
+        struct implementation *impl = &lib->impls.items[i];
+        impl->next = LIBRARY_NONE;
+        if (impl->nodedef < lib->base_nodedefs)
+            continue;
+        uint32_t *first = &lib->nodedefs.items[impl->nodedef - lib->base_nodedefs].first_impl;
+        impl->next = *first;
+        *first = lib->base_impls + i;
+    }
+}
+
+static elem_id find_nodegraph(const struct library *lib, str_id name)
+{
+    elem_id found = 0;
+    for (; lib && !found; lib = lib->base)
+        found = doc_child_of_kind(&lib->doc, lib->doc.root, KIND_NODEGRAPH, name);
+    return found;
+}
+
+/* True if mxgen does not have the target. */
+static bool is_foreign(const struct indexer *ix, str_id target)
+{
+    return target && ix->lib->knows_target && !ix->lib->knows_target(index_text(ix, target));
+}
+
+void index_implementation(struct indexer *ix, elem_id element)
+{
+    struct library *lib = ix->lib;
+    const struct element *e = doc_element(&lib->doc, element);
+    struct implementation impl = {
+        .name = e->name, .target = index_attr(ix, element, STR_target), .element = element};
+    str_id nodedef = index_attr(ix, element, STR_nodedef);
+    if (!nodedef)
+        return; /* validation reports the missing nodedef */
+    impl.nodedef = library_nodedef_by_name(lib, nodedef);
+    if (impl.nodedef == LIBRARY_NONE) {
+        diag_add(ix->diags, DIAG_ID_implementation_unknown_nodedef,
+                 doc_attr_place(&lib->doc, element, STR_nodedef), str_text(&lib->strings, e->name),
+                 str_text(&lib->strings, nodedef));
+        return;
+    }
+    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
+                           ix->diags))
+        return;
+    if (!library_nodedef(lib, impl.nodedef)->num_outputs)
+        return; /* reported as no-output or unknown-type */
+    str_id graph = index_attr(ix, element, STR_nodegraph);
+    bool outputs = false;
+    for (elem_id c = e->first_child; c; c = doc_element(&lib->doc, c)->next)
+        outputs = outputs || doc_attr(&lib->doc, c, STR_sourcecode);
+    if (graph) {
+        impl.kind = IMPL_GRAPH;
+        impl.ref = find_nodegraph(lib, graph);
+        if (!impl.ref)
+            diag_add(ix->diags, DIAG_ID_dangling_nodegraph,
+                     doc_attr_place(&lib->doc, element, STR_nodegraph),
+                     str_text(&lib->strings, graph), "");
+        if (!impl.ref)
+            return;
+    } else if (is_foreign(ix, impl.target)) {
+        impl.kind = IMPL_FOREIGN;
+    } else if (index_attr(ix, element, STR_file) || index_attr(ix, element, STR_sourcecode)
+               || outputs) {
+        parse_implementation(ix, &impl);
+    } else if (index_attr(ix, element, STR_function) == STR_chosen_input
+               || !index_served(ix, &impl)) {
+        impl.kind = IMPL_DYNAMIC;
+        impl.ref = index_attr(ix, element, STR_function);
+    }
+    add_impl(ix, impl);
+}
+
+void index_functional_graph(struct indexer *ix, elem_id element)
+{
+    struct library *lib = ix->lib;
+    str_id name = index_attr(ix, element, STR_nodedef);
+    if (!name)
+        return;
+    struct implementation impl = {.name = doc_element(&lib->doc, element)->name,
+                                  .target = index_attr(ix, element, STR_target),
+                                  .element = element,
+                                  .kind = IMPL_GRAPH,
+                                  .ref = element};
+    impl.nodedef = library_nodedef_by_name(lib, name);
+    if (impl.nodedef == LIBRARY_NONE) {
+        library_report_nodedef(lib, element, name, ix->diags);
+        return;
+    }
+    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
+                           ix->diags))
+        return;
+    add_impl(ix, impl);
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Declarations that the files which fill a library layer share. */
+#ifndef MXG_LIBRARY_INDEX_PRIV_H
+#define MXG_LIBRARY_INDEX_PRIV_H
+
+#include "base/scan.h"
+#include "library/library.h"
+
+#include <assert.h>
+
+struct indexer {
+    struct library *lib;
+    struct arena *arena;
+    const struct lang_reader *reader;
+    struct diag_list *diags;
+};
+
+enum { INDEX_MAX_PORTS = 1024 }; /* of the inputs of a definition, because lookups are linear */
+
+static inline const char *index_text(const struct indexer *ix, str_id id)
+{
+    return str_text(&ix->lib->strings, id);
+}
+
+/* The value of an attribute; 0: absent. */
+static inline str_id index_attr(const struct indexer *ix, elem_id element, str_id name)
+{
+    return doc_attr_value(&ix->lib->doc, element, name);
+}
+
+/* The name of the file that an element stands in; "" without a file. */
+static inline const char *index_file(const struct indexer *ix, elem_id element)
+{
+    const char *name = doc_place(&ix->lib->doc, element).file;
+    return name ? name : "";
+}
+
+/* implement.c: adds the implementation of an <implementation>, or of a functional <nodegraph>. */
+void index_implementation(struct indexer *ix, elem_id element);
+void index_functional_graph(struct indexer *ix, elem_id element);
+/* Links the implementations of each definition, the first one at its head. */
+void index_link_implementations(struct library *lib);
+
+/* Finds the function of an implementation in a parsed file; false after a diagnostic. */
+bool index_find_function(struct indexer *ix, struct implementation *impl, str_id name,
+                         uint32_t file, struct diag_list *diags);
+/*
+ * Parses one inline expression per output: of the <implementation>, or of its <output> children.
+ */
+bool index_parse_expressions(struct indexer *ix, struct implementation *impl, str_id source,
+                             uint32_t file, struct diag_list *diags);
+/* Makes an implementation report these diagnostics when a node uses it. */
+void index_break(struct indexer *ix, struct implementation *impl, const struct diag_list *faults);
+
+/*
+ * served.c: makes an implementation without source one by portable source of mxgen; false if none
+ * serves its node.
+ */
+bool index_served(struct indexer *ix, struct implementation *impl);
+
+/* verbatim.c */
+
+/*
+ * The text of a source file, interned; 0 after a diagnostic. `from` is the file that refers to it.
+ */
+str_id index_read_source(struct indexer *ix, elem_id element, str_id file, struct diag_list *diags);
+/*
+ * An expression for one target without the semicolons at its end: MaterialX makes statements of
+ * expressions.
+ */
+str_id index_expression(struct indexer *ix, str_id source);
+/* True if the file holds an inline expression. */
+bool index_is_inline(const struct indexer *ix, str_id file);
+/*
+ * Makes an implementation verbatim: source for one target, which `faults` say is not portable.
+ * false after diagnostics: the source cannot be read, or its function does not fit.
+ */
+bool index_verbatim(struct indexer *ix, struct implementation *impl, const struct diag_list *faults,
+                    struct diag_list *diags);
+
+/* source.c */
+
+/*
+ * The source file `ref` with the files that it includes; LIBRARY_NONE after a diagnostic at
+ * `where`. `from` is the name of the referring file, `user` the name of the user in the message.
+ */
+uint32_t index_source_file(struct indexer *ix, const char *from, const char *ref, const char *user,
+                           struct diag_place where, struct diag_list *diags);
+/*
+ * Finds the files of library_implied_includes that a verbatim source needs; false after a
+ * diagnostic.
+ */
+bool index_implied_includes(struct indexer *ix, const struct implementation *impl,
+                            struct verbatim *verbatim, struct diag_list *diags);
+
+struct source_parameter {
+    struct scan_word type, name; /* len 0: unknown, because of a macro or a $token */
+};
+enum { INDEX_MAX_PARAMETERS = 2 * INDEX_MAX_PORTS };
+enum { SOURCE_NO_FUNCTION = -1, SOURCE_MANY_PARAMETERS = -2 };
+/*
+ * The parameters of a function that a source file or one of its includes defines. Returns their
+ * number, or a value below 0.
+ */
+int index_source_function(const struct indexer *ix, uint32_t file, const char *name,
+                          struct source_parameter *out);
+
+#endif

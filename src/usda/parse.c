@@ -1,0 +1,479 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Prims, properties and metadata (the grammar of OpenUSD's text format). */
+#include "usda/usda.h"
+
+#include <assert.h>
+
+enum { MAX_NESTING = 256 }; /* brackets in a value */
+
+struct parser {
+    struct usda_layer *layer;
+    struct usda_lexer lexer;
+    struct usda_token token;
+    struct diag_list *diags;
+    usda_prim_id prim;     /* the one whose body is read */
+    VEC(char) bodies;      /* open braces: 'p' of a prim, 'v' of a variant, 's' of a variant set */
+    uint32_t num_variants; /* of the bodies, those of variants */
+    bool failed;
+};
+
+static void next(struct parser *p)
+{
+    if (!p->failed)
+        p->token = usda_next_token(&p->lexer);
+}
+
+static void fail(struct parser *p, const char *expected)
+{
+    struct text text;
+    if (p->failed)
+        return;
+    p->failed = true;
+    text_init(&text, p->diags->arena);
+    size_t len = (size_t)(p->token.end - p->token.begin);
+    if (p->token.kind == USDA_BAD)
+        text_str(&text, p->lexer.fault);
+    else if (p->token.kind == USDA_END)
+        text_fmt(&text, "the file ends; expected %s", expected);
+    else if (p->token.kind == USDA_NEWLINE)
+        text_fmt(&text, "the line ends; expected %s", expected);
+    else
+        text_fmt(&text, "expected %s before '%.*s'", expected, (int)(len < 40 ? len : 40),
+                 p->token.begin);
+    struct diag_place place = {p->layer->file, p->token.line, usda_column(&p->token), 0};
+    diag_add(p->diags, DIAG_ID_usda_syntax, place, text_cstr(&text));
+    p->token.kind = USDA_END;
+}
+
+static bool is_mark(const struct parser *p, char mark)
+{
+    return p->token.kind == USDA_MARK && *p->token.begin == mark;
+}
+
+static struct text_word word_of(struct usda_token token)
+{
+    return (struct text_word){token.begin, (size_t)(token.end - token.begin)};
+}
+
+static bool is_word(const struct parser *p, const char *word)
+{
+    return p->token.kind == USDA_NAME && usda_is(word_of(p->token), word);
+}
+
+static void expect(struct parser *p, char mark, const char *what)
+{
+    if (is_mark(p, mark))
+        next(p);
+    else
+        fail(p, what);
+}
+
+static void skip_newlines(struct parser *p)
+{
+    while (p->token.kind == USDA_NEWLINE)
+        next(p);
+}
+
+static struct text_word unquoted(struct text_word word)
+{
+    size_t quotes = word.len >= 6 && memcmp(word.bytes, word.bytes + 1, 2) == 0 ? 3 : 1;
+    return (struct text_word){word.bytes + quotes, word.len - 2 * quotes};
+}
+
+/* ---- Values: any nesting of brackets ---- */
+
+static bool begins_value(const struct parser *p)
+{
+    return p->token.kind == USDA_NAME || p->token.kind == USDA_NUMBER
+           || p->token.kind == USDA_STRING || p->token.kind == USDA_ASSET
+           || p->token.kind == USDA_PATH || is_mark(p, '[') || is_mark(p, '(') || is_mark(p, '{');
+}
+
+/* In brackets: opens and closes them, and checks that they match. */
+static void read_inner(struct parser *p, char *closers, unsigned *depth)
+{
+    static const char opening[] = "[({", closing[] = "])}";
+    const char *open = p->token.kind == USDA_MARK ? strchr(opening, *p->token.begin) : NULL;
+    const char *close = p->token.kind == USDA_MARK ? strchr(closing, *p->token.begin) : NULL;
+    if (open && *depth == MAX_NESTING)
+        fail(p, "fewer nested brackets");
+    else if (open)
+        closers[(*depth)++] = closing[open - opening];
+    else if (close && *close != closers[*depth - 1])
+        fail(p, closers[*depth - 1] == ']' ? "']'" : closers[*depth - 1] == ')' ? "')'" : "'}'");
+    else if (close)
+        (*depth)--;
+    else if (p->token.kind == USDA_END || p->token.kind == USDA_BAD
+             || (p->token.kind == USDA_MARK && !strchr(",:=", *p->token.begin)))
+        fail(p, "a value");
+}
+
+static struct text_word read_value(struct parser *p)
+{
+    char closers[MAX_NESTING];
+    unsigned depth = 0;
+    const char *begin = p->token.begin, *end = begin;
+    if (!begins_value(p))
+        fail(p, "a value");
+    do {
+        /* names alone are words such as None, or types in dictionaries */
+        if (depth || p->token.kind == USDA_MARK)
+            read_inner(p, closers, &depth);
+        end = p->token.end;
+        next(p);
+    } while (depth && !p->failed);
+    /* an asset path with a prim path behind it: one reference */
+    if (p->token.kind == USDA_PATH && end[-1] == '@') {
+        end = p->token.end;
+        next(p);
+    }
+    return (struct text_word){begin, p->failed ? 0 : (size_t)(end - begin)};
+}
+
+/* ---- Metadata ---- */
+
+static const char *const list_edits[] = {"prepend", "append", "add", "delete", "reorder"};
+
+static bool skip_list_edit(struct parser *p)
+{
+    for (size_t i = 0; i < sizeof list_edits / sizeof *list_edits; i++)
+        if (is_word(p, list_edits[i])) {
+            next(p);
+            return true;
+        }
+    return false;
+}
+
+static bool is_arc(struct text_word name)
+{
+    return usda_is(name, "payload") || usda_is(name, "inherits") || usda_is(name, "specializes")
+           || usda_is(name, "subLayers") || usda_is(name, "variantSets");
+}
+
+/* What a prim, a property or the layer has of the metadata that binding needs. */
+struct metadata {
+    struct text_word references, arc, bind_as, default_prim;
+};
+
+static void keep_metadata(struct metadata *out, struct text_word name, struct text_word value)
+{
+    if (usda_is(name, "references"))
+        out->references = value;
+    else if (usda_is(name, "bindMaterialAs") && *value.bytes == '"')
+        out->bind_as = unquoted(value);
+    else if (usda_is(name, "defaultPrim") && *value.bytes == '"')
+        out->default_prim = unquoted(value);
+    else if (is_arc(name) && !usda_is(value, "None") && !usda_is(value, "[]"))
+        out->arc = name;
+}
+
+/* "( key = value ... )", from the bracket on. */
+static struct metadata read_metadata(struct parser *p)
+{
+    struct metadata out = {0};
+    expect(p, '(', "'('");
+    skip_newlines(p);
+    while (!is_mark(p, ')') && !p->failed) {
+        if (p->token.kind == USDA_STRING) { /* documentation */
+            next(p);
+            skip_newlines(p);
+            continue;
+        }
+        skip_list_edit(p);
+        struct text_word name = word_of(p->token);
+        if (p->token.kind != USDA_NAME)
+            fail(p, "the name of metadata or ')'");
+        next(p);
+        expect(p, '=', "'='");
+        struct text_word value = read_value(p);
+        if (is_mark(p, '(')) /* the offset of a reference */
+            read_value(p);
+        if (!p->failed)
+            keep_metadata(&out, name, value);
+        if (!is_mark(p, ')') && p->token.kind != USDA_NEWLINE)
+            fail(p, "the end of the line or ')'");
+        skip_newlines(p);
+    }
+    expect(p, ')', "')'");
+    return out;
+}
+
+/* Metadata that may follow, on the next line, too. */
+static struct metadata read_optional_metadata(struct parser *p)
+{
+    return is_mark(p, '(') ? read_metadata(p) : (struct metadata){0};
+}
+
+/* ---- Properties ---- */
+
+/* A type with "[]". */
+static struct text_word read_type(struct parser *p)
+{
+    const char *begin = p->token.begin, *end = p->token.end;
+    if (p->token.kind != USDA_NAME)
+        fail(p, "a property, a prim or '}'");
+    next(p);
+    if (is_mark(p, '[')) {
+        next(p);
+        end = p->token.end;
+        expect(p, ']', "']'");
+    }
+    return (struct text_word){begin, p->failed ? 0 : (size_t)(end - begin)};
+}
+
+static void read_property(struct parser *p)
+{
+    struct usda_property property = {.line = p->token.line};
+    bool is_deletion = is_word(p, "delete") || is_word(p, "reorder");
+    skip_list_edit(p);
+    while (is_word(p, "custom") || is_word(p, "uniform") || is_word(p, "varying")
+           || is_word(p, "config"))
+        next(p);
+    if (is_deletion && (is_word(p, "nameChildren") || is_word(p, "properties"))) {
+        next(p);
+        expect(p, '=', "'='");
+        read_value(p);
+        return;
+    }
+    property.type = read_type(p);
+    property.line = p->token.line;
+    property.column = usda_column(&p->token);
+    property.name = word_of(p->token);
+    if (p->token.kind != USDA_NAME)
+        fail(p, "the name of a property");
+    next(p);
+    if (is_mark(p, '=')) {
+        next(p);
+        property.value = read_value(p);
+    }
+    property.bind_as = read_optional_metadata(p).bind_as;
+    if (p->failed || is_deletion)
+        return;
+    vec_push(p->layer->arena, &p->layer->properties, property);
+    struct usda_prim *prim = &p->layer->prims.items[p->prim];
+    uint32_t added = p->layer->properties.len - 1;
+    if (prim->last_property)
+        p->layer->properties.items[prim->last_property].next = added;
+    else
+        prim->first_property = added;
+    prim->last_property = added;
+}
+
+/* ---- Prims ---- */
+
+static void open_body(struct parser *p, char kind)
+{
+    skip_newlines(p);
+    expect(p, '{', "'{'");
+    vec_push(p->layer->arena, &p->bodies, kind);
+    p->num_variants += kind == 'v';
+}
+
+static void add_prim(struct parser *p, struct usda_prim added)
+{
+    struct usda_layer *layer = p->layer;
+    usda_prim_id id = layer->prims.len;
+    added.parent = p->prim;
+    vec_push(layer->arena, &layer->prims, added);
+    struct usda_prim *above = &layer->prims.items[p->prim];
+    if (above->last_child)
+        layer->prims.items[above->last_child].next = id;
+    else
+        above->first_child = id;
+    above->last_child = id;
+    p->prim = id;
+}
+
+static bool read_specifier(struct parser *p, uint8_t *out)
+{
+    static const char *const words[] = {"def", "over", "class"};
+    for (uint8_t i = 0; i < 3; i++)
+        if (is_word(p, words[i])) {
+            *out = i;
+            next(p);
+            return true;
+        }
+    return false;
+}
+
+/* True if names of prims may be this string: a USD identifier. */
+static bool is_identifier(struct text_word name)
+{
+    bool good = name.len && !(name.bytes[0] >= '0' && name.bytes[0] <= '9');
+    for (size_t i = 0; i < name.len && good; i++) {
+        char c = name.bytes[i];
+        good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')
+               || c == '_' || (c & 0x80);
+    }
+    return good;
+}
+
+static void read_prim(struct parser *p, uint8_t specifier)
+{
+    struct usda_prim prim = {.specifier = specifier, .line = p->token.line};
+    prim.is_variant = p->num_variants != 0;
+    if (p->token.kind == USDA_NAME) {
+        prim.type = word_of(p->token);
+        next(p);
+    }
+    if (p->token.kind != USDA_STRING || !is_identifier(unquoted(word_of(p->token))))
+        fail(p, "the name of a prim in quotes");
+    if (p->failed)
+        return;
+    prim.name = unquoted(word_of(p->token));
+    prim.line = p->token.line;
+    prim.column = usda_column(&p->token);
+    next(p);
+    skip_newlines(p);
+    struct metadata metadata = read_optional_metadata(p);
+    prim.references = metadata.references;
+    prim.arc = metadata.arc;
+    add_prim(p, prim);
+    open_body(p, 'p');
+}
+
+/* variantSet "name" = { "variant" ( ... ) { ... } } */
+static void read_variant_set(struct parser *p)
+{
+    next(p);
+    if (p->token.kind != USDA_STRING)
+        fail(p, "the name of a variant set in quotes");
+    next(p);
+    expect(p, '=', "'='");
+    open_body(p, 's');
+}
+
+static void read_variant(struct parser *p)
+{
+    next(p);
+    skip_newlines(p);
+    read_optional_metadata(p);
+    open_body(p, 'v');
+}
+
+static void close_body(struct parser *p)
+{
+    if (!p->bodies.len) {
+        fail(p, "a prim");
+        return;
+    }
+    next(p);
+    char kind = vec_pop(&p->bodies);
+    p->num_variants -= kind == 'v';
+    if (kind == 'p')
+        p->prim = p->layer->prims.items[p->prim].parent;
+}
+
+static void read_statement(struct parser *p)
+{
+    uint8_t specifier;
+    bool in_set = p->bodies.len && vec_last(&p->bodies) == 's';
+    if (is_mark(p, '}'))
+        close_body(p);
+    else if (in_set && p->token.kind == USDA_STRING)
+        read_variant(p);
+    else if (in_set)
+        fail(p, "the name of a variant in quotes or '}'");
+    else if (read_specifier(p, &specifier))
+        read_prim(p, specifier);
+    else if (is_word(p, "variantSet"))
+        read_variant_set(p);
+    else if (p->bodies.len)
+        read_property(p);
+    else
+        fail(p, "a prim: def, over or class");
+}
+
+/* ---- The layer ---- */
+
+static void read_header(struct parser *p, const char *text, size_t len)
+{
+    static const char cookie[] = "#usda ";
+    if (len < strlen(cookie) || memcmp(text, cookie, strlen(cookie)) != 0) {
+        p->token = (struct usda_token){.kind = USDA_BAD, .line = 1};
+        p->lexer.fault = "the file does not begin with '#usda 1.0'; a binary file (.usdc, .usdz) "
+                         "becomes text with 'usdcat --flatten'";
+        fail(p, "");
+        return;
+    }
+    next(p);
+    skip_newlines(p);
+    p->layer->default_prim = (struct text_word){0};
+    if (is_mark(p, '(')) {
+        struct metadata metadata = read_metadata(p);
+        p->layer->default_prim = metadata.default_prim;
+        p->layer->prims.items[0].arc = metadata.arc;
+    }
+}
+
+bool usda_read(struct usda_layer *layer, const char *file, const char *text, size_t len,
+               struct arena *arena, struct diag_list *diags)
+{
+    *layer = (struct usda_layer){.arena = arena, .file = file};
+    struct parser p = {.layer = layer, .diags = diags};
+    vec_push(arena, &layer->prims, (struct usda_prim){.line = 1, .column = 1});
+    vec_push(arena, &layer->properties, (struct usda_property){0});
+    usda_lexer_init(&p.lexer, text, len);
+    read_header(&p, text, len);
+    for (skip_newlines(&p); !p.failed && p.token.kind != USDA_END; skip_newlines(&p))
+        read_statement(&p);
+    if (p.bodies.len)
+        fail(&p, "'}'");
+    return !p.failed;
+}
+
+const struct usda_property *usda_find_property(const struct usda_layer *layer,
+                                               const struct usda_prim *prim, const char *name)
+{
+    for (uint32_t i = prim->first_property; i; i = layer->properties.items[i].next)
+        if (usda_is(layer->properties.items[i].name, name))
+            return &layer->properties.items[i];
+    return NULL;
+}
+
+static usda_prim_id find_child(const struct usda_layer *layer, usda_prim_id parent,
+                               const char *name, size_t len)
+{
+    for (usda_prim_id id = layer->prims.items[parent].first_child; id;
+         id = layer->prims.items[id].next) {
+        const struct usda_prim *prim = &layer->prims.items[id];
+        if (prim->name.len == len && memcmp(prim->name.bytes, name, len) == 0)
+            return id;
+    }
+    return 0;
+}
+
+usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len)
+{
+    const char *end = path + len;
+    usda_prim_id prim = 0;
+    while (path < end) {
+        path += *path == '/';
+        const char *slash = memchr(path, '/', (size_t)(end - path));
+        size_t name = (size_t)((slash ? slash : end) - path);
+        prim = find_child(layer, prim, path, name);
+        if (!prim)
+            return 0;
+        path += name;
+    }
+    return prim;
+}
+
+bool usda_next_item(struct text_word *at, struct text_word *out)
+{
+    struct usda_lexer lexer;
+    usda_lexer_init(&lexer, at->bytes, at->len);
+    for (;;) {
+        struct usda_token token = usda_next_token(&lexer);
+        *at = (struct text_word){lexer.at, (size_t)(lexer.end - lexer.at)};
+        if (token.kind == USDA_END || token.kind == USDA_BAD)
+            return false;
+        *out = word_of(token);
+        if (token.kind == USDA_PATH)
+            *out = (struct text_word){out->bytes + 1, out->len - 2};
+        if (token.kind == USDA_STRING)
+            *out = unquoted(*out);
+        if (token.kind != USDA_MARK && token.kind != USDA_NEWLINE)
+            return true;
+    }
+}

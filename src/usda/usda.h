@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Text layers of USD (`#usda 1.0`), as `usdcat --flatten` writes them: prims, their properties and
+ * the metadata that binding needs. The reader checks the syntax of the whole file; it keeps values
+ * as text.
+ */
+#ifndef MXG_USDA_USDA_H
+#define MXG_USDA_USDA_H
+
+#include "base/text.h"
+#include "diag/diag.h"
+
+typedef uint32_t usda_prim_id; /* 0: the pseudo root */
+
+enum usda_specifier { USDA_DEF, USDA_OVER, USDA_CLASS };
+
+struct usda_property {
+    struct text_word name;    /* "material:binding", "points.timeSamples" */
+    struct text_word type;    /* of an attribute: "token[]"; of a relationship: "rel" */
+    struct text_word value;   /* its text; len 0: none */
+    struct text_word bind_as; /* the metadata bindMaterialAs, without quotes */
+    uint32_t line, column;
+    uint32_t next; /* of the same prim; 0: none */
+};
+
+struct usda_prim {
+    struct text_word name, type;
+    struct text_word references; /* value of the metadata; len 0: none */
+    struct text_word arc;        /* the name of another arc: "payload"; len 0: none */
+    usda_prim_id parent, first_child, last_child, next;
+    uint32_t first_property, last_property; /* 0: none */
+    uint32_t line, column;
+    uint8_t specifier; /* enum usda_specifier */
+    bool is_variant;   /* it stands in a variant set */
+};
+
+struct usda_layer {
+    struct arena *arena;
+    const char *file;
+    struct text_word default_prim;
+    VEC(struct usda_prim) prims;          /* a parent stands before its children */
+    VEC(struct usda_property) properties; /* 0 unused */
+};
+
+/*
+ * Reads a layer. The text ends with a NUL and lives as long as the layer. false after a diagnostic;
+ * the layer then has what stands before the fault.
+ */
+bool usda_read(struct usda_layer *layer, const char *file, const char *text, size_t len,
+               struct arena *arena, struct diag_list *diags);
+
+/* The property of a name; NULL: none. */
+const struct usda_property *usda_find_property(const struct usda_layer *layer,
+                                               const struct usda_prim *prim, const char *name);
+/* The prim at an absolute path, "/a/b"; 0: none. */
+usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len);
+
+/*
+ * Reads the paths or words of a list value, "[</a>, </b>]" or "</a>", one after the other: `at` is
+ * the rest of the value. false: no more. A path comes without '<' and '>', a string without quotes.
+ */
+bool usda_next_item(struct text_word *at, struct text_word *out);
+
+static inline bool usda_is(struct text_word word, const char *text)
+{
+    return word.len == strlen(text) && memcmp(word.bytes, text, word.len) == 0;
+}
+
+/* ---- lex.c ---- */
+
+enum usda_token_kind {
+    USDA_END,
+    USDA_NEWLINE, /* one or more, or ';' */
+    USDA_NAME,    /* with ':' and '.' in it */
+    USDA_NUMBER,
+    USDA_STRING,
+    USDA_ASSET,
+    USDA_PATH,
+    USDA_MARK, /* one character */
+    USDA_BAD,  /* `fault` says why */
+};
+
+struct usda_token {
+    uint8_t kind; /* enum usda_token_kind */
+    const char *begin, *end;
+    const char *line_begin;
+    uint32_t line;
+};
+
+struct usda_lexer {
+    const char *at, *end;
+    const char *line_begin;
+    uint32_t line;
+    const char *fault;
+};
+
+void usda_lexer_init(struct usda_lexer *lexer, const char *text, size_t len);
+struct usda_token usda_next_token(struct usda_lexer *lexer);
+/* The column of a token, from 1, in code points; saturates, so that long lines cost little. */
+uint32_t usda_column(const struct usda_token *token);
+
+#endif

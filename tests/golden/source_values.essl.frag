@@ -1,0 +1,34 @@
+#version 300 es
+// out · output · mxgen 0.1 · essl · complete · 0 closures · 1 texture
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+
+uniform vec3 u_viewPosition;
+uniform sampler2D p_file;
+in vec3 vd_normalWorld;
+in vec2 vd_texcoord_0;
+out vec4 out1;
+
+const float M_PI = 3.1415926535897932;
+#define mx_mod mod
+vec2 mx_transform_uv(vec2 uv, vec2 scale, vec2 offset)
+{
+    return uv * scale + offset;
+}
+
+
+void picture(sampler2D tex_sampler, vec3 missing, vec2 texcoord, int uaddressmode, vec2 uv_scale, vec2 uv_offset, out vec3 result)
+{
+    vec2 uv = mx_transform_uv(texcoord, uv_scale, uv_offset);
+    result = uaddressmode == 2 ? texture(tex_sampler, uv).rgb : missing + vd_normalWorld * u_viewPosition;
+}
+
+void main()
+{
+    // NG
+    vec3 p;
+    picture(p_file, vec3(0.0), vd_texcoord_0, 2, vec2(1.0), vec2(0.0), p);
+    out1 = vec4(p * ((mx_mod(unpackHalf2x16(packHalf2x16(vd_texcoord_0)).x, M_PI))
+        * (unpackHalf2x16(packHalf2x16(vd_texcoord_0)).y)), 1.0);
+}

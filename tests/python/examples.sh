@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The examples in Python. Arguments: Python, the root of the project, a folder with the package, the examples in C.
+python=$1 root=$2
+export PYTHONPATH=$3
+shift 3
+for program in "$@"; do
+    [ "$(basename "$program")" != edit ] || edit=$(realpath "$program")
+done
+. "$(dirname "$0")/../programs/common.sh"
+
+check "edit.py" exits 0 "$python" "$root/examples/edit.py"
+mv out python.mtlx
+check "edit.c" exits 0 env -u LD_PRELOAD "$edit"
+check "edit.py writes what edit.c writes" cmp python.mtlx out
+check "shader.py" exits 0 "$python" "$root/examples/shader.py" "$root/examples/marble.mtlx" glsl
+check "shader.py writes a shader" grep -q '^void main' out
+check "shader.py lists uniforms" grep -q '^// NG_marble/stone: vec3 ' out
+check "shader.py without a document" exits 1 "$python" "$root/examples/shader.py" none.mtlx glsl
+check "shader.py reports errors" grep -q 'error: .*file-missing' err
+check "without a trace" exits 1 grep Traceback err
+finish python-examples

@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shaders, libraries, catalogues, diagnostics."""
+import json
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+from dataclasses import fields
+
+import common
+import mxgen
+from mxgen._calls import ffi, lib
+
+
+class Shaders(unittest.TestCase):
+    def setUp(self):
+        self.context = mxgen.Context()
+
+    def test_same_bytes_as_the_program(self):
+        count = 0
+        for path in sorted(common.EXAMPLES.glob("*.mtlx")):
+            document = self.context.load(path)
+            for target in mxgen.targets():
+                with tempfile.TemporaryDirectory() as folder:
+                    run = subprocess.run([common.PROGRAM, path, "--target", target.name, "-o", folder], capture_output=True, check=False)
+                    written = {file.name: file.read_text(encoding="utf-8") for file in pathlib.Path(folder).iterdir()}
+                made = {}
+                for renderable in document.renderables:
+                    try:
+                        shader = document.generate(target.name, renderable.path)
+                    except mxgen.DocumentError:
+                        self.assertEqual(run.returncode, 1, path)
+                        continue
+                    for stage in mxgen.Stage:
+                        source = shader.source(stage)
+                        if source is not None:
+                            made[source] = True
+                self.assertEqual(sorted(made), sorted(written.values()), f"{path.name} {target.name}")
+                count += len(made)
+        self.assertGreater(count, 100)
+
+    def test_reflection(self):
+        shader = self.context.load(common.EXAMPLES / "marble.mtlx").generate("vulkan")
+        stone = shader.find_variable("NG_marble/stone")
+        self.assertEqual((stone.document_type, stone.block, stone.uiname), ("color3", mxgen.Block.PUBLIC_UNIFORMS, "Stone"))
+        self.assertEqual([round(value, 6) for value in stone.values], [0.8, 0.78, 0.75])
+        self.assertIn(stone, shader.variables)
+        self.assertIsNone(shader.find_variable("NG_marble/none"))
+        self.assertIn(stone.name, shader.pixel)
+        self.assertIn("void main", shader.vertex)
+        self.assertEqual((shader.info.name, shader.info.target), ("Marble", "vulkan"))
+        self.assertEqual(shader.reflection(), json.loads(shader.reflection_json))
+        self.assertEqual(len(shader.closure_paths), shader.info.num_closures)
+        self.assertTrue(all(path.startswith("SR_marble") for path in shader.closure_paths), shader.closure_paths)
+
+    def test_places(self):
+        shader = self.context.load(common.EXAMPLES / "marble.mtlx").generate("glsl")
+        stage = mxgen.Stage.PIXEL
+        lines = range(1, len(shader.pixel.splitlines()) + 1)
+        places = [place for line in lines if (place := shader.source_place(stage, line))]
+        self.assertIn("NG_marble/scaled", {place.path for place in places})
+        self.assertTrue(all(place.file.endswith("marble.mtlx") and place.line > 1 for place in places))
+        self.assertTrue({shader.source_path(stage, line) for line in lines} - {None})
+        self.assertIsNone(shader.source_place(stage, 0))
+
+    def test_textures(self):
+        shader = self.context.load(common.EXAMPLES / "tiles.mtlx").generate("glsl")
+        textures = {variable.path: variable for variable in shader.variables if variable.block == mxgen.Block.TEXTURES}
+        paint = next(variable for path, variable in textures.items() if "paint" in path)
+        foam = next(variable for path, variable in textures.items() if "foam" in path)
+        self.assertEqual([(tile.u, tile.v) for tile in paint.tiles], [(0, 0), (1, 0), (0, 1), (1, 1)])
+        self.assertTrue(paint.texture_file(tile=2).endswith("hull_paint.1011.exr"))
+        self.assertEqual(paint.texture_file(tile=2), paint.tiles[2].file)
+        self.assertTrue(foam.texture_file(frame=49).endswith("foam.0001.exr"))
+
+    def test_options(self):
+        document = self.context.load(common.EXAMPLES / "marble.mtlx")
+        complete, reduced = document.generate("glsl"), document.generate("glsl", options={"interface": "reduced"})
+        self.assertLess(len(reduced.pixel), len(complete.pixel))
+        self.assertIn("NG_marble/stone", [compiled.path for compiled in reduced.compiled_inputs])
+        kept = document.generate("glsl", options={"interface": "reduced", "uniform": ["NG_marble/stone", "NG_marble/vein"], "max-lights": 2})
+        self.assertIsNotNone(kept.find_variable("NG_marble/vein"))
+        self.assertIn("u_lightData[2]", kept.pixel)
+        for options in {"none": 1}, {"interface": "some"}, {"max-lights": -1}, {"max-lights": True}:
+            with self.assertRaises(mxgen.ArgumentError) as caught:
+                document.generate("glsl", options=options)
+            self.assertIn(next(iter(options)), str(caught.exception))
+
+    def test_parts(self):
+        shader = self.context.load(common.EXAMPLES / "car_paint.mtlx").generate("osl", options={"osl-network": True})
+        self.assertGreater(len(shader.parts), 2)
+        self.assertTrue(all("shader " in part.source and part.name for part in shader.parts))
+
+    def test_cheaper_calls(self):
+        document = self.context.load(common.EXAMPLES / "gold.mtlx")
+        without = document.generate("glsl", without_source=True)
+        self.assertIsNone(without.pixel)
+        self.assertEqual(without.info.topology, document.generate("glsl", document["Gold"]).info.topology)
+        bare = document.generate("glsl", only_diagnostics=True)
+        self.assertEqual((bare.pixel, bare.variables, bare.diagnostics.errors), (None, (), 0))
+        with self.assertRaises(mxgen.ArgumentError):
+            bare.info
+        with self.assertRaises(mxgen.Error):
+            bare.reflection_json
+
+    def test_files(self):
+        shader = self.context.load(common.EXAMPLES / "lamp.mtlx").generate("glsl")
+        self.assertEqual([pathlib.Path(file).name for file in shader.files], ["lamp.ies"])
+
+    def test_errors(self):
+        document = self.context.parse(common.GOLD)
+        for target, element in (("cobol", None), ("glsl", "none")):
+            with self.assertRaises(mxgen.DocumentError) as caught:
+                document.generate(target, element)
+            self.assertGreater(caught.exception.diagnostics.errors, 0)
+            self.assertIn("error", str(caught.exception))
+        with self.assertRaises(ValueError):
+            document.generate("glsl", self.context.parse(common.GOLD)["Gold"])
+
+    def test_inspect(self):
+        document = self.context.load(common.EXAMPLES / "marble.mtlx")
+        for view, text in ((mxgen.View.ELEMENTS, "NG_marble"), (mxgen.View.GRAPH, "noise"), (mxgen.View.DOT, "digraph"),
+                           (mxgen.View.CLOSURES, "bsdf"), (mxgen.View.IR, "="), (mxgen.View.STATISTICS, "closures  ")):
+            self.assertIn(text, document.inspect(view, "Marble", target="glsl"), view)
+        with self.assertRaises(mxgen.DocumentError):
+            document.inspect(mxgen.View.IR, "none")
+
+
+class Libraries(unittest.TestCase):
+    def setUp(self):
+        self.context = mxgen.Context()
+
+    def test_definitions(self):
+        library = self.context.library
+        self.assertIs(library, self.context.library)
+        mix = library.nodedef("ND_mix_color3")
+        self.assertEqual((mix.node, [port.name for port in mix.inputs], [port.type for port in mix.outputs]),
+                         ("mix", ["fg", "bg", "mix"], ["color3"]))
+        self.assertEqual((mix.input("mix").type, mix.input("none")), ("float", None))
+        self.assertIn(mix, library.nodedefs_of("mix"))
+        self.assertTrue(library.supports(mix, "glsl"))
+        self.assertFalse(library.supports(mix, "cobol"))
+        self.assertIsNone(library.nodedef("ND_none"))
+        self.assertEqual(library.nodedefs_of("none"), ())
+        self.assertGreater(len(library.nodedefs), 800)
+        self.assertEqual((library.files, len(library.diagnostics)), ((), 0))
+        with self.assertRaises(ValueError):
+            mxgen.Context().library.supports(mix, "glsl")
+
+    def test_own_library(self):
+        text = """<materialx version="1.39"><nodedef name="ND_twice" node="twice"><input name="in" type="float" value="1"/>
+            <output name="out" type="float"/></nodedef><nodegraph name="NG_twice" nodedef="ND_twice"><add name="sum" type="float">
+            <input name="in1" type="float" interfacename="in"/><input name="in2" type="float" interfacename="in"/></add>
+            <output name="out" type="float" nodename="sum"/></nodegraph></materialx>"""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "twice.mtlx"
+            path.write_text(text, encoding="utf-8")
+            library = self.context.load_library(path)
+            self.assertEqual(library.files, (str(path),))
+            self.assertEqual(library.nodedef("ND_twice").input("in").value, "1")
+            document = self.context.parse('<materialx version="1.39"><twice name="t" type="float"/></materialx>', library=library)
+            self.assertEqual(document["t"].definition.name, "ND_twice")
+            path.write_text(text[:text.index("<nodegraph")] + "</materialx>", encoding="utf-8")
+            alone = self.context.load_library(path, standalone=True)
+            self.assertIn("ND_twice", alone.expand())
+            self.assertEqual(len(alone.nodedefs), 1)
+            image = pathlib.Path(folder) / "twice.mxlib"
+            image.write_bytes(alone.image())
+            self.assertEqual(self.context.load_library(image, standalone=True).nodedefs[0].name, "ND_twice")
+            with self.assertRaisesRegex(mxgen.ArgumentError, "standalone"):
+                library.image()
+            path.write_text("<materialx", encoding="utf-8")
+            with self.assertRaises(mxgen.DocumentError):
+                self.context.load_library(path, base=self.context.library)
+
+
+class Catalogues(unittest.TestCase):
+    def test_lists(self):
+        self.assertIn("glsl", [target.name for target in mxgen.targets()])
+        interface = next(option for option in mxgen.options() if option.key == "interface")
+        self.assertEqual((interface.type, interface.values, interface.initial),
+                         (mxgen.OptionType.ENUM, "complete|authored|reduced", "complete"))
+        kinds = {kind.id: kind for kind in mxgen.diagnostic_kinds()}
+        self.assertEqual(kinds["file-missing"].severity, mxgen.Severity.ERROR)
+        self.assertEqual(mxgen.library_version(), mxgen.__version__)
+
+    def test_records_have_every_member(self):
+        omitted = {"mxg_part": {"source_size"}}
+        for cls, ctype in ((mxgen.Target, "mxg_target"), (mxgen.Option, "mxg_option"), (mxgen.DiagnosticKind, "mxg_diagnostic_kind"),
+                           (mxgen.Diagnostic, "mxg_diagnostic"), (mxgen.Port, "mxg_port"), (mxgen.NodeDef, "mxg_nodedef"),
+                           (mxgen.Variable, "mxg_variable"), (mxgen.Tile, "mxg_tile"), (mxgen.Part, "mxg_part"),
+                           (mxgen.CompiledInput, "mxg_compiled_input"), (mxgen.ShaderInfo, "mxg_shader_info"),
+                           (mxgen.Renderable, "mxg_renderable"), (mxgen.Connection, "mxg_connection")):
+            native = {name for name, _ in ffi.typeof(ctype).fields} - {"size"} - omitted.get(ctype, set())
+            self.assertEqual({field.name for field in fields(cls) if not field.name.startswith("_")}, native, ctype)
+
+    def test_enumerations_have_every_member(self):
+        for cls, ctype in ((mxgen.Severity, "mxg_severity"), (mxgen.Stage, "mxg_stage"), (mxgen.Block, "mxg_block"),
+                           (mxgen.Alpha, "mxg_alpha"), (mxgen.View, "mxg_view"), (mxgen.OptionType, "mxg_option_type"),
+                           (mxgen.Rewriting, "mxg_rewriting")):
+            names = [name for name in ffi.typeof(ctype).relements if not re.search(r"_MAX_ENUM$|^MXG_NUM_", name)]
+            self.assertEqual(sorted(int(member) for member in cls), sorted(getattr(lib, name) for name in names), ctype)
+            for member in cls:
+                self.assertTrue(any(name.endswith(member.name) and getattr(lib, name) == member for name in names), member)
+
+
+class DiagnosticObjects(unittest.TestCase):
+    def test_objects(self):
+        document = mxgen.Context().parse(common.BROKEN, name="broken.mtlx")
+        found = document.validate()
+        self.assertEqual((found.errors, found.warnings, len(found)), (1, 0, len(found)))
+        first = found[0]
+        self.assertEqual((first.severity, first.file, first.line), (mxgen.Severity.ERROR, "broken.mtlx", 4))
+        self.assertTrue(str(first).startswith("broken.mtlx:4:"))
+        line = common.BROKEN.splitlines()[3]
+        self.assertEqual(first.format(common.BROKEN), first.format(line=line))
+        self.assertIn("^", first.format(line=line))
+        self.assertIn("\x1b[", first.format(colour=True))
+        self.assertIn(str(first), str(found))
+        self.assertEqual(found.format(common.BROKEN)[:20], first.format(common.BROKEN)[:20])
+        self.assertEqual(repr(found), "<Diagnostics: 1 errors, 0 warnings>")
+        self.assertEqual(found[-1], found[len(found) - 1])
+        with self.assertRaises(IndexError):
+            found[len(found)]
+
+    def test_notes(self):
+        text = common.GOLD.replace("</materialx>", '<noise2d name="Spots" type="float" /></materialx>')
+        first = mxgen.Context().parse(text).diagnostics[0]
+        notes = first.notes
+        self.assertTrue(notes and all(note.severity == mxgen.Severity.NOTE for note in notes))
+
+    def test_warnings(self):
+        with self.assertRaises(mxgen.ArgumentError):
+            mxgen.Context(warnings="no-such-word")
+        text = '<materialx version="1.39"><noise2d name="n" type="float" typo="1"/></materialx>'
+        self.assertEqual(mxgen.Context().parse(text).validate().errors, 0)
+        strict = mxgen.Context(warnings="error")
+        self.assertGreater(strict.parse(text).validate().errors, 0)

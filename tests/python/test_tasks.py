@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tasks of PyMaterialX's tutorials, with this package: docs/python.md has both side by side."""
+import contextlib
+import io
+import pathlib
+import re
+import tempfile
+import unittest
+
+import common
+import mxgen
+
+
+class Tasks(unittest.TestCase):
+    def setUp(self):
+        self.context = mxgen.Context()
+
+    def test_build_traverse_validate_and_write(self):
+        """A document with a nodegraph, a shader that uses it and a material; its traversal; its file, read again."""
+        with self.context.edit(name="wood") as edit:
+            graph = edit.add("nodegraph", "Grain")
+            graph.value("light", (0.6, 0.4, 0.2), "color3")
+            noise = graph.add("fractal3d", "rings", "float").value("octaves", 2, "integer")
+            ramp = graph.add("mix", "ramp", "color3").value("bg", (0.3, 0.15, 0.05), "color3")
+            ramp.connect("fg", graph.child("light")).connect("mix", noise)
+            graph.add("output", "out", "color3").connect(None, ramp)
+            shader = edit.add("standard_surface", "Varnish", "surfaceshader").connect("base_color", graph, "out")
+            edit.add("surfacematerial", "Wood", "material").connect("surfaceshader", shader)
+            look = edit.add("look", "Table")
+            look.add("materialassign", "all").set("material", "Wood").set("geom", "*")
+        wood = edit.document
+        self.assertEqual(str(wood.validate()), "")
+        self.assertEqual([(node.category, node.name) for node in wood["Wood"].upstream],
+                         [("standard_surface", "Varnish"), ("nodegraph", "Grain"), ("mix", "ramp"), ("fractal3d", "rings")])
+        values = {element.path: element.value for element in wood.walk() if element.value is not None}
+        self.assertEqual(values["Grain/rings/octaves"], 2)
+        self.assertEqual(wood.look_materials("Table")[0].path, "Wood")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "wood.mtlx"
+            path.write_text(wood.xml(), encoding="utf-8")
+            self.assertTrue(mxgen.equal(self.context.load(path), wood))
+
+    def test_generate_for_every_target(self):
+        """The shaders of a document, for each target that can draw them."""
+        marble = self.context.load(common.EXAMPLES / "marble.mtlx")
+        sources = {target.name: marble.generate(target.name).pixel for target in mxgen.targets()}
+        self.assertEqual(len(set(sources.values())), len(sources))
+        self.assertIn("#version", sources["glsl"])
+
+    def test_look_up_definitions(self):
+        """The definition of a node, its inputs with defaults, and the nodes of a group."""
+        document = self.context.load(common.EXAMPLES / "marble.mtlx")
+        definition = document["NG_marble/noise"].definition
+        defaults = {port.name: port.value for port in definition.inputs}
+        self.assertEqual((definition.group, defaults["octaves"]), ("procedural3d", "3"))
+        written = {element.name for element in document["NG_marble/noise"].inputs}
+        self.assertEqual(set(defaults) - written, {"amplitude", "lacunarity", "diminish"})
+        self.assertIn("noise2d", {nodedef.node for nodedef in self.context.library.nodedefs if nodedef.group == "procedural2d"})
+
+    def test_change_a_document(self):
+        """All textures of a document with another prefix; a node replaced by a value."""
+        textured = self.context.load(common.EXAMPLES / "textured.mtlx")
+        files = [element for element in textured.walk() if element.type == "filename"]
+        self.assertTrue(files)
+        with textured.edit() as edit:
+            for element in files:
+                edit[element].set("value", "moved/" + str(element.value))
+        moved = edit.document
+        self.assertTrue(all(str(moved[element.path].value).startswith("moved/") for element in files))
+        variables = [variable.file for variable in moved.generate("glsl").variables if variable.file]
+        self.assertTrue(variables and all("moved/" in file for file in variables))
+
+    def test_edit_many_inputs_of_every_material(self):
+        """A property changed in all shaders of a folder."""
+        for path in sorted(common.EXAMPLES.glob("*.mtlx")):
+            document = self.context.load(path)
+            shaders = [element for element in document if element.category == "standard_surface"]
+            with document.edit() as edit:
+                for shader in shaders:
+                    edit[shader].value("specular_roughness", 0.25, "float")
+            for shader in shaders:
+                self.assertEqual(edit.document[shader.path + "/specular_roughness"].value, 0.25)
+
+    def test_programs_of_the_documentation(self):
+        """Every program of README.md and docs/python.md runs in the root of the project."""
+        root = common.EXAMPLES.resolve().parent
+        pages = [root / "README.md", root / "docs/python.md"]
+        programs = [program for page in pages for program in re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)]
+        self.assertGreater(len(programs), 2)
+        for program in programs:
+            out = io.StringIO()
+            with contextlib.redirect_stdout(out), contextlib.chdir(root):
+                exec(compile(program, "documentation", "exec"), {})
+            self.assertEqual("print" in program, bool(out.getvalue()))
