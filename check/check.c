@@ -269,7 +269,7 @@ static bool find_targets(struct check *check)
     }
     if (check->targets.len == 0)
         args_append(&check->targets, "glsl");
-    return true;
+    return cli_options_apply(&check->cli, check->targets.items, check->targets.len);
 }
 
 static void add_worker_arg(struct check *check, const char *name, const char *value)

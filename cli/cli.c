@@ -224,6 +224,49 @@ bool cli_find_target(const char *name, size_t len, mxg_target *out)
     return false;
 }
 
+static bool applies_to_one(uint32_t option, const char *const *targets, size_t num_targets)
+{
+    bool applies = false;
+    for (size_t i = 0; i < num_targets; ++i)
+        applies |= mxg_option_applies(option, targets[i]);
+    return applies;
+}
+
+static void print_inapplicable(uint32_t option, const char *key, const char *const *targets,
+                               size_t num_targets)
+{
+    fprintf(stderr, "mxgen: option '--%s' does not apply to", key);
+    for (size_t i = 0; i < num_targets; ++i)
+        fprintf(stderr, "%s '%s'", i ? "," : "", targets[i]);
+    const char *before = "; it applies to";
+    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+        mxg_target target = {sizeof target};
+        mxg_get_target(i, &target);
+        if (!mxg_option_applies(option, target.name))
+            continue;
+        fprintf(stderr, "%s '%s'", before, target.name);
+        before = ",";
+    }
+    fputc('\n', stderr);
+}
+
+bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets)
+{
+    for (uint32_t option = 0; option < mxg_num_options(); ++option) {
+        mxg_option known = {sizeof known};
+        mxg_get_option(option, &known);
+        if (applies_to_one(option, targets, num_targets))
+            continue;
+        for (size_t i = 0; i < cli->parser.num_settings; ++i) {
+            if (strcmp(cli->parser.settings[i].key, known.key) != 0)
+                continue;
+            print_inapplicable(option, known.key, targets, num_targets);
+            return false;
+        }
+    }
+    return true;
+}
+
 size_t cli_max_file_size(const struct cli *cli)
 {
     enum { DEFAULT_MIB = 256 }; /* of the library */

@@ -79,6 +79,12 @@ size_t cli_max_file_size(const struct cli *cli);
 /* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
 bool cli_find_target(const char *name, size_t len, mxg_target *out);
 
+/*
+ * False after a message about an option of generation that applies to none of the targets, which
+ * exist.
+ */
+bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets);
+
 /* The file name for an element: its path with dots. The caller frees it. */
 char *cli_file_name(const char *element_path);
 

@@ -448,6 +448,7 @@ int command_generate(const struct command *command, int argc, char **argv)
     if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args,
                   CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
         code = cli_find_target(gen.target, strlen(gen.target), &gen.target_info)
+                       && cli_options_apply(&gen.cli, &gen.target_info.name, 1)
                        && prepare_output(&gen)
                    ? generate_all(&gen)
                    : EXIT_USAGE;

@@ -66,7 +66,8 @@ int command_inspect(const struct command *command, int argc, char **argv)
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES,
                   argc, argv, &code)) {
         mxg_target target;
-        bool good = cli_find_target(inspect.target, strlen(inspect.target), &target);
+        bool good = cli_find_target(inspect.target, strlen(inspect.target), &target)
+                    && cli_options_apply(&cli, &target.name, 1);
         for (size_t i = 0; good && i < cli.parser.inputs.len; ++i) {
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
             if (document)

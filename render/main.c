@@ -621,8 +621,8 @@ static int run(struct job *job)
     }
     if (!job->options.size)
         job->options.size = is_grid ? "4" : is_one ? "512" : "160";
-    if (!parse_size(job) || !parse(job)
-        || !applies_all(&job->cli.parser, find_facts(job, is_grid, is_one)))
+    if (!cli_options_apply(&job->cli, (const char *const[]){"vulkan"}, 1) || !parse_size(job)
+        || !parse(job) || !applies_all(&job->cli.parser, find_facts(job, is_grid, is_one)))
         return EXIT_USAGE;
     if (can_write(job, job->options.output) && can_write(job, job->options.copy)
         && find_documents(job) && claim_outputs(job)) {

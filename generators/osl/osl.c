@@ -151,8 +151,8 @@ const struct target target_osl = {
     .materialx_name = "genosl",
     .brief = "Open Shading Language 1.14 and later",
     .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_STRINGS | CAP_NAMED_WHOLES
-            | CAP_TYPED_TEXTURES | CAP_MISSING_COLORS | CAP_READS_SAY_MODES | CAP_SCOPED_PARAMETERS
-            | CAP_INDEXED_TANGENTS,
+            | CAP_TYPED_TEXTURES | CAP_MISSING_COLORS | CAP_SCOPED_PARAMETERS | CAP_INDEXED_TANGENTS
+            | CAP_METADATA,
     .closures = &osl_closures,
     .network = &osl_network,
     .syntax = &osl_syntax,

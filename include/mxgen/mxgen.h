@@ -419,6 +419,11 @@ typedef struct mxg_option {
  */
 MXG_API uint32_t mxg_num_options(void);
 MXG_API mxg_status mxg_get_option(uint32_t index, mxg_option *out);
+/*
+ * True if the option has a meaning for the target; a target ignores the others, so one set of
+ * options serves several targets. False for an unknown index or target.
+ */
+MXG_API bool mxg_option_applies(uint32_t index, const char *target);
 
 MXG_API mxg_status mxg_options_create(mxg_context *context, mxg_options **out_options);
 MXG_API void mxg_options_destroy(mxg_options *options);

@@ -147,6 +147,7 @@ struct file_source {
     const mxg_resolver *resolver;
     struct arena scratch;    /* owns the texts of source files */
     VEC(const char *) names; /* canonical names of all files, each once */
+    struct table table;      /* their indices + 1 */
     mxg_blob blob;
     bool is_open;              /* the source must release `blob` */
     uint64_t digest;           /* hash of the bytes of all files; 0 at the start: no hash */
@@ -217,7 +218,7 @@ const char *folder_list(struct arena *arena, const char *path, const char *suffi
 /* ---- Options: options.c, options.def ---- */
 
 enum option_id {
-#define OPTION(id, key, type, values, initial, doc) OPTION_##id,
+#define OPTION(id, key, type, caps, values, initial, doc) OPTION_##id,
 #include "api/options.def"
 #undef OPTION
     NUM_OPTIONS
@@ -230,10 +231,14 @@ struct option_value {
     bool is_set; /* differs from the default */
 };
 
-/* The defaults; the arena owns them. */
-const struct option_value *options_default(struct arena *arena);
-const char *option_key(enum option_id option); /* "interface" */
-const struct option_value *options_values(const mxg_options *options);
+/*
+ * The values for a target, in the arena: the defaults where `options` is NULL, and of the options
+ * that do not apply to the target.
+ */
+const struct option_value *options_for(const struct target *target, const mxg_options *options,
+                                       struct arena *arena);
+const struct option_value *options_values(const mxg_options *options); /* as set */
+const char *option_key(enum option_id option);                         /* "interface" */
 /* A hash of all values. */
 uint64_t options_hash(const struct option_value *values);
 

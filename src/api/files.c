@@ -30,11 +30,14 @@ void file_source_finish(struct file_source *source)
 
 static const char *remember(struct file_source *source, const char *name)
 {
-    for (uint32_t i = 0; i < source->names.len; i++)
-        if (strcmp(source->names.items[i], name) == 0)
-            return source->names.items[i];
+    size_t len = strlen(name);
+    uint32_t hash = hash_bytes(name, len);
+    for (uint32_t at = hash, found; (found = table_next(&source->table, hash, &at));)
+        if (strcmp(source->names.items[found - 1], name) == 0)
+            return source->names.items[found - 1];
     struct arena *arena = &source->object->arena;
-    vec_push(arena, &source->names, arena_strndup(arena, name, strlen(name)));
+    vec_push(arena, &source->names, arena_strndup(arena, name, len));
+    table_add(&source->table, arena, hash, source->names.len);
     return vec_last(&source->names);
 }
 

@@ -50,22 +50,6 @@ static bool check_version(struct generation *g)
     return !version;
 }
 
-static bool check_network(struct generation *g)
-{
-    struct text possible;
-    if (g->result->target->network || !g->options[OPTION_network].number)
-        return true;
-    text_init(&possible, &g->scratch);
-    text_str(&possible, "false; only the target");
-    for (const struct target *const *target = targets; *target; target++)
-        if ((*target)->network)
-            text_fmt(&possible, " '%s'", (*target)->name);
-    text_str(&possible, " has networks");
-    diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", option_key(OPTION_network),
-             text_cstr(&possible));
-    return false;
-}
-
 /* MaterialX names of the target and of the targets that it inherits, nearest first. */
 static const str_id *target_names(struct generation *g, unsigned *out_count)
 {
@@ -109,7 +93,7 @@ static void set_build_options(struct generation *g)
         .albedo = o[OPTION_albedo].number,
         .sample_filter = o[OPTION_sample_filter].number,
         .texture_modes =
-            caps & CAP_READS_SAY_MODES ? TEXTURE_MODES_BUT_BORDERS : o[OPTION_texture_modes].number,
+            caps & CAP_SAMPLERS ? o[OPTION_texture_modes].number : TEXTURE_MODES_BUT_BORDERS,
         .missing_colors = caps & CAP_MISSING_COLORS,
         .indexed_tangents = caps & CAP_INDEXED_TANGENTS,
         .tiles = o[OPTION_tiles].number == 0 && caps & CAP_TEXTURE_ARRAYS,
@@ -171,9 +155,11 @@ static void name_shader(struct generation *g)
 
 bool generation_start(struct generation *g)
 {
-    g->options = g->desc.options ? options_values(g->desc.options)
-                                 : options_default(&g->result->object.arena);
-    bool good = find_target(g) && check_version(g) && check_network(g);
+    bool good = find_target(g);
+    if (good) {
+        g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena);
+        good = check_version(g);
+    }
     g->element = document_find_element(g->document, g->desc.element, diags_of(g), &g->output_name,
                                        &g->output);
     if (!good || !g->element)
@@ -234,9 +220,11 @@ bool generation_build(struct generation *g)
     ir_assert_valid(&g->result->graph, "after build");
     if (!is_good(g))
         return false;
-    if (!g->root)
+    if (!g->root) {
         generation_report_not_renderable(g, gives_nothing);
-    return g->root != 0;
+        return false;
+    }
+    return generation_is_defined(g, &g->result->graph, &g->root, 1, g->element);
 }
 
 /* ---- Emit ---- */
@@ -329,7 +317,7 @@ bool generation_emit(struct generation *g)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
                                                 : gives_nothing);
-    return is_good(g);
+    return is_good(g) && generation_effects_are_defined(g, &g->result->shader, g->element);
 }
 
 /* This step reports nothing, and no limit counts the few nodes that it adds. */

@@ -129,6 +129,15 @@ bool result_topology(const mxg_result *result, uint64_t *out_topology);
 /* inputs.c: shader_reflect_options.compiled; user_data is the mxg_result. */
 void result_compiled(void *user_data, uint32_t index, struct shader_compiled_text *out);
 
+/*
+ * undefined.c: false, after a diagnostic, if the roots, or the effects of a shader, need a value
+ * that is undefined. `where` is the element of the message if the value comes from none.
+ */
+bool generation_is_defined(struct generation *g, const struct ir_graph *graph, const ir_ref *roots,
+                           uint32_t num_roots, elem_id where);
+bool generation_effects_are_defined(struct generation *g, const struct shader *shader,
+                                    elem_id where);
+
 /* globs.c: warns about patterns in options that match nothing. */
 void generation_check_globs(struct generation *g);
 

@@ -27,19 +27,27 @@ static struct shader *new_shader(struct generation *g, const struct network_node
 }
 
 /*
- * The build for the document has reported the faults of a node already, so this build drops its
- * messages.
+ * The build for the document has reported most faults of a node already. Others show only here,
+ * where the inputs are parameters: true if there are none.
  */
+static bool tell_own_faults(struct generation *g, const struct diag_list *own)
+{
+    struct diag_list *diags = &g->result->object.diagnostics.list;
+    for (uint32_t i = 0; own->num_errors > 0 && i < own->items.len; i++)
+        diag_repeat(diags, &own->items.items[i]);
+    return own->num_errors == 0;
+}
+
 static bool emit_node(struct generation *g, struct shader *shader, struct network_node *node)
 {
     struct arena *arena = shader->arena;
-    struct diag_list *ignored = ARENA_NEW(arena, struct diag_list);
+    struct diag_list *own = ARENA_NEW(arena, struct diag_list);
     struct closure_point *point = ARENA_NEW(arena, struct closure_point);
     ir_ref *results = ARENA_ARRAY(arena, ir_ref, node->num_outputs);
     struct network_output *outputs = ARENA_ARRAY(arena, struct network_output, node->num_outputs);
     str_id *names = ARENA_ARRAY(arena, str_id, node->num_outputs);
-    diag_list_init(ignored, arena);
-    struct builder *builder = build_start(&g->document->layer, &g->build_options, shader, ignored);
+    diag_list_init(own, arena);
+    struct builder *builder = build_start(&g->document->layer, &g->build_options, shader, own);
     build_network_node(builder, node, results);
     for (uint32_t i = 0; i < node->num_outputs; i++) {
         outputs[i] = (struct network_output){.value = results[i]};
@@ -49,7 +57,8 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
     bool is_emitted = g->result->target->network->emit_node(shader, &host, outputs,
                                                             node->num_outputs, &g->unknown_leaf);
     ir_assert_valid(shader->graph, "after closures");
-    if (!is_emitted)
+    if (!tell_own_faults(g, own) || !is_emitted
+        || !generation_effects_are_defined(g, shader, g->element))
         return false;
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(shader, &rules);
@@ -129,7 +138,8 @@ bool generation_make_network(struct generation *g)
     if (good)
         result->target->network->plan(&result->network);
     if (!good || !make_parts(g)) {
-        generation_report_not_renderable(g, "there is no layer that gives it");
+        if (result->object.diagnostics.list.num_errors == 0)
+            generation_report_not_renderable(g, "there is no layer that gives it");
         return false;
     }
     for (int stage = 0; stage < NUM_STAGES; stage++)

@@ -5,6 +5,8 @@
 #include "base/hash.h"
 #include "base/num.h"
 
+#include <assert.h>
+
 struct mxg_options {
     struct object object;
     struct option_value values[NUM_OPTIONS];
@@ -12,11 +14,16 @@ struct mxg_options {
 };
 
 static const mxg_option table[NUM_OPTIONS] = {
-#define OPTION(id, key, type, values, initial, doc) \
+#define OPTION(id, key, type, caps, values, initial, doc) \
     {sizeof(mxg_option), key, MXG_OPTION_##type, values, initial, doc},
 #include "api/options.def"
 
-#include <assert.h>
+#undef OPTION
+};
+
+static const uint32_t needs[NUM_OPTIONS] = {
+#define OPTION(id, key, type, caps, values, initial, doc) caps,
+#include "api/options.def"
 #undef OPTION
 };
 
@@ -35,6 +42,19 @@ mxg_status mxg_get_option(uint32_t index, mxg_option *out)
 {
     return index < NUM_OPTIONS ? struct_write(out, &table[index], sizeof table[index])
                                : MXG_ERROR_ARGUMENT;
+}
+
+static bool option_applies(enum option_id option, const struct target *target)
+{
+    uint32_t caps =
+        target->caps | (target->closures ? 0 : CAP_LIGHTING) | (target->network ? CAP_NETWORKS : 0);
+    return (needs[option] & ~caps) == 0;
+}
+
+bool mxg_option_applies(uint32_t index, const char *target)
+{
+    const struct target *found = target ? target_find(target) : NULL;
+    return found && index < NUM_OPTIONS && option_applies((enum option_id)index, found);
 }
 
 /* ---- Values from text ---- */
@@ -109,13 +129,6 @@ static void set_defaults(struct arena *arena, struct option_value *values)
         parse(arena, &table[i], table[i].initial, &values[i]);
 }
 
-const struct option_value *options_default(struct arena *arena)
-{
-    struct option_value *values = ARENA_ARRAY(arena, struct option_value, NUM_OPTIONS);
-    set_defaults(arena, values);
-    return values;
-}
-
 uint64_t options_hash(const struct option_value *values)
 {
     uint64_t h = HASH_STABLE_SEED;
@@ -134,6 +147,17 @@ uint64_t options_hash(const struct option_value *values)
 const struct option_value *options_values(const mxg_options *options)
 {
     return options->values;
+}
+
+const struct option_value *options_for(const struct target *target, const mxg_options *options,
+                                       struct arena *arena)
+{
+    struct option_value *values = ARENA_ARRAY(arena, struct option_value, NUM_OPTIONS);
+    set_defaults(arena, values);
+    for (unsigned i = 0; options && i < NUM_OPTIONS; i++)
+        if (option_applies((enum option_id)i, target))
+            values[i] = options->values[i];
+    return values;
 }
 
 /* ---- The caller's options ---- */

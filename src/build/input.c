@@ -75,7 +75,7 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
     elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
     uint32_t nodedef = alone ? library_implemented_nodedef(b->lib, alone) : scope->nodedef;
     /* the reader of the document has reported it */
-    if (nodedef == LIBRARY_NONE && doc_attr_value(build_doc(b), alone, STR_nodedef))
+    if (nodedef == LIBRARY_NONE && alone && doc_attr_value(build_doc(b), alone, STR_nodedef))
         return unset(b, scope, doc_element(build_doc(b), binding->element)->parent, port,
                      binding->element, true);
     int index =

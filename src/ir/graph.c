@@ -374,7 +374,7 @@ void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *res
 
 ir_ref ir_poison(struct ir_graph *graph, ir_type_id type)
 {
-    return ir_intern(graph, IR_POISON, type, 0, NULL, 0);
+    return ir_intern(graph, IR_POISON, type, graph->origin, NULL, 0);
 }
 
 bool ir_is_const(const struct ir_graph *graph, ir_ref ref)

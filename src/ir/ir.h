@@ -308,6 +308,7 @@ ir_ref ir_const_bool(struct ir_graph *graph, bool b);
 ir_ref ir_const_string(struct ir_graph *graph, str_id s);
 /* vectors; the diagonal of matrices */
 ir_ref ir_const_splat(struct ir_graph *graph, ir_type_id type, float f);
+/* Its attribute is the origin, so that a message can name the place. */
 ir_ref ir_poison(struct ir_graph *graph, ir_type_id type);
 
 ir_ref ir_swizzle(struct ir_graph *graph, ir_ref a, const uint8_t *components, unsigned count);
@@ -405,6 +406,12 @@ void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *res
  */
 uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
                  struct arena *arena);
+/*
+ * A POISON that the roots need; 0: there is none. An arm of a SELECT may be POISON: functions leave
+ * a variable without a value in the cases that they exclude.
+ */
+ir_ref ir_find_poison(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+                      struct arena *arena);
 /*
  * Counts the uses of each marked node as an operand of marked nodes and as a root; saturates at
  * 255.

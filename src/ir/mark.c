@@ -36,6 +36,43 @@ uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num
     return marked;
 }
 
+static bool is_poison(const struct ir_graph *graph, ir_ref ref)
+{
+    return ref && ir_get(graph, ref)->op == IR_POISON;
+}
+
+static ir_ref first_poison(const struct ir_graph *graph, const ir_ref *refs, uint32_t num_refs)
+{
+    for (uint32_t i = 0; i < num_refs; i++)
+        if (is_poison(graph, refs[i]))
+            return refs[i];
+    return 0;
+}
+
+/* The arms of a SELECT do not count. */
+static ir_ref used_poison(const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    ir_ref found =
+        first_poison(graph, ir_args(graph, ref), node->op == IR_SELECT ? 1 : node->num_args);
+    if (found || node->op != IR_GRAPH_CALL)
+        return found;
+    const struct ir_function *function = &graph->functions.items[node->attr];
+    return first_poison(graph, graph->function_results.items + function->first_result,
+                        function->num_results);
+}
+
+ir_ref ir_find_poison(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+                      struct arena *arena)
+{
+    const uint8_t *marked = ir_mark(graph, roots, num_roots, arena);
+    ir_ref found = first_poison(graph, roots, num_roots);
+    for (ir_ref ref = 1; ref < graph->nodes.len && !found; ref++)
+        if (marked[ref])
+            found = used_poison(graph, ref);
+    return found;
+}
+
 static void count_all(uint8_t *uses, const ir_ref *refs, uint32_t num_refs)
 {
     for (uint32_t i = 0; i < num_refs; i++)

@@ -58,7 +58,7 @@ void lang_form_split(const struct lang_form *form, struct lang_pieces *split)
         assert(split->num < LANG_MAX_PIECES);
         char before = p == form->text ? '\0' : p[-1] == ' ' ? p[-2] : p[-1];
         unsigned index = (unsigned)(p[1] - '0');
-        assert(p[1] == 'T' || index < 4);
+        assert(p[1] == 'T' || index < LANG_MAX_PIECES);
         split->pieces[split->num++] = (struct lang_piece){
             .before = {from, (size_t)(p - from)},
             .index = p[1] == 'T' ? LANG_PIECE_TYPE : (uint8_t)index,

@@ -129,8 +129,9 @@ ir_ref shader_read(struct shader *shader, uint32_t variable)
 static uint32_t find_binding(const struct shader *shader, enum shader_block block, str_id asked,
                              ir_type_id scalar)
 {
-    for (uint32_t i = 0; i < shader->bindings.len; i++) {
-        const struct shader_binding *binding = &shader->bindings.items[i];
+    uint32_t hash = hash_pair(asked, 0);
+    for (uint32_t at = hash, found; (found = table_next(&shader->binding_table, hash, &at));) {
+        const struct shader_binding *binding = &shader->bindings.items[found - 1];
         if (binding->asked == asked && binding->block == block && binding->scalar == scalar)
             return binding->variable;
     }
@@ -150,6 +151,8 @@ static uint32_t bind(struct shader *shader, const struct shader_variable *variab
     vec_push(
         shader->arena, &shader->bindings,
         (struct shader_binding){variable->name, variable->block, scalar_of(variable->type), index});
+    table_add(&shader->binding_table, shader->arena, hash_pair(variable->name, 0),
+              shader->bindings.len);
     return index;
 }
 

@@ -38,10 +38,9 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call)
 static void need_verbatim(struct scheduler *s, uint32_t callee)
 {
     assert(callee < s->shader->verbatim.len);
-    for (uint32_t i = 0; i < s->stage->verbatim.len; i++)
-        if (s->stage->verbatim.items[i] == callee)
-            return;
-    vec_push(s->arena, &s->stage->verbatim, callee);
+    if (!s->is_needed[callee])
+        vec_push(s->arena, &s->stage->verbatim, callee);
+    s->is_needed[callee] = true;
 }
 
 /*
@@ -410,6 +409,7 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage)
         .stage = &shader->stages[stage],
         .stage_bit = (uint8_t)(1u << stage),
         .is_reached = ARENA_ARRAY(shader->arena, bool, shader->graph->nodes.len),
+        .is_needed = ARENA_ARRAY(shader->arena, bool, shader->verbatim.len),
         .plans =
             arena_alloc(shader->arena, mem_array_size(shader->arena->mem, shader->graph->nodes.len,
                                                       sizeof(struct plan))),

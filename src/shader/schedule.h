@@ -53,6 +53,7 @@ struct scheduler {
     struct shader_stage *stage;
     uint8_t stage_bit;
     bool *is_reached;    /* by node */
+    bool *is_needed;     /* by verbatim source */
     bool any_local;      /* some reached node reads a LOCAL */
     struct plan *plans;  /* by node; valid for reached nodes, and for the absent one */
     VEC(ir_ref) reached; /* operands before users; with capacity for all nodes */

@@ -249,6 +249,7 @@ struct shader {
     struct table names;                    /* names to variables + 1: interface.c */
     struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
     VEC(struct shader_binding) bindings;
+    struct table binding_table; /* by name, to indices + 1 */
     /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];
     struct shader_stage stages[NUM_STAGES];

@@ -109,6 +109,7 @@ static uint64_t attribute(struct hasher *h, ir_ref ref)
 {
     const struct ir_node *node = ir_get(h->shader->graph, ref);
     switch (node->op) {
+    case IR_POISON: /* an origin */
     case IR_CONST: return 0;
     case IR_CONTEXT:
         return node->attr == IR_WHOLE_LIGHT ? IR_WHOLE_LIGHT : h->variable_numbers[node->attr];

@@ -30,10 +30,10 @@ enum target_caps {
     /* texture() takes the default of a missing image as an argument */
     CAP_MISSING_COLORS = 1 << 14,
     /*
-     * texture() takes address modes and filters, but no border colours; otherwise samplers have
-     * them
+     * textures have samplers, which the host makes; otherwise texture() takes address modes and
+     * filters, but no border colours
      */
-    CAP_READS_SAY_MODES = 1 << 15,
+    CAP_SAMPLERS = 1 << 15,
     /* each shader has its own scope of parameters, so names need no prefix */
     CAP_SCOPED_PARAMETERS = 1 << 16,
     /*
@@ -41,7 +41,12 @@ enum target_caps {
      * MaterialX
      */
     CAP_INDEXED_TANGENTS = 1 << 17,
-    CAP_SETS = 1 << 18, /* with CAP_BINDINGS: layout(set, binding) */
+    CAP_SETS = 1 << 18,              /* with CAP_BINDINGS: layout(set, binding) */
+    CAP_METADATA = 1 << 19,          /* parameters have metadata */
+    CAP_VULKAN_ATTRIBUTES = 1 << 20, /* can write bindings of Vulkan beside its own */
+    /* not in the tables of targets: two that follow from their members */
+    CAP_LIGHTING = 1 << 29, /* the shader computes lights and layers: it has no closures */
+    CAP_NETWORKS = 1 << 30, /* has `network` */
 };
 
 struct spell; /* spell/spell.h */

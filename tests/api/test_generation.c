@@ -572,10 +572,32 @@ static void test_network(void)
     REQUIRE(info.topology != whole_info.topology);
     mxg_result_destroy(result);
     mxg_result_destroy(whole);
-    result = generate(&b, "glsl", "M", MXG_ERROR_DOCUMENT);
-    REQUIRE(has_diagnostic(mxg_result_diagnostics(result), "bad-option"));
+    result = generate(&b, "glsl", "M", MXG_OK); /* a target without networks ignores the option */
+    REQUIRE_EQ(mxg_result_num_parts(result), 0);
     mxg_result_destroy(result);
     bench_close(&b);
+}
+
+static bool applies(const char *key, const char *target)
+{
+    mxg_option option = {sizeof option};
+    for (uint32_t i = 0; mxg_get_option(i, &option) == MXG_OK; i++)
+        if (strcmp(option.key, key) == 0)
+            return mxg_option_applies(i, target);
+    return false;
+}
+
+static void test_options_of_targets(void)
+{
+    REQUIRE(applies("interface", "glsl") && applies("interface", "osl"));
+    REQUIRE(applies("lights", "hlsl") && !applies("lights", "osl"));
+    REQUIRE(applies("metadata", "osl") && !applies("metadata", "essl"));
+    REQUIRE(applies("osl-network", "osl") && !applies("osl-network", "vulkan"));
+    REQUIRE(applies("uniform-blocks", "glsl") && !applies("uniform-blocks", "hlsl"));
+    REQUIRE(applies("hlsl-vulkan-bindings", "hlsl") && !applies("hlsl-vulkan-bindings", "glsl"));
+    REQUIRE(applies("texture-modes", "essl310") && !applies("texture-modes", "osl"));
+    REQUIRE(!applies("interface", "cobol"));
+    REQUIRE(!mxg_option_applies(mxg_num_options(), "glsl") && !mxg_option_applies(0, NULL));
 }
 
 int main(void)
@@ -595,6 +617,7 @@ int main(void)
     test_tokens();
     test_user_interface();
     test_network();
+    test_options_of_targets();
     test_lifetimes();
     return test_report("api-generation");
 }

@@ -91,6 +91,16 @@ mkdir folder.frag
 check 'a folder may have any name' exits 0 "$mxgen" two.mtlx -o folder.frag
 check 'and gets its files' diff -r all folder.frag
 
+# Options of other targets
+check 'an option of OSL with glsl' exits 2 "$mxgen" two.mtlx -e A --metadata none -o other_target
+check 'is told' grep -qx "mxgen: option '--metadata' does not apply to 'glsl'; it applies to 'osl'" err
+check 'lights with OSL' exits 2 "$mxgen" two.mtlx -e A -t osl --lights none -o other_target
+check 'are told' grep -q "option '--lights' does not apply to 'osl'; it applies to 'glsl', 'vulkan'" err
+check 'inspect, too' exits 2 "$mxgen" inspect two.mtlx --ir --no-osl-network
+check 'check takes what one of its targets takes' exits 0 "$mxgen" check two.mtlx --no-compile -t glsl,osl --lights none --metadata none
+check 'and no more' exits 2 "$mxgen" check two.mtlx --no-compile -t glsl,vulkan --metadata none
+check 'and nothing is written' eval '! test -e other_target'
+
 # Folders
 mkdir -p tree/props tree/.hidden tree/empty && cp two.mtlx tree && cp two.mtlx tree/props/lamp.mtlx && cp bad.mtlx tree/.hidden
 ln -s .. tree/props/up && ln -s . tree/self && mkfifo tree/pipe.mtlx
