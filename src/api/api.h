@@ -164,6 +164,8 @@ void source_paths_finish(struct mxg_context *context);
 void file_source_add_folder(struct file_source *source, const char *folder);
 
 void file_source_init(struct file_source *source, struct object *object);
+/* Adds a canonical name, if it is new; the object owns the copy that it returns. */
+const char *file_source_remember(struct file_source *source, const char *name);
 void file_source_finish(struct file_source *source); /* also call this after a jump out of memory */
 struct xml_files file_source_for_xml(struct file_source *source);
 struct lang_reader file_source_for_lang(struct file_source *source);

@@ -594,7 +594,7 @@ static void end_document(void *arg)
     struct document *doc = &job->document->layer.doc;
     struct diag_list *diags = &job->document->object.diagnostics.list;
     for (uint32_t i = 0; i < job->document->files.len; i++)
-        vec_push(&job->document->object.arena, &job->files.names, job->document->files.items[i]);
+        file_source_remember(&job->files, job->document->files.items[i]);
     doc_keep_paths(doc);
     doc_expand_templates(doc, diags);
     doc_qualify_names(doc);

@@ -28,7 +28,7 @@ void file_source_finish(struct file_source *source)
     object_settle(source->object);
 }
 
-static const char *remember(struct file_source *source, const char *name)
+const char *file_source_remember(struct file_source *source, const char *name)
 {
     size_t len = strlen(name);
     uint32_t hash = hash_bytes(name, len);
@@ -79,7 +79,7 @@ static bool open_for_xml(void *user_data, const char *from, const char *ref, con
         *out_name = source->blob.name;
         return false;
     }
-    *out_name = remember(source, source->blob.name);
+    *out_name = file_source_remember(source, source->blob.name);
     *out_data = source->blob.data;
     *out_size = source->blob.size;
     *out_handle = NULL;
@@ -190,7 +190,7 @@ static bool read_for_lang(void *user_data, const char *from, const char *ref, co
         close_file(source);
         return false;
     }
-    *out_name = remember(source, source->blob.name);
+    *out_name = file_source_remember(source, source->blob.name);
     *out_text = arena_strndup(&source->scratch, source->blob.data, source->blob.size);
     *out_len = source->blob.size;
     close_file(source);
@@ -217,7 +217,7 @@ bool file_source_read(struct file_source *source, const char *path, const char *
         close_file(source);
         return false;
     }
-    remember(source, source->blob.name);
+    file_source_remember(source, source->blob.name);
     *out_data = arena_strndup(&source->object->arena, source->blob.data, source->blob.size);
     *out_size = source->blob.size;
     close_file(source);
