@@ -8,7 +8,7 @@
     print(shader.pixel)
 
 docs/python.md is the guide; the C library's header, include/mxgen/mxgen.h, has every detail."""
-from .catalogue import Option, OptionType, Target, options, targets
+from .catalogue import Option, OptionType, Target, option_applies, options, targets
 from .context import Context, File, ListFolder, Resolver, Rewriting, Rewritten
 from .definition import Library, NodeDef, Port
 from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, diagnostic_kinds, library_version
@@ -25,4 +25,4 @@ __all__ = ["Alpha", "ArgumentError", "Block", "BlockInfo", "Change", "CancelledE
            "InputState", "InternalError", "Library", "LightType", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType", "OptionValue",
            "OutOfMemoryError", "Part", "Place", "Port", "Renderable", "Resolver", "Rewriting", "Rewritten", "Semantic", "Severity", "Shader",
            "ShaderInfo", "Stage", "Target", "Tile", "Value", "Variable", "View", "diagnostic_kinds", "equal", "library_version",
-           "options", "semantics", "targets"]
+           "option_applies", "options", "semantics", "targets"]

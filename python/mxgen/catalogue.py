@@ -62,3 +62,16 @@ def options() -> tuple[Option, ...]:
         values["type"] = OptionType(values["type"])
         found.append(Option(**values))
     return tuple(found)
+
+
+def option_applies(key: str, target: str) -> bool:
+    """Whether an option has a meaning for a target, which ignores the others.
+
+    Raises ValueError for an option or a target that does not exist.
+    """
+    keys = [option.key for option in options()]
+    if key not in keys:
+        raise ValueError(f"there is no option '{key}'")
+    if target not in [known.name for known in targets()]:
+        raise ValueError(f"there is no target '{target}'")
+    return bool(lib.mxg_option_applies(keys.index(key), target.encode()))

@@ -151,4 +151,4 @@ def compare(seed, folder):
 with tempfile.TemporaryDirectory() as name:
     for seed in range(FIRST, FIRST + COUNT):
         compare(seed, pathlib.Path(name))
-finish("bind random scenes")
+finish("bind-random")

@@ -225,6 +225,11 @@ class Libraries(unittest.TestCase):
 class Catalogues(unittest.TestCase):
     def test_lists(self):
         self.assertIn("glsl", [target.name for target in mxgen.targets()])
+        self.assertTrue(mxgen.option_applies("lights", "glsl"))
+        self.assertFalse(mxgen.option_applies("lights", "osl"))
+        for wrong in (("light", "glsl"), ("lights", "gls")):
+            with self.assertRaises(ValueError):
+                mxgen.option_applies(*wrong)
         interface = next(option for option in mxgen.options() if option.key == "interface")
         self.assertEqual((interface.type, interface.values, interface.initial),
                          (mxgen.OptionType.ENUM, "complete|authored|reduced", "complete"))

@@ -88,9 +88,7 @@ def check_suites():
     introspection = subprocess.run(["meson", "introspect", "--tests", BUILD], capture_output=True, text=True, check=True)
     for test in json.loads(introspection.stdout):
         suites = {suite.rpartition(":")[2] for suite in test["suite"]}
-        # The package for Python is also tested where its sanitized build is.
-        one = suites == {"programs", "reach"} or len(suites) == 1
-        check(one and suites <= SUITES, f"{test['name']} is in the suites {suites}")
+        check(len(suites) == 1 and suites <= SUITES, f"{test['name']} is in the suites {suites}")
 
 
 check_suites()
