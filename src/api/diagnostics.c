@@ -85,10 +85,7 @@ static void run_job(void *arg)
 static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_job *job,
                      char *buffer, size_t capacity)
 {
-    if (!buffer)
-        capacity = 0;
-    if (capacity)
-        *buffer = '\0';
+    text_copy("", 0, buffer, capacity);
     if (index >= mxg_diagnostics_count(list))
         return 0;
     struct object scratch = {.size = 0};
@@ -96,15 +93,8 @@ static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_
     job->diag = &list->list.items.items[index];
     text_init(&job->text, &scratch.arena);
     size_t len = 0;
-    if (object_run(&scratch, run_job, job) == MXG_OK) {
-        len = job->text.len;
-        size_t copied = len < capacity ? len : capacity - 1;
-        assert(capacity == 0 || copied < capacity);
-        if (capacity) {
-            memcpy(buffer, job->text.data, copied);
-            buffer[copied] = '\0';
-        }
-    }
+    if (object_run(&scratch, run_job, job) == MXG_OK)
+        len = text_copy(job->text.data, job->text.len, buffer, capacity);
     arena_finish(&scratch.arena);
     atomic_fetch_sub(&scratch.context->used, scratch.counted);
     return len;

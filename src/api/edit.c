@@ -515,13 +515,6 @@ mxg_status mxg_edit_remove(mxg_edit *edit, mxg_element element)
     return edit ? run(&change, remove_element) : MXG_ERROR_ARGUMENT;
 }
 
-static bool is_within(const struct document *doc, elem_id element, elem_id parent)
-{
-    while (element && element != parent)
-        element = doc_element(doc, element)->parent;
-    return element;
-}
-
 static void move(void *arg)
 {
     struct change *c = arg;
@@ -530,7 +523,7 @@ static void move(void *arg)
         || (c->before && !find_element(c, &c->before, false)))
         return;
     const char *name = str_text(doc->strings, doc_element(doc, c->element)->name);
-    if (is_within(doc, c->other, c->element) || c->before == c->element)
+    if (doc_is_within(doc, c->other, c->element) || c->before == c->element)
         fail(c, "'%s' cannot move below or before itself", name);
     else if (c->before && doc_element(doc, c->before)->parent != c->other)
         fail(c, "the element to move '%s' before is not below the parent", name);
@@ -587,18 +580,14 @@ struct end_job {
     struct file_source files;
 };
 
-/* The steps of xml/reader.c after the parser; an edit of an upgraded tree needs no upgrade. */
 static void end_document(void *arg)
 {
     struct end_job *job = arg;
     struct document *doc = &job->document->layer.doc;
-    struct diag_list *diags = &job->document->object.diagnostics.list;
     for (uint32_t i = 0; i < job->document->files.len; i++)
         file_source_remember(&job->files, job->document->files.items[i]);
     doc_keep_paths(doc);
-    doc_expand_templates(doc, diags);
-    doc_qualify_names(doc);
-    doc_index_names(doc, diags);
+    doc_complete(doc, &job->document->object.diagnostics.list);
     document_finish(job->document, &job->files);
 }
 

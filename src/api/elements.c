@@ -53,21 +53,13 @@ static void write_path(void *arg, struct arena *scratch)
     struct text path;
     text_init(&path, scratch);
     doc_path(job->doc, job->element, '/', &path);
-    job->len = path.len;
-    size_t copied = job->len < job->capacity ? job->len : job->capacity - (job->capacity > 0);
-    if (copied)
-        memcpy(job->out, path.data, copied);
-    if (job->capacity)
-        job->out[copied] = '\0';
+    job->len = text_copy(path.data, path.len, job->out, job->capacity);
 }
 
 size_t mxg_document_path(const mxg_document *document, mxg_element element, char *out,
                          size_t capacity)
 {
-    if (!out)
-        capacity = 0;
-    if (capacity)
-        *out = '\0';
+    text_copy("", 0, out, capacity);
     if (!in_tree(document, element))
         return 0;
     struct path_job job = {

@@ -6,17 +6,6 @@
 
 /* ---- Names of slots ---- */
 
-/* Copies a text as far as it fits; returns its length. */
-static size_t copy_text(const char *text, size_t len, char *buffer, size_t capacity)
-{
-    size_t copied = len < capacity ? len : capacity ? capacity - 1 : 0;
-    if (buffer && capacity) {
-        memcpy(buffer, text, copied);
-        buffer[copied] = '\0';
-    }
-    return len;
-}
-
 /* Parts of a name, and what stands between them, in one form or the other. */
 static size_t write_name(const struct slot_name *name, const char *const joints[NUM_SLOT_PARTS],
                          const char *prefix, char *buffer, size_t capacity)
@@ -27,7 +16,7 @@ static size_t write_name(const struct slot_name *name, const char *const joints[
             {joints[i], strlen(joints[i])}, {prefix, strlen(prefix)}, name->parts[i]};
         for (unsigned k = 0; k < 3 && name->parts[i].len; k++) {
             size_t left = len < capacity ? capacity - len : 0;
-            copy_text(words[k].bytes, words[k].len, left ? buffer + len : NULL, left);
+            text_copy(words[k].bytes, words[k].len, left ? buffer + len : NULL, left);
             len += words[k].len;
         }
     }

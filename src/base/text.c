@@ -92,6 +92,17 @@ static size_t utf8_length(const unsigned char *p, size_t len)
     return code < least[n] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : n;
 }
 
+size_t text_copy(const char *text, size_t len, char *buffer, size_t capacity)
+{
+    if (!buffer || !capacity)
+        return len;
+    size_t copied = len < capacity ? len : capacity - 1;
+    if (copied)
+        memcpy(buffer, text, copied);
+    buffer[copied] = '\0';
+    return len;
+}
+
 bool text_is_utf8(const char *bytes, size_t len)
 {
     const unsigned char *p = (const unsigned char *)bytes;

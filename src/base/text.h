@@ -67,6 +67,12 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void text_fmt(struct text *text, const char *format, ...);
 
+/*
+ * Copies a text to the buffer of a caller as far as it fits, with a NUL; returns `len`. The buffer
+ * may be NULL.
+ */
+size_t text_copy(const char *text, size_t len, char *buffer, size_t capacity);
+
 /* True if all bytes are valid UTF-8 (RFC 3629). */
 bool text_is_utf8(const char *bytes, size_t len);
 

@@ -275,6 +275,13 @@ elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id eleme
     return 0;
 }
 
+bool doc_is_within(const struct document *doc, elem_id element, elem_id outer)
+{
+    while (element && element != outer)
+        element = doc_element(doc, element)->parent;
+    return element != 0;
+}
+
 static inline const struct attribute *find_attr(const struct document *doc, elem_id element,
                                                 str_id name)
 {

@@ -226,6 +226,8 @@ void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mar
  * itself.
  */
 elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id element);
+/* True if an element is `outer`, or somewhere below it. Time: linear in its depth. */
+bool doc_is_within(const struct document *doc, elem_id element, elem_id outer);
 
 /*
  * Builds the index for doc_child and doc_find. Call it after the tree is complete, and again after
@@ -236,6 +238,12 @@ void doc_index_names(struct document *doc, struct diag_list *diags);
 elem_id doc_second_of_name(const struct document *doc, elem_id element);
 /* The same for one element that was added, renamed or moved since. */
 void doc_index_element(struct document *doc, elem_id element);
+
+/*
+ * complete.c: completes a tree that has all its elements: expands templates, mends file names, qualifies and
+ * indexes names. A tree that an edit has changed is completed again.
+ */
+void doc_complete(struct document *doc, struct diag_list *diags);
 
 /* The layer of an element. */
 static inline const struct document *doc_layer(const struct document *doc, elem_id element)

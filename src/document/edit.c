@@ -93,11 +93,8 @@ elem_id doc_copy_element(struct document *doc, elem_id parent, const struct docu
 
 bool doc_has_element(const struct document *doc, elem_id element)
 {
-    if (element < doc->first_element || element - doc->first_element >= doc->elements.len)
-        return false;
-    while (element && element != doc->root)
-        element = doc_element(doc, element)->parent;
-    return element;
+    return element >= doc->first_element && element - doc->first_element < doc->elements.len
+           && doc_is_within(doc, element, doc->root);
 }
 
 /* ---- Names ---- */
@@ -170,13 +167,6 @@ struct renaming {
     struct text list;
 };
 
-static bool is_below(const struct document *doc, elem_id element, elem_id parent)
-{
-    while (element && element != parent)
-        element = doc_element(doc, element)->parent;
-    return element;
-}
-
 /* Several kinds share an attribute: "inherit" of a look names looks only. */
 static bool can_refer(const struct renaming *r, const struct reference *reference, elem_id at)
 {
@@ -186,7 +176,7 @@ static bool can_refer(const struct renaming *r, const struct reference *referenc
         return e->parent == r->parent
                || (e->parent && doc_element(r->doc, e->parent)->parent == r->parent);
     case PORTS_OF: return doc_attr_value(r->doc, at, STR_nodegraph) == r->parents_name;
-    case WITHIN: return is_below(r->doc, at, r->parent);
+    case WITHIN: return doc_is_within(r->doc, at, r->parent);
     case ANYWHERE: return reference->attr != STR_inherit || e->kind == r->kind;
     }
     return false;

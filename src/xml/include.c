@@ -114,14 +114,6 @@ static void process(struct xml_reader *reader, const struct xml_source *source, 
         diag_add(reader->diags, DIAG_ID_include_missing, href_place(doc, include), href, reason);
 }
 
-/* False if the include was inside an unused fallback, which is no longer in the tree. */
-static bool is_below(const struct document *doc, elem_id element, elem_id root)
-{
-    while (element && element != root)
-        element = doc_element(doc, element)->parent;
-    return element != 0;
-}
-
 void xml_process_includes(struct xml_reader *reader, const struct xml_source *source,
                           uint32_t first)
 {
@@ -129,8 +121,8 @@ void xml_process_includes(struct xml_reader *reader, const struct xml_source *so
     assert(first <= end);
     for (uint32_t i = first; i < end; i++) {
         elem_id include = reader->includes.items[i];
-        if (!is_below(reader->doc, include, source->root))
-            continue;
+        if (!doc_is_within(reader->doc, include, source->root))
+            continue; /* it was inside an unused fallback, which has left the tree */
         process(reader, source, include);
         assert(reader->includes.len == end);
         doc_remove_element(reader->doc, include);

@@ -158,12 +158,8 @@ static void read_all(void *arg)
                   doc_add_file(doc, str_intern_z(doc->strings, reading->name)));
     else
         read_file(reading);
-    if (reader->limits.steps != XML_ALL_STEPS)
-        return;
-    doc_expand_templates(doc, reader->diags);
-    doc_fix_paths(doc, reader->diags);
-    doc_qualify_names(doc);
-    doc_index_names(doc, reader->diags);
+    if (reader->limits.steps == XML_ALL_STEPS)
+        doc_complete(doc, reader->diags);
 }
 
 static bool read_guarded(struct reading *reading, const struct xml_limits *limits)

@@ -455,6 +455,23 @@ static void test_refused(void)
     close_fixture(&f);
 }
 
+/* The tree of an edit takes the same steps as the tree of a file. */
+static void test_completed(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_edit *edit = begin(&f, NULL);
+    mxg_element image = mxg_edit_add(edit, 0, "image", "I", "color3");
+    mxg_edit_value(edit, image, "file", "filename", "maps\\oak.png");
+    mxg_document *d = NULL;
+    REQUIRE_EQ(mxg_edit_end(edit, &d), MXG_OK);
+    REQUIRE(has_diagnostic(mxg_document_diagnostics(d), "backslash"));
+    REQUIRE_STR(mxg_document_attribute_value(d, mxg_document_find(d, "I/file"), "value"),
+                "maps/oak.png");
+    mxg_document_destroy(d);
+    close_fixture(&f);
+}
+
 /* An element without a line is named by its path. */
 static void test_diagnostics(void)
 {
@@ -569,6 +586,7 @@ int main(void)
     test_rename();
     test_move_and_copy();
     test_refused();
+    test_completed();
     test_diagnostics();
     test_memory();
     test_rewrite();
