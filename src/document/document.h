@@ -240,8 +240,8 @@ elem_id doc_second_of_name(const struct document *doc, elem_id element);
 void doc_index_element(struct document *doc, elem_id element);
 
 /*
- * complete.c: completes a tree that has all its elements: expands templates, mends file names, qualifies and
- * indexes names. A tree that an edit has changed is completed again.
+ * complete.c: completes a tree that has all its elements: expands templates, mends file names,
+ * qualifies and indexes names. A tree that an edit has changed is completed again.
  */
 void doc_complete(struct document *doc, struct diag_list *diags);
 
