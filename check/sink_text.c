@@ -7,6 +7,7 @@
 #include "check/sink.h"
 #include "check/spool.h"
 #include "cli/groups.h"
+#include "cli/memory.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -107,9 +108,45 @@ static bool key_of_warning(const void *messages, uint32_t index, struct group_ke
     return message->severity == MXG_SEVERITY_WARNING;
 }
 
-static void print_messages(FILE *out, const struct check_document *document, bool with_warnings)
+/* Per message the targets whose shaders have it, as bits in their order. The caller frees them. */
+static uint32_t *find_targets(const struct check_run *run, const struct check_document *document)
+{
+    _Static_assert(MAX_TARGETS <= 32, "a target is a bit");
+    uint32_t *targets = memory_alloc(document->num_messages * sizeof *targets);
+    for (size_t i = 0; i < document->num_elements; ++i)
+        for (size_t k = 0; k < document->elements[i].num_shaders; ++k) {
+            const struct check_shader *shader = &document->elements[i].shaders[k];
+            unsigned bit = 0;
+            while (bit < run->num_targets && strcmp(run->targets[bit], shader->target) != 0)
+                ++bit;
+            for (size_t m = 0; bit < run->num_targets && m < shader->num_messages; ++m)
+                targets[shader->messages[m]] |= UINT32_C(1) << bit;
+        }
+    return targets;
+}
+
+/* "note: for the targets glsl, osl", if these are some of the targets of the run. */
+static void note_targets(FILE *out, const struct check_run *run, uint32_t targets)
+{
+    unsigned count = 0;
+    for (size_t bit = 0; bit < run->num_targets; ++bit)
+        count += targets >> bit & 1u;
+    if (!count || count == run->num_targets)
+        return;
+    const char *before = count == 1 ? "note: for the target " : "note: for the targets ";
+    for (size_t bit = 0; bit < run->num_targets; ++bit)
+        if (targets >> bit & 1u) {
+            fprintf(out, "%s%s", before, run->targets[bit]);
+            before = ", ";
+        }
+    fputc('\n', out);
+}
+
+static void print_messages(FILE *out, const struct check_run *run,
+                           const struct check_document *document, bool with_warnings)
 {
     const struct check_message *messages = document->messages;
+    uint32_t *targets = find_targets(run, document);
     struct groups groups = groups_make(messages, (uint32_t)document->num_messages, key_of_warning);
     for (uint32_t i = 0; i < document->num_messages; ++i) {
         if (groups.first[i] != i || (messages[i].severity != MXG_SEVERITY_ERROR && !with_warnings))
@@ -119,8 +156,10 @@ static void print_messages(FILE *out, const struct check_document *document, boo
         for (uint32_t k = groups.next[i]; k; k = groups.next[k])
             group_rest_add(&rest, messages[k].line);
         group_rest_print(&rest, out);
+        note_targets(out, run, targets[i]);
     }
     groups_finish(&groups);
+    free(targets);
 }
 
 static void print_verdict(struct sink *sink, const char *verdict,
@@ -130,7 +169,7 @@ static void print_verdict(struct sink *sink, const char *verdict,
     progress_clear(sink->run->progress);
     fprintf(out, "%s %s", verdict, document->file);
     fprintf(out, document->failed ? " (%s)\n" : "\n", check_stage_names[document->failed]);
-    print_messages(out, document, with_warnings);
+    print_messages(out, sink->run, document, with_warnings);
 }
 
 /*

@@ -98,6 +98,20 @@ check 'are one change' is "$(grep -c '^FAILED .*(new-warnings)' out)" 1
 check 'with the places of the others' grep -q '^note: and 14 more, in the lines 3' out
 check 'every element for every target' exits 0 "$mxgen" check tree/a.mtlx -t glsl,essl -t vulkan "${quick[@]}" --json targets.json
 check 'is in the report' says targets.json '[s["target"] for s in d[0]["elements"][0]["shaders"]]' "['glsl', 'essl', 'vulkan']"
+cat >foreign.mtlx <<'X'
+<materialx version="1.39">
+  <nodedef name="ND_glow" node="glow"><output name="out" type="float"/></nodedef>
+  <implementation name="IM_glow" nodedef="ND_glow" target="genosl" sourcecode="u"/>
+  <glow name="g" type="float"/><output name="o" type="float" nodename="g"/>
+</materialx>
+X
+check 'a node for one target only' exits 1 "$mxgen" check foreign.mtlx -t glsl,osl,vulkan,hlsl --trust "${quick[@]}" --json foreign.json
+check 'is one error' is "$(grep -c 'error:' out)" 1
+check 'which says what there is' grep -q "'ND_glow' has no implementation for this target; it has implementations for: genosl \[missing-implementation\]" out
+check 'and for which targets it is' grep -q '^note: for the targets glsl, vulkan, hlsl$' out
+check 'in reports for programs, too' says foreign.json '[s.get("messages", []) for s in d[0]["elements"][0]["shaders"]]' '[[0], [], [0], [0]]'
+check 'for all targets of a run' exits 1 "$mxgen" check foreign.mtlx -t glsl,vulkan --trust "${quick[@]}"
+check 'nothing is noted' eval '! grep -q "note: for the target" out'
 check 'options of generation are passed on' exits 0 "$mxgen" check tree/a.mtlx --interface reduced "${quick[@]}" --json reduced.json
 check 'and make smaller shaders' eval \
     '[ "$(json reduced.json "$uniforms")" -lt "$(json targets.json "$uniforms")" ]' # in materials.sh
