@@ -259,7 +259,7 @@ static void report_progress(const struct job *job, size_t done, size_t count, co
 static void draw_one(struct job *job, const struct subject *subject)
 {
     struct image picture;
-    if (picture_draw(&job->painter, subject, &picture)) {
+    if (picture_draw(&job->painter, subject, 1, &picture)) {
         picture_write(&job->painter, job->options.output, &picture);
         if (job->options.copy)
             picture_write(&job->painter, job->options.copy, &picture);
@@ -279,7 +279,7 @@ static void draw_turntable(struct job *job, const struct subject *subject)
 {
     struct painter *painter = &job->painter;
     struct painting painting;
-    bool good = painting_open(painter, subject, &painting);
+    bool good = painting_open(painter, subject, 1, &painting);
     for (size_t i = 0; good && i < job->options.frames; ++i) {
         struct image picture;
         char *name = frame_name(job->options.output, i);
@@ -315,7 +315,8 @@ static void add_item(struct items *list, const mxg_document *document, const cha
     if (!more)
         return;
     list->items = more;
-    more[list->len++] = (struct item){{document, path, element}, cli_format("%s", element)};
+    more[list->len++] = (struct item){
+        {.document = document, .path = path, .element = element}, cli_format("%s", element)};
 }
 
 /* Adds the materials of the requested look, or the renderables. */
@@ -381,7 +382,7 @@ static void free_items(struct items *list)
 static void place(struct job *job, struct sheet *sheet, size_t index, const struct item *item)
 {
     struct image linear, shown = {0};
-    bool good = picture_draw(&job->painter, &item->subject, &linear)
+    bool good = picture_draw(&job->painter, &item->subject, 1, &linear)
                 && picture_develop(&job->painter, &linear, &shown);
     sheet_place(sheet, (uint32_t)index, good ? &shown : NULL, item->name);
     image_finish(&linear);
@@ -439,9 +440,9 @@ static void draw_grid(struct job *job, const mxg_document *document, const char 
         mxg_document_renderable(document, i, &renderable);
         if (job->options.element && strcmp(job->options.element, renderable.path) != 0)
             continue;
-        const struct subject subject = {document, path, renderable.path};
+        const struct subject subject = {.document = document, .path = path, .element = renderable.path};
         struct image pixels;
-        if (picture_draw(&job->painter, &subject, &pixels))
+        if (picture_draw(&job->painter, &subject, 1, &pixels))
             print_values(renderable.path, num_components(renderable.type), &pixels);
         image_finish(&pixels);
     }
@@ -467,7 +468,8 @@ static void tell_choice(const struct job *job, const mxg_document *document)
 static void render_file(struct job *job, const char *path)
 {
     mxg_document *document = load(job, path);
-    struct subject subject = {document, path, job->options.element};
+    struct subject subject = {
+        .document = document, .path = path, .element = job->options.element};
     if (document && prepare(job)) {
         tell_choice(job, document);
         if (job->scene_kind == SCENE_GRID)

@@ -114,3 +114,17 @@ void vector_cross(const double a[3], const double b[3], double out[3])
     out[1] = a[2] * b[0] - a[0] * b[2];
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
+
+void matrix_direction(struct matrix m, const double direction[3], double out[3])
+{
+    const double d[3] = {direction[0], direction[1], direction[2]};
+    for (int r = 0; r < 3; ++r)
+        out[r] = m.m[0][r] * d[0] + m.m[1][r] * d[1] + m.m[2][r] * d[2];
+}
+
+void matrix_point(struct matrix m, const double point[3], double out[3])
+{
+    matrix_direction(m, point, out);
+    for (int r = 0; r < 3; ++r)
+        out[r] += m.m[3][r];
+}

@@ -117,10 +117,12 @@ bool studio_open(const struct studio *studio, double aspect, struct scene *scene
                  unsigned *out_made, struct studio_fault *fault)
 {
     *scene = (struct scene){.num_lights = studio->environment ? 0 : SCENE_NUM_LIGHTS,
-                            .world = matrix_identity(),
+                            .object.world = matrix_identity(),
+                            .studio = matrix_identity(),
+                            .near = SCENE_NEAR,
                             .environment = matrix_identity()};
     studio_aim(studio, aspect, 0, scene);
-    return open_mesh(studio, &scene->mesh, out_made, fault)
+    return open_mesh(studio, &scene->object.mesh, out_made, fault)
            && open_environment(studio, scene, fault);
 }
 

@@ -9,8 +9,8 @@
 /* A prim of the layer that becomes a primitive; `above` is the number of its parent on the stack.
  */
 struct visit {
-    usda_prim_id prim;
-    prim_id parent;
+    usda_prim_id prim, from; /* from, to: as in struct scene_source */
+    prim_id parent, to;
     uint32_t above; /* 1 + index in `open`; 0: none */
 };
 
@@ -22,7 +22,7 @@ struct open_prim {
 
 struct stage {
     struct scene *scene;
-    struct usda_layer layer;
+    const struct usda_layer *layer;
     const char *purpose;
     struct arena *scratch;
     struct diag_list *diags;
@@ -35,7 +35,7 @@ enum { MAX_REFERENCES = 64, MAX_PRIMS = 1 << 25 };
 
 static struct diag_place place_of(const struct stage *s, uint32_t line, uint32_t column)
 {
-    return (struct diag_place){s->layer.file, line, column, 0};
+    return (struct diag_place){s->layer->file, line, column, 0};
 }
 
 static const char *text_of(struct stage *s, struct text_word word)
@@ -163,7 +163,7 @@ static void add_binding(struct stage *s, prim_id prim, const struct usda_propert
  */
 static void add_bindings(struct stage *s, prim_id prim, const struct usda_prim *source)
 {
-    const struct usda_property *properties = s->layer.properties.items;
+    const struct usda_property *properties = s->layer->properties.items;
     for (unsigned with_slots = 0; with_slots < 2; with_slots++)
         for (uint32_t i = source->first_property; i; i = properties[i].next)
             if (begins(properties[i].name, "material:slotBinding:") == (with_slots != 0))
@@ -173,19 +173,23 @@ static void add_bindings(struct stage *s, prim_id prim, const struct usda_prim *
 /* ---- Prims ---- */
 
 /* True for what a scene is drawn of: groups and geometry, but no shading, and no settings. */
-static bool is_primitive(const struct stage *s, const struct usda_prim *prim)
+static bool is_primitive(const struct stage *s, const struct usda_prim *prim, prim_id parent)
 {
     static const char *const others[] = {"Material",       "Shader",        "NodeGraph",
                                          "RenderSettings", "RenderProduct", "RenderVar"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (usda_is(prim->type, others[i]))
             return false;
+    if (prim->is_variant || prim->is_inactive || prim->specifier == USDA_CLASS)
+        return false;
     if (usda_is(prim->type, "GeomSubset")) {
-        const struct usda_property *family = usda_find_property(&s->layer, prim, "familyName");
+        const struct usda_property *family = usda_find_property(s->layer, prim, "familyName");
         struct text_word rest = family ? family->value : (struct text_word){0}, name;
         return family && usda_next_item(&rest, &name) && usda_is(name, "materialBind");
     }
-    return prim->specifier == USDA_DEF && !prim->is_variant;
+    /* an over changes what a reference has brought */
+    return prim->specifier == USDA_DEF
+           || scene_find_child(s->scene, parent, prim->name.bytes, prim->name.len);
 }
 
 /* True if a prim is open already: its reference leads to itself. */
@@ -200,14 +204,14 @@ static bool is_open(const struct stage *s, uint32_t above, usda_prim_id prim)
 /* The prim that an internal reference names; 0: none. Reports other arcs. */
 static usda_prim_id reference_of(struct stage *s, usda_prim_id id, uint32_t above)
 {
-    const struct usda_prim *prim = &s->layer.prims.items[id];
+    const struct usda_prim *prim = &s->layer->prims.items[id];
     struct diag_place place = place_of(s, prim->line, prim->column);
     struct text_word rest = prim->references, target;
     if (prim->arc.len)
         diag_add(s->diags, DIAG_ID_usda_arc, place, text_of(s, prim->name), text_of(s, prim->arc));
     if (!rest.len || usda_is(rest, "None") || !usda_next_item(&rest, &target))
         return 0;
-    usda_prim_id found = *target.bytes == '/' ? usda_find(&s->layer, target.bytes, target.len) : 0;
+    usda_prim_id found = *target.bytes == '/' ? usda_find(s->layer, target.bytes, target.len) : 0;
     bool is_cycle = found
                     && (found == id || is_open(s, above, found)
                         || (above && s->open.items[above - 1].depth > MAX_REFERENCES));
@@ -218,12 +222,12 @@ static usda_prim_id reference_of(struct stage *s, usda_prim_id id, uint32_t abov
 }
 
 /* Children are visited in their order: the last one is pushed first. */
-static void push_children(struct stage *s, usda_prim_id source, prim_id parent, uint32_t above)
+static void push_children(struct stage *s, usda_prim_id source, struct visit below)
 {
     uint32_t first = s->visits.len;
-    const struct usda_prim *prims = s->layer.prims.items;
-    for (usda_prim_id child = prims[source].first_child; child; child = prims[child].next)
-        vec_push(s->scratch, &s->visits, (struct visit){child, parent, above});
+    const struct usda_prim *prims = s->layer->prims.items;
+    for (below.prim = prims[source].first_child; below.prim; below.prim = prims[below.prim].next)
+        vec_push(s->scratch, &s->visits, below);
     for (uint32_t i = first, k = s->visits.len; i + 1 < k; i++) {
         k--;
         struct visit swapped = s->visits.items[i];
@@ -232,31 +236,83 @@ static void push_children(struct stage *s, usda_prim_id source, prim_id parent, 
     }
 }
 
+/* Notes that a primitive has the properties of a prim; a later one is stronger. */
+static void add_source(struct stage *s, prim_id prim, struct scene_source source)
+{
+    struct scene *scene = s->scene;
+    while (scene->first_source.len <= prim)
+        vec_push(scene->arena, &scene->first_source, 0);
+    source.next = scene->first_source.items[prim];
+    vec_push(scene->arena, &scene->sources, source);
+    scene->first_source.items[prim] = scene->sources.len;
+    add_bindings(s, prim, &s->layer->prims.items[source.prim]);
+}
+
 static void visit(struct stage *s, struct visit at)
 {
-    const struct usda_prim *prim = &s->layer.prims.items[at.prim];
-    if (!is_primitive(s, prim))
+    enum { MAX_CHAIN = 64 };
+    const struct usda_prim *prim = &s->layer->prims.items[at.prim];
+    struct open_prim chain[MAX_CHAIN];
+    uint32_t num = 0, depth = at.above ? s->open.items[at.above - 1].depth + 1 : 1;
+    if (!is_primitive(s, prim, at.parent))
         return;
     prim_id added = scene_child(s->scene, at.parent, prim->name.bytes, prim->name.len);
-    usda_prim_id reference = reference_of(s, at.prim, at.above);
-    uint32_t depth = at.above ? s->open.items[at.above - 1].depth + 1 : 1;
-    if (reference) {
-        /* what the instance says itself is stronger, so it comes later */
-        add_bindings(s, added, &s->layer.prims.items[reference]);
-        vec_push(s->scratch, &s->open, (struct open_prim){reference, at.above, depth});
-        push_children(s, reference, added, s->open.len);
+    uint32_t above = at.above;
+    for (usda_prim_id next = at.prim; num < MAX_CHAIN && (next = reference_of(s, next, above));) {
+        chain[num++] = (struct open_prim){next, above, depth};
+        vec_push(s->scratch, &s->open, chain[num - 1]);
+        above = s->open.len;
     }
-    add_bindings(s, added, prim);
-    push_children(s, at.prim, added, at.above);
+    /* what is visited last is pushed first; what a prim says itself is stronger, so it comes last */
+    push_children(s, at.prim, (struct visit){0, at.from, added, at.to, at.above});
+    for (uint32_t i = 0; i < num; i++)
+        push_children(s, chain[i].prim,
+                      (struct visit){0, chain[i].prim, added, added, s->open.len - num + i + 1});
+    for (uint32_t i = num; i-- > 0;)
+        add_source(s, added, (struct scene_source){chain[i].prim, chain[i].prim, added, 0});
+    add_source(s, added, (struct scene_source){at.prim, at.from, at.to, 0});
+}
+
+/* ---- Properties ---- */
+
+const struct usda_property *scene_property(const struct scene *scene, prim_id prim,
+                                           const char *name, uint32_t *out_source)
+{
+    for (uint32_t i = scene_source(scene, prim); i; i = scene->sources.items[i - 1].next) {
+        const struct usda_property *found = usda_find_attribute(
+            &scene->layer, &scene->layer.prims.items[scene->sources.items[i - 1].prim], name);
+        if (!found)
+            continue;
+        if (out_source)
+            *out_source = i;
+        return found;
+    }
+    return NULL;
+}
+
+prim_id scene_target(const struct scene *scene, uint32_t source, struct text_word path)
+{
+    const struct scene_source *at = &scene->sources.items[source - 1];
+    const struct usda_prim *prims = scene->layer.prims.items;
+    usda_prim_id target = usda_find(&scene->layer, path.bytes, path.len);
+    size_t below = path.len;
+    /* up to the prim that is referenced; the names passed are the rest of the path */
+    for (usda_prim_id prim = target; prim && prim != at->from; prim = prims[prim].parent)
+        below -= prims[prim].name.len + 1;
+    bool is_inside = false;
+    for (usda_prim_id prim = target; prim && at->from && !is_inside; prim = prims[prim].parent)
+        is_inside = prim == at->from;
+    return is_inside ? scene_find_below(scene, at->to, path.bytes + below, path.len - below)
+                     : scene_find(scene, path.bytes, path.len);
 }
 
 /* uniform token[] material:slotOrder on the default prim. */
 static void read_slot_order(struct stage *s)
 {
-    struct text_word prim = s->layer.default_prim, rest, item;
-    usda_prim_id id = prim.len ? usda_find(&s->layer, prim.bytes, prim.len) : 0;
+    struct text_word prim = s->layer->default_prim, rest, item;
+    usda_prim_id id = prim.len ? usda_find(s->layer, prim.bytes, prim.len) : 0;
     const struct usda_property *order =
-        id ? usda_find_property(&s->layer, &s->layer.prims.items[id], "material:slotOrder") : NULL;
+        id ? usda_find_property(s->layer, &s->layer->prims.items[id], "material:slotOrder") : NULL;
     struct text text;
     if (!order)
         return;
@@ -272,14 +328,18 @@ static void read_slot_order(struct stage *s)
 void scene_read_usda(struct scene *scene, const char *file, const char *text, size_t len,
                      const char *purpose, struct arena *scratch, struct diag_list *diags)
 {
-    struct stage s = {.scene = scene, .purpose = purpose, .scratch = scratch, .diags = diags};
-    if (!usda_read(&s.layer, file, text, len, scratch, diags))
+    struct stage s = {.scene = scene,
+                      .layer = &scene->layer,
+                      .purpose = purpose,
+                      .scratch = scratch,
+                      .diags = diags};
+    if (!usda_read(&scene->layer, file, text, len, scene->arena, diags))
         return;
-    if (s.layer.prims.items[0].arc.len)
+    if (s.layer->prims.items[0].arc.len)
         diag_add(diags, DIAG_ID_usda_arc, place_of(&s, 1, 1), file,
-                 text_of(&s, s.layer.prims.items[0].arc));
+                 text_of(&s, s.layer->prims.items[0].arc));
     read_slot_order(&s);
-    push_children(&s, 0, 0, 0);
+    push_children(&s, 0, (struct visit){0});
     while (s.visits.len && scene->prims.len < MAX_PRIMS) {
         struct visit at = vec_pop(&s.visits);
         visit(&s, at);
