@@ -11,7 +11,9 @@
 #include "render/bake.h"
 #include "render/picture.h"
 #include "render/sheet.h"
+#include "render/stage_picture.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -37,6 +39,7 @@ struct job {
     struct render_options options;
     struct painter painter;
     enum scene_kind scene_kind;
+    struct stage stage;
     struct bind_value *values;
     struct arg_list found; /* documents, including those in folders; allocated */
     struct outputs files;  /* files that the command reads or writes */
@@ -124,6 +127,12 @@ static bool apply_interface(struct job *job)
                          mxg_options_set(job->cli.options, "interface", "reduced"));
 }
 
+/* True if --camera is the path of a camera on the stage. */
+static bool names_camera(const struct job *job)
+{
+    return job->options.stage && job->options.camera && *job->options.camera == '/';
+}
+
 static bool parse(struct job *job)
 {
     const char *scene_names[NUM_SCENES + 1] = {0};
@@ -144,7 +153,8 @@ static bool parse(struct job *job)
                      (const char *const[]){"error", "checker", NULL})
                != 0)
         return false;
-    if (job->options.camera && !studio_parse_camera(&job->painter.studio, job->options.camera)) {
+    if (job->options.camera && !names_camera(job)
+        && !studio_parse_camera(&job->painter.studio, job->options.camera)) {
         fprintf(stderr,
                 "mxgen: '%s' is no camera; write AZIMUTH,ELEVATION[,DISTANCE[,FOV]], with an "
                 "elevation between -90 and 90\n",
@@ -216,6 +226,43 @@ static bool make_scene(struct job *job)
     return good || report_status(&job->cli.report, MXG_ERROR_MEMORY);
 }
 
+/* Lengths of documents are in the unit of the stage, where it is one of MaterialX's. */
+static void apply_unit(struct job *job)
+{
+    static const struct {
+        const char *name;
+        double meters;
+    } units[] = {{"meter", 1},     {"centimeter", 0.01}, {"millimeter", 0.001},
+                 {"kilometer", 1000}, {"inch", 0.0254},  {"foot", 0.3048},
+                 {"micron", 1e-6}, {"nanometer", 1e-9},  {"yard", 0.9144},
+                 {"mile", 1609.344}};
+    double unit = mxg_scene_meters_per_unit(job->stage.scene);
+    if (args_is_given(&job->cli.parser, "distance-unit") || unit <= 0)
+        return;
+    for (size_t i = 0; i < sizeof units / sizeof *units; ++i)
+        if (fabs(unit / units[i].meters - 1) < 1e-5)
+            mxg_options_set(job->cli.options, "distance-unit", units[i].name);
+}
+
+static bool make_stage(struct job *job)
+{
+    struct painter *painter = &job->painter;
+    struct studio_fault fault;
+    double aspect = (double)painter->width / painter->height;
+    if (!stage_open(&job->stage, job->cli.context, &job->cli.report, job->options.stage,
+                    job->options.purpose))
+        return false;
+    apply_unit(job);
+    if (!studio_open_light(&painter->studio, &painter->scene, &fault)) {
+        report_error(&job->cli.report, fault.id, "%s", fault.text);
+        return false;
+    }
+    tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
+    return stage_aim(&job->stage, &painter->studio,
+                     names_camera(job) ? job->options.camera : NULL,
+                     job->options.camera && !names_camera(job), aspect, &painter->scene);
+}
+
 static bool open_gpu(struct job *job)
 {
     struct painter *painter = &job->painter;
@@ -235,7 +282,7 @@ static bool prepare(struct job *job)
 {
     struct painter *painter = &job->painter;
     painter->oversampling = job->scene_kind == SCENE_GRID ? 1 : OVERSAMPLING;
-    if (!make_scene(job))
+    if (!(job->options.stage ? make_stage(job) : make_scene(job)))
         return false;
     painter->scene.environment_samples = (uint32_t)job->options.samples;
     painter->scene.frame = (int32_t)job->options.frame;
@@ -293,6 +340,21 @@ static void draw_turntable(struct job *job, const struct subject *subject)
     }
     report_progress(job, job->options.frames, job->options.frames, "");
     painting_close(&painting);
+}
+
+static void draw_stage(struct job *job, const mxg_document *document, const char *path)
+{
+    struct stage_subjects subjects;
+    struct image picture = {0};
+    if (stage_subjects_make(&job->painter, &job->stage, document, path, job->options.look,
+                            &subjects)
+        && picture_draw(&job->painter, subjects.items, subjects.len, &picture)) {
+        picture_write(&job->painter, job->options.output, &picture);
+        if (job->options.copy)
+            picture_write(&job->painter, job->options.copy, &picture);
+    }
+    image_finish(&picture);
+    stage_subjects_finish(&subjects);
 }
 
 /* ---- Contact sheets ---- */
@@ -471,8 +533,13 @@ static void render_file(struct job *job, const char *path)
     struct subject subject = {
         .document = document, .path = path, .element = job->options.element};
     if (document && prepare(job)) {
-        tell_choice(job, document);
-        if (job->scene_kind == SCENE_GRID)
+        if (job->options.stage)
+            draw_stage(job, document, path);
+        else
+            tell_choice(job, document);
+        if (job->options.stage)
+            ;
+        else if (job->scene_kind == SCENE_GRID)
             draw_grid(job, document, path);
         else if (job->options.frames)
             draw_turntable(job, &subject);
@@ -544,6 +611,8 @@ static bool claim_inputs(struct job *job)
         good = outputs_read(&job->files, report, mxg_library_file(job->cli.library, i)) && good;
     if (job->painter.studio.environment)
         good = outputs_read(&job->files, report, job->painter.studio.environment) && good;
+    if (job->options.stage)
+        good = outputs_read(&job->files, report, job->options.stage) && good;
     if (files_is_regular(job->painter.studio.mesh))
         good = outputs_read(&job->files, report, job->painter.studio.mesh) && good;
     return good;
@@ -601,7 +670,8 @@ static unsigned find_facts(const struct job *job, bool is_grid, bool is_one)
            | fact(is_display || !is_one, FACT_DISPLAY) | fact(is_one, FACT_ONE_FILE)
            | fact(is_one && !options->frames, FACT_ONE_PICTURE) | fact(!options->frames, FACT_STILL)
            | fact(options->path_trace, FACT_TRACED) | fact(!options->path_trace, FACT_RASTER)
-           | fact(is_sampled(job), FACT_SAMPLED) | fact(!options->look, FACT_NO_LOOK);
+           | fact(is_sampled(job), FACT_SAMPLED) | fact(!options->look, FACT_NO_LOOK)
+           | fact(options->stage, FACT_STAGE) | fact(!options->stage, FACT_NO_STAGE);
 }
 
 static int run(struct job *job)
@@ -616,7 +686,8 @@ static int run(struct job *job)
         return EXIT_USAGE;
     }
     bool is_grid = !strcmp(job->options.scene, "grid"),
-         is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->options.look;
+         is_one = inputs->len == 1 && !files_is_folder(inputs->items[0])
+                  && (!job->options.look || job->options.stage);
     if (!job->options.output && !is_grid) {
         fputs("mxgen: where to? say -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
@@ -637,6 +708,7 @@ static int run(struct job *job)
         gpu_close(&job->painter.gpu);
         mesh_finish(&job->painter.fine);
         scene_finish(&job->painter.scene);
+        stage_close(&job->stage);
     }
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }

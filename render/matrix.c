@@ -81,6 +81,18 @@ struct matrix matrix_rotation(const double axis[3], double degrees)
          {0, 0, 0, 1}}};
 }
 
+struct matrix matrix_orientation(const double q[4])
+{
+    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    double w = q[0] / length, x = q[1] / length, y = q[2] / length, z = q[3] / length;
+    if (!(length > 0))
+        return matrix_identity();
+    return (struct matrix){{{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y), 0},
+                            {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x), 0},
+                            {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y), 0},
+                            {0, 0, 0, 1}}};
+}
+
 struct matrix matrix_look_at(const double eye[3], const double at[3])
 {
     const double up[3] = {0, 1, 0};
