@@ -153,6 +153,13 @@ MXG_API mxg_status mxg_bindings_layer(const mxg_bindings *bindings, uint32_t pri
 /* Primitives with equal layers have the same stack. UINT32_MAX: there is no such primitive. */
 MXG_API uint32_t mxg_bindings_num_stacks(const mxg_bindings *bindings);
 MXG_API uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive);
+/*
+ * The name of a stack, which follows from its content: "stack_8a5f7a0f9c2f6f0e". Writes like
+ * mxg_slot_encode. mxg_generate makes its shader: members `bindings` and `stack` of
+ * mxg_generate_desc. Stacks whose shaders have one topology can share a program.
+ */
+MXG_API size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t stack, char *buffer,
+                                       size_t capacity);
 
 typedef enum mxg_bindings_format {
     MXG_BINDINGS_TABLE, /* a line for each primitive */
