@@ -11,7 +11,9 @@ static bool generate(struct painter *painter, const struct subject *subject, mxg
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
-    desc.element = subject->element;
+    desc.element = subject->bindings ? NULL : subject->element;
+    desc.bindings = subject->bindings;
+    desc.stack = subject->stack;
     desc.options = painter->cli->options;
     mxg_status status = mxg_generate(painter->cli->context, subject->document, &desc, out);
     if (*out)

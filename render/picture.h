@@ -38,7 +38,9 @@ struct painter {
 struct subject {
     const mxg_document *document;
     const char *path;    /* of the file */
-    const char *element; /* NULL: the first renderable */
+    const char *element; /* NULL: the first renderable; of a stack, its name */
+    const mxg_bindings *bindings; /* of a stack; NULL: the element */
+    uint32_t stack;
     const struct scene_object *objects; /* what has it */
     uint32_t num_objects;               /* 0: the object of the scene */
 };

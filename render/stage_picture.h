@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The subjects of a stage: its objects, grouped by the material that a look gives them. */
+/* The subjects of a stage: its objects, grouped by the stack that a look gives them. */
 #ifndef MXG_RENDER_STAGE_PICTURE_H
 #define MXG_RENDER_STAGE_PICTURE_H
 
@@ -7,10 +7,9 @@
 #include "render/stage.h"
 
 struct stage_subjects {
-    struct subject *items;
+    struct subject *items; /* their element is allocated */
     size_t len;
     struct scene_object *objects; /* of all subjects; refers to the stage */
-    mxg_document *standard;       /* the material of primitives without layers; NULL: none */
     mxg_bindings *bindings;
 };
 
