@@ -533,13 +533,8 @@ static void render_file(struct job *job, const char *path)
     struct subject subject = {
         .document = document, .path = path, .element = job->options.element};
     if (document && prepare(job)) {
-        if (job->options.stage)
-            draw_stage(job, document, path);
-        else
-            tell_choice(job, document);
-        if (job->options.stage)
-            ;
-        else if (job->scene_kind == SCENE_GRID)
+        tell_choice(job, document);
+        if (job->scene_kind == SCENE_GRID)
             draw_grid(job, document, path);
         else if (job->options.frames)
             draw_turntable(job, &subject);
@@ -547,6 +542,24 @@ static void render_file(struct job *job, const char *path)
             draw_one(job, &subject);
     }
     mxg_document_destroy(document);
+}
+
+/* Renders the stage. `path` is the document of the look; NULL: the stage brings all. */
+static void render_stage(struct job *job, const char *path)
+{
+    mxg_document *own = path ? load(job, path) : NULL, *document = NULL;
+    if ((path && !own) || !prepare(job)) {
+        mxg_document_destroy(own);
+        return;
+    }
+    mxg_status status = mxg_document_with_materials(job->cli.context, job->cli.library, own,
+                                                    job->stage.scene, &document);
+    if (document)
+        report_list(&job->cli.report, mxg_document_diagnostics(document));
+    if (report_status(&job->cli.report, status))
+        draw_stage(job, document, path ? path : job->options.stage);
+    mxg_document_destroy(document);
+    mxg_document_destroy(own);
 }
 
 static void render_all(struct job *job)
@@ -679,15 +692,16 @@ static int run(struct job *job)
     const struct arg_list *inputs = &job->cli.parser.inputs;
     if (job->options.baked && inputs->len == 0)
         return applies_to_bake(&job->cli.parser) ? bake(job) : EXIT_USAGE;
-    if (job->options.baked || inputs->len == 0) {
+    if (job->options.baked || (inputs->len == 0 && !job->options.stage)) {
         fputs(job->options.baked ? "usage: mxgen render --bake-environment FILE -o FOLDER\n"
                                  : "usage: mxgen render FILE|FOLDER... -o PICTURE.png\n",
               stderr);
         return EXIT_USAGE;
     }
     bool is_grid = !strcmp(job->options.scene, "grid"),
-         is_one = inputs->len == 1 && !files_is_folder(inputs->items[0])
-                  && (!job->options.look || job->options.stage);
+         is_one = job->options.stage ? inputs->len < 2
+                                   : inputs->len == 1 && !files_is_folder(inputs->items[0])
+                                         && !job->options.look;
     if (!job->options.output && !is_grid) {
         fputs("mxgen: where to? say -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
@@ -700,7 +714,9 @@ static int run(struct job *job)
     if (can_write(job, job->options.output) && can_write(job, job->options.copy)
         && find_documents(job) && claim_outputs(job)) {
         compile_begin();
-        if (is_one)
+        if (job->options.stage)
+            render_stage(job, job->found.len ? job->found.items[0] : NULL);
+        else if (is_one)
             render_file(job, job->found.items[0]);
         else
             render_all(job);

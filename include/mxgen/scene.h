@@ -100,6 +100,17 @@ MXG_API char mxg_scene_up_axis(const mxg_scene *scene);
 /* Metres in a unit of the scene; 0.01 if a file of USD does not say it, 0 of a list. */
 MXG_API double mxg_scene_meters_per_unit(const mxg_scene *scene);
 
+/*
+ * A copy of a document with the materials of a stage of USD that it lacks, as nodes and nodegraphs.
+ * A UsdShade network becomes a nodegraph for the patterns and nodes for the shaders; inputs of the
+ * Material become the interface of the nodegraph. NULL as document: only these materials.
+ * *out_document is set like that of mxg_document_parse.
+ */
+MXG_API mxg_status mxg_document_with_materials(mxg_context *context, mxg_library *library,
+                                               const mxg_document *document,
+                                               const mxg_scene *scene,
+                                               mxg_document **out_document);
+
 /* ---- Bindings ---- */
 
 typedef struct mxg_bind_desc {

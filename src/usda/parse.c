@@ -146,7 +146,8 @@ static bool is_arc(struct text_word name)
 
 /* What a prim, a property or the layer has of the metadata that binding needs. */
 struct metadata {
-    struct text_word references, arc, bind_as, interpolation, default_prim, up_axis, unit;
+    struct text_word references, arc, bind_as, interpolation, color_space, default_prim, up_axis,
+        unit;
     bool is_inactive;
 };
 
@@ -158,6 +159,7 @@ static bool keep_word(struct metadata *out, struct text_word name, struct text_w
         struct text_word *word;
     } words[] = {{"bindMaterialAs", &out->bind_as},
                  {"interpolation", &out->interpolation},
+                 {"colorSpace", &out->color_space},
                  {"defaultPrim", &out->default_prim},
                  {"upAxis", &out->up_axis}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
@@ -264,6 +266,7 @@ static void read_property(struct parser *p)
     struct metadata metadata = read_optional_metadata(p);
     property.bind_as = metadata.bind_as;
     property.interpolation = metadata.interpolation;
+    property.color_space = metadata.color_space;
     if (p->failed || is_deletion || p->num_variants)
         return;
     vec_push(p->layer->arena, &p->layer->properties, property);

@@ -19,7 +19,7 @@ struct usda_property {
     struct text_word type;    /* of an attribute: "token[]"; of a relationship: "rel" */
     struct text_word value;   /* its text; len 0: none */
     struct text_word bind_as; /* the metadata bindMaterialAs, without quotes */
-    struct text_word interpolation; /* the same for interpolation */
+    struct text_word interpolation, color_space; /* the same for other metadata */
     uint32_t line, column;
     uint32_t next; /* of the same prim; 0: none */
 };
