@@ -26,6 +26,13 @@ struct scene_binding {
     struct diag_place place;
     bool is_strong;  /* it beats the bindings of the scene below it */
     bool is_purpose; /* it is for the asked purpose, and beats those for all purposes */
+    uint32_t first_member, num_members; /* of its collection; 0: it has none */
+};
+
+/* A path that a collection of USD names. */
+struct scene_member {
+    prim_id prim;
+    bool is_excluded;
 };
 
 /*
@@ -44,6 +51,7 @@ struct scene {
     struct table table;           /* (parent, name) → primitive */
     VEC(prim_id) last; /* the levels of the path that was added last; the next often shares some */
     VEC(struct scene_binding) bindings;
+    VEC(struct scene_member) members;
     struct usda_layer layer;           /* of a stage of USD; otherwise without prims */
     VEC(struct scene_source) sources;
     VEC(uint32_t) first_source; /* by primitive: 1 + index; shorter than prims: 0 */
