@@ -96,16 +96,29 @@ static void bind_document(struct bind *bind, const mxg_document *document, mxg_s
     mxg_bindings_destroy(bindings);
 }
 
+/* The document, which may be missing, with the materials of the stage that it lacks. */
+static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *scene)
+{
+    mxg_document *own = path ? cli_load(&bind->cli, path) : NULL, *whole = NULL;
+    if (path && !own)
+        return NULL;
+    mxg_status status =
+        mxg_document_with_materials(bind->cli.context, bind->cli.library, own, scene, &whole);
+    if (whole)
+        report_list(&bind->cli.report, mxg_document_diagnostics(whole));
+    report_status(&bind->cli.report, status);
+    mxg_document_destroy(own);
+    return whole;
+}
+
 static void bind_file(struct bind *bind, const char *path)
 {
     mxg_scene *scene = NULL;
-    mxg_document *document = cli_load(&bind->cli, path);
-    if (!document)
-        return;
+    mxg_document *document = NULL;
     mxg_status status = mxg_scene_load(bind->cli.context, bind->stage, bind->purpose, &scene);
     if (scene)
         report_list(&bind->cli.report, mxg_scene_diagnostics(scene));
-    if (report_status(&bind->cli.report, status))
+    if (report_status(&bind->cli.report, status) && (document = load(bind, path, scene)) != NULL)
         bind_document(bind, document, scene);
     mxg_scene_destroy(scene);
     mxg_document_destroy(document);
@@ -127,13 +140,13 @@ int command_bind(const struct command *command, int argc, char **argv)
         {"mute", 0, ARG_LIST, "SLOT", "leaves out this slot, layer or override", &bind.mute},
     };
     int code;
-    if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT, argc, argv,
-                  &code)) {
-        if (!bind.stage || bind.cli.parser.inputs.len != 1) {
+    if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {
+        const struct arg_list *inputs = &bind.cli.parser.inputs;
+        if (!bind.stage || inputs->len > 1) {
             fprintf(stderr, "usage: mxgen %s\n", command->usage);
             code = EXIT_USAGE;
         } else {
-            bind_file(&bind, bind.cli.parser.inputs.items[0]);
+            bind_file(&bind, inputs->len ? inputs->items[0] : NULL);
             code = bind.cli.report.errors ? EXIT_FAULT : EXIT_DONE;
         }
     }

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Bindings: the layers of the primitives of a scene under a look. */
 #include "api/scene.h"
+#include "bind/drive.h"
 
 #include <assert.h>
-
-struct mxg_bindings {
-    struct object object; /* keeps the document alive */
-    mxg_scene *scene;
-    const mxg_document *document;
-    struct bindings bindings;
-    bool is_resolved; /* a look was found */
-};
 
 struct bind_job {
     mxg_bindings *result;
@@ -35,6 +28,8 @@ static void resolve(void *arg)
         return;
     bind_resolve(&result->bindings, doc, look, &result->scene->scene, &options, &object->arena,
                  &job->scratch, diags);
+    if (!options.num_solo && !options.num_mute)
+        bind_check_drives(&result->bindings, &result->document->layer, &job->scratch, diags);
     result->is_resolved = true;
 }
 
@@ -149,6 +144,16 @@ uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive)
 {
     const struct bind_state *state = state_of(bindings, primitive);
     return state ? state->stack : UINT32_MAX;
+}
+
+size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t stack, char *buffer,
+                               size_t capacity)
+{
+    char name[BIND_STACK_NAME_SIZE];
+    if (stack >= mxg_bindings_num_stacks(bindings))
+        return 0;
+    bind_stack_name(&bindings->bindings, stack, name);
+    return text_copy(name, strlen(name), buffer, capacity);
 }
 
 /* ---- Texts ---- */

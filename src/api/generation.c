@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/generation.h"
+#include "api/scene.h"
 
 #include <assert.h>
 
@@ -132,7 +133,7 @@ static str_id value_type(const struct generation *g)
     return doc_attr_value(&g->document->layer.doc, g->element, STR_type);
 }
 
-static void name_shader(struct generation *g)
+static void name_element(struct generation *g)
 {
     const struct document *doc = &g->document->layer.doc;
     const struct element *element = doc_element(doc, g->element);
@@ -146,11 +147,39 @@ static void name_shader(struct generation *g)
     shader->element_type = element->category;
     shader->path = str_intern(shader->strings, path.data, path.len);
     shader->value_type = value_type(g);
+}
+
+static void name_stack(struct generation *g)
+{
+    struct shader *shader = &g->result->shader;
+    char name[BIND_STACK_NAME_SIZE];
+    bind_stack_name(&g->desc.bindings->bindings, g->desc.stack, name);
+    shader->name = shader->path = str_intern_z(shader->strings, name);
+    shader->element_type = str_intern_z(shader->strings, "stack");
+}
+
+static void name_shader(struct generation *g)
+{
+    struct shader *shader = &g->result->shader;
+    if (g->desc.bindings)
+        name_stack(g);
+    else
+        name_element(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
     lang_style_init(shader->style, g->result->target->syntax, shader->arena);
     for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
         shader->source_language = t->source;
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
+}
+
+/* The place of messages about a stack: its base, or the look. */
+static elem_id element_of_stack(const struct generation *g)
+{
+    const struct bindings *b = &g->desc.bindings->bindings;
+    const struct bind_state *state = &b->states.items[b->stacks.items[g->desc.stack].state];
+    if (state->num_items)
+        return b->look.assigns.items[b->items.items[state->first_item].assign].target;
+    return b->look.element ? b->look.element : g->document->layer.doc.root;
 }
 
 bool generation_start(struct generation *g)
@@ -160,8 +189,9 @@ bool generation_start(struct generation *g)
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena);
         good = check_version(g);
     }
-    g->element = document_find_element(g->document, g->desc.element, diags_of(g), &g->output_name,
-                                       &g->output);
+    g->element = g->desc.bindings ? element_of_stack(g)
+                                  : document_find_element(g->document, g->desc.element, diags_of(g),
+                                                          &g->output_name, &g->output);
     if (!good || !g->element)
         return false;
     g->result->options = options_hash(g->options);
@@ -215,7 +245,8 @@ bool generation_build(struct generation *g)
         build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
     if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
-    g->root = build_element(g->builder, g->element, g->output);
+    g->root = g->desc.bindings ? build_stack(g->builder, &g->desc.bindings->bindings, g->desc.stack)
+                               : build_element(g->builder, g->element, g->output);
     assert(g->root < g->result->graph.nodes.len);
     ir_assert_valid(&g->result->graph, "after build");
     if (!is_good(g))
@@ -447,6 +478,15 @@ bool generation_names_target(const mxg_generate_desc *desc)
     return desc && struct_read(&known, sizeof known, desc) && known.target;
 }
 
+/* True if the description names no stack, or one of the document. */
+static bool is_stack_of(const mxg_generate_desc *desc, const mxg_document *document)
+{
+    const mxg_bindings *bindings = desc->bindings;
+    return !bindings
+           || (bindings->document == document && !desc->element
+               && desc->stack < mxg_bindings_num_stacks(bindings));
+}
+
 mxg_status generation_run(mxg_context *context, const mxg_document *document,
                           const mxg_generate_desc *desc, void (*steps)(struct generation *),
                           void *user_data, mxg_result **out_result)
@@ -456,7 +496,8 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     if (out_result)
         *out_result = NULL;
     if (!context || !document || !out_result
-        || (desc && !struct_read(&g->desc, sizeof g->desc, desc)))
+        || (desc && !struct_read(&g->desc, sizeof g->desc, desc))
+        || !is_stack_of(&g->desc, document))
         return MXG_ERROR_ARGUMENT;
     /* only its reference count changes */
     struct object *below = (struct object *)(uintptr_t)&document->object;

@@ -123,6 +123,10 @@ void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *
 
 /* ---- explain.c, report.c ---- */
 
+/* "stack_8a5f7a0f9c2f6f0e" and a NUL */
+enum { BIND_STACK_NAME_SIZE = 6 + 16 + 1 };
+void bind_stack_name(const struct bindings *b, uint32_t stack, char out[BIND_STACK_NAME_SIZE]);
+
 /* Writes why each assignment that was considered for a primitive won, lost, removes or sleeps. */
 void bind_explain(const struct bindings *b, prim_id prim, struct arena *scratch, struct text *out);
 

@@ -71,6 +71,13 @@ struct builder *build_start(const struct library *lib, const struct build_option
 ir_ref build_element(struct builder *builder, elem_id element, unsigned output);
 
 /*
+ * stack.c: the material of a stack: all its layers as one; of a primitive without layers the
+ * default substance. 0 after an error. `bindings` are those of the builder's document.
+ */
+struct bindings;
+ir_ref build_stack(struct builder *builder, const struct bindings *bindings, uint32_t stack);
+
+/*
  * network.c: makes the builder record layers in `network`. The value of build_element then depends
  * on sources that stand for the layers.
  */

@@ -83,6 +83,7 @@ struct builder {
     elem_id called;            /* the node whose implementation is lowered; 0: none */
     ir_ref missing_texel;      /* the current node's texel outside all tiles of its image */
     struct recorder *recorder; /* network.c; NULL: one shader is built */
+    str_id slot;               /* the name of the layer that is built, for names of variables; 0 */
     bool has_colorspace;       /* the library has transforms to the option's colour space */
     bool has_distance_unit;    /* the library has the option's unit */
     bool cancelled;
@@ -294,6 +295,26 @@ struct ir_value build_network_default(struct builder *b, const struct port *port
  * closures below it are no values. For targets with closures this holds for all shaders.
  */
 bool build_is_combined(const struct builder *b, const struct frame *frame);
+/* compose.c: the parts of a layer of a stack. */
+struct build_part {
+    const char *slot; /* for names of values; "" if it is in no stack */
+    ir_ref sides[2];  /* surface and back */
+    ir_ref displacement, normal;
+    ir_ref mask, cutout; /* floats; 0: 1 */
+    enum ir_slot_mode displacement_mode, normal_mode;
+    bool is_vertical;
+    ir_ref hides, presence; /* of the side at hand */
+};
+/* The parts of a built material. */
+struct build_part build_part_of(struct builder *b, ir_ref material);
+/* Layers, base first, as one MATERIAL. */
+ir_ref build_compose(struct builder *b, struct build_part *parts, uint32_t num);
+/* A SUBSTANCE, which is not in a stack, as a MATERIAL. */
+ir_ref build_lone_substance(struct builder *b, ir_ref substance);
+/* The attr of a SUBSTANCE; the mode of a word, -1: it is none. */
+uint32_t build_modes(unsigned displacement, unsigned normal);
+int build_mode(const char *word);
+
 /* lang_host.too_large and bad_index. */
 void build_report_large(void *user_data);
 void build_report_index(void *user_data, int32_t index, uint32_t length);

@@ -93,6 +93,27 @@ struct closure_lighting {
 bool closure_emit(struct shader *shader, const struct closure_host *host,
                   const struct closure_lighting *lighting, ir_ref root);
 
+/* The parts of a surface, each 0 where absent: shaders.c. */
+struct closure_surface {
+    ir_ref bsdf, edf;
+    ir_ref unlit;       /* colour that does not depend on lights */
+    ir_ref alpha;       /* 0 = 1 */
+    bool premultiplied; /* alpha already scales the parts */
+};
+/* The parts of a surface shader, which may be made of others. root 0: a black one. */
+struct closure_surface closure_surface_of(struct shader *shader, const struct closure_host *host,
+                                          ir_ref root);
+/* Its alpha alone, for stacks: the rest of the surface need not be complete. */
+ir_ref closure_surface_alpha(struct shader *shader, ir_ref root);
+/* A layer of a stack times its own opacity and its weight. */
+struct closure_surface closure_slot_surface(struct ir_graph *graph, struct closure_surface layer,
+                                            ir_ref weight);
+/*
+ * slots.c: a SLOTS node whose layers are shaded with their normals, and no longer have any. moved:
+ * the normal of the displaced surface; 0: the stream's.
+ */
+ir_ref closure_shade_slots(struct shader *shader, ir_ref slots, ir_ref moved);
+
 /* True if the root is lit as a surface; closure_emit then succeeds. */
 bool closure_is_surface(const struct shader *shader, ir_ref root);
 

@@ -101,6 +101,9 @@ struct closure_lit {
 ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface,
                         ir_ref displacement);
 
+/* shaders.c: 0 is 1. */
+bool closure_is_opaque(const struct ir_graph *graph, ir_ref opacity);
+
 /* differentials.c: rewrites screen derivatives in `root` as differences, for path tracers. */
 ir_ref closure_differentials(struct shader *shader, ir_ref root);
 

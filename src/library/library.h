@@ -298,12 +298,31 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
 /* resolve.c */
 
 /*
+ * Inputs of nodes and of plain nodegraphs that other ports drive: the input has the value or the
+ * connection of `source`, an <output> or <input>, in the place of its own.
+ */
+struct library_drive {
+    elem_id owner;
+    str_id input;
+    elem_id source;
+};
+struct library_drives {
+    VEC(struct library_drive) items;
+    struct table table;
+};
+/* Adds a drive; a later one of the same input replaces an earlier one. */
+void library_drive(struct library_drives *drives, struct arena *arena, struct library_drive drive);
+/* The source that drives an input; 0: none. drives may be NULL. */
+elem_id library_driver(const struct library_drives *drives, elem_id owner, str_id input);
+
+/*
  * Resolves the definition and the bindings of a node. `bindings` needs room for the inputs of the
  * definition.
  */
 struct resolve_out {
     struct arena *arena;
     VEC(struct binding) bindings;
+    const struct library_drives *drives; /* NULL: nothing is driven */
 };
 struct graph_node library_resolve_node(const struct library *lib, elem_id node,
                                        struct resolve_out *out, struct diag_list *diags);
@@ -312,6 +331,9 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
  * The source of the value of an <input> or <output> element. Looks through outputs and interface
  * inputs of nodegraphs without a nodedef. `type` is the type of the port.
  */
+struct binding library_resolve_driven(const struct library *lib, elem_id port, doc_type type,
+                                      const struct library_drives *drives, struct diag_list *diags);
+/* The same without drives. */
 struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
                                           struct diag_list *diags);
 

@@ -67,6 +67,7 @@ struct shader_variable {
     uint16_t array_length; /* 0: not an array */
     str_id doc_type;       /* "color3"; 0 for variables without a document type */
     str_id path;           /* element path of the document's input; 0 for private variables */
+    str_id slot;           /* the layer of a stack that the input belongs to; 0: no stack */
     uint32_t element;      /* document element of the variable; 0 = none */
     uint32_t definition;   /* element of the nodedef's input, for ui attributes; 0 = none */
     str_id colorspace, unit, unittype;

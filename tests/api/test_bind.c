@@ -26,9 +26,9 @@ static const char prelude[] =
     "<volumematerial name='Fog' type='material'>"
     "  <input name='volumeshader' type='volumeshader' nodename='v'/></volumematerial>"
     "<nodegraph name='NG'><constant name='c' type='float'/>"
-    "  <output name='base' type='float' nodename='c'/></nodegraph>"
+    "  <output name='opacity' type='float' nodename='c'/></nodegraph>"
     "<nodegraph name='NG2'><constant name='c' type='float'/>"
-    "  <output name='base' type='float' nodename='c'/></nodegraph>";
+    "  <output name='opacity' type='float' nodename='c'/></nodegraph>";
 
 /* Materials, names and places of an assignment, short. */
 #define M(slot, material, geom) \

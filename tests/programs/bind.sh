@@ -207,7 +207,95 @@ check 'a reference to nothing' broken 's|references = </Flattened_Prototype_1>|r
 check 'a cycle' broken 's|def Mesh "leg"|def Mesh "leg" ( references = </Flattened_Prototype_1> )|' usda-cycle 7
 check 'a slot that is none' broken 's/slotBinding:_dust = None/slotBinding:dust = None/' bad-binding 31
 check 'a material that is none' broken 's|</Looks/Dust>|</Looks/Duts>|' unknown-assigned 15:
-check 'a collection' eval 'sed "s|rel material:binding = None|rel material:binding:collection:x = [</a.collection:x>, </Looks/Clay>]|" stage.usda >broken.usda; "$mxgen" bind materials.mtlx --stage broken.usda 2>err && grep -qF "[collection-binding]" err'
+# Collections of USD: /s holds three bindings, of which the first wins, and one in a slot.
+cat >collections.usda <<'USD'
+#usda 1.0
+def Xform "s"
+{
+    rel material:binding = </Looks/Clay>
+    rel material:binding:collection:first = [</s.collection:metal>, </Looks/Dust>]
+    rel material:binding:collection:second = [</s.collection:all>, </Looks/Clay>]
+    rel material:binding:collection:full:third = [</s.collection:all>, </Looks/Clay>]
+    rel material:slotBinding:collection:_050:_:_010:top = [</s.collection:outer>, </Looks/Clay>]
+    rel material:slotBinding:_050 = </Looks/Dust>
+    rel collection:metal:includes = [</s/a>, </s/a/b/c>]
+    rel collection:metal:excludes = </s/a/b>
+    rel collection:all:includes = </s>
+    rel collection:outer:includes = [</s.collection:only>, </s/d>]
+    uniform token collection:only:expansionRule = "explicitOnly"
+    rel collection:only:includes = </s/a>
+    def Xform "a"
+    {
+        def Xform "b"
+        {
+            def Mesh "c"
+            {
+            }
+        }
+        def Mesh "own"
+        {
+            rel material:binding = </Looks/Clay>
+        }
+    }
+    def Mesh "d"
+    {
+    }
+}
+def Mesh "outside"
+{
+}
+USD
+check 'collections of USD' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda
+check 'hold what is below their paths' row '/s/a (000 Dust) (050 Dust) (::010 Clay)'
+check 'but not what is excluded' row '/s/a/b (000 Clay) (050 Dust)'
+check 'and again what a deeper path includes' row '/s/a/b/c (000 Dust) (050 Dust)'
+check 'a deeper binding wins' row '/s/a/own [000 Clay] (050 Dust)'
+check 'of several the first wins, over the direct one' row '/s/d (000 Clay) (050 Dust) (::010 Clay)'
+check 'only at or below their prim' row '/outside default'
+check 'for a purpose' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda --purpose full
+check 'which beats the others' row '/s/a (000 Clay) (050 Dust) (::010 Clay)'
+check 'reasons of a prim in collections' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda --geom /s/a
+check 'a collection that is missing' eval 'sed -i "s/s.collection:metal>/s.collection:mteal>/" collections.usda; fails bad-binding materials.mtlx --stage collections.usda'
+
+# Materials of the stage: a network, the same as nodes of MaterialX.
+cat >network.usda <<'USD'
+#usda 1.0
+def Mesh "m"
+{
+    rel material:binding = </Looks/Net>
+}
+def Material "Net"
+{
+    float inputs:amount = 0.25
+    token outputs:mtlx:surface.connect = </Net/Surface.outputs:out>
+    def Shader "Surface"
+    {
+        uniform token info:id = "ND_standard_surface_surfaceshader"
+        color3f inputs:base_color.connect = </Net/Graph.outputs:color>
+        float inputs:base = 0.5
+    }
+    def NodeGraph "Graph"
+    {
+        color3f outputs:color.connect = </Net/Graph/Mix.outputs:out>
+        def Shader "Mix"
+        {
+            uniform token info:id = "ND_mix_color3"
+            color3f inputs:bg = (1, 0, 0)
+            color3f inputs:fg = (0, 0, 1)
+            float inputs:mix.connect = </Net.inputs:amount>
+        }
+    }
+}
+USD
+check 'a stage without a document' exits 0 "$mxgen" bind --stage network.usda
+check 'has its own materials' row '/m [000 Net]'
+cat >like.mtlx <<'XML'
+<materialx version="1.39"><look name="l"><materialassign material="Net" geom="/m"/></look></materialx>
+XML
+check 'a look assigns them' exits 0 "$mxgen" bind like.mtlx --stage network.usda
+check 'an input of the document wins' eval 'sed "s|<look|<standard_surface name=\"x\" type=\"surfaceshader\"/><surfacematerial name=\"Net\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"x\"/></surfacematerial>&|" like.mtlx >own.mtlx; exits 0 "$mxgen" bind own.mtlx --stage network.usda'
+check 'a shader without a definition' eval 'sed s/ND_mix_color3/ND_mxi_color3/ network.usda >odd.usda; "$mxgen" bind --stage odd.usda 2>err; grep -q "^odd.usda:.*\[usda-shader\]" err'
+check 'a document without a stage' exits 2 "$mxgen" bind like.mtlx
 
 # The example, as docs/slots.md shows it.
 check 'examples/slots.mtlx' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished

@@ -1,0 +1,122 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Shaders of stacks (docs/slots.md, "Shaders"). Arguments: mxgen, mxgen-compile ('' to compile nothing).
+mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")}
+here=$(cd "$(dirname "$0")" && pwd)
+examples=$here/../../examples
+. "$here/common.sh"
+[ -n "$compile" ] || skip 'without glslang no shader is compiled'
+
+# shader PATH...: the pixel stage of the stack of the primitive /PATH, and its main function in the file main.
+stacks() { "$mxgen" look.mtlx --stage stage.txt --target vulkan --interface reduced -o out.d "$@"; }
+program() { # PATH
+    python3 -c "
+import json, sys
+d = json.load(open('out.d/bindings.json'))
+stack = {p['path']: p['stack'] for p in d['primitives']}['$1']
+print({s['name']: s['program'] for s in d['stacks']}[stack])"
+}
+shader() { sed -n '/void main/,$p' "out.d/$(program "$1").frag" >main; }
+# Runs Python on bindings.json: `d`, its stacks by name `s`, the stack of a primitive `of(path)`.
+json() {
+    python3 -c "
+import json
+d = json.load(open('out.d/bindings.json'))
+s = {x['name']: x for x in d['stacks']}
+of = lambda path: s[next(p['stack'] for p in d['primitives'] if p['path'] == path)]
+value = lambda path, name: next(v['value'] for v in of(path)['values'] if v['name'] == name)
+assert $1, d"
+}
+
+document() { # LOOK...: the lines of a look over materials
+    cat >look.mtlx <<XML
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <surface_unlit name="s_red" type="surfaceshader"><input name="emission_color" type="color3" value="1, 0, 0"/></surface_unlit>
+  <surface_unlit name="s_blue" type="surfaceshader"><input name="emission_color" type="color3" value="0, 0, 1"/></surface_unlit>
+  <surface_unlit name="s_half" type="surfaceshader">
+    <input name="emission_color" type="color3" value="0, 1, 0"/><input name="opacity" type="float" value="0.5"/>
+  </surface_unlit>
+  <surfacematerial name="red" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s_red"/></surfacematerial>
+  <surfacematerial name="half" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s_half"/></surfacematerial>
+  <substance name="quarter" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s_blue"/><input name="mask" type="float" value="0.25"/>
+  </substance>
+  <substance name="leaf" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s_red"/><input name="cutout" type="float" value="0.5"/>
+  </substance>
+  <nodegraph name="NG_half"><constant name="c" type="float"><input name="value" type="float" value="0.5"/></constant>
+    <output name="mask" type="float" nodename="c"/></nodegraph>
+  <nodegraph name="NG_green"><constant name="c" type="color3"><input name="value" type="color3" value="0, 1, 0"/></constant>
+    <output name="emission_color" type="color3" nodename="c"/></nodegraph>
+  $1
+</materialx>
+XML
+}
+# out1 is a constant in these documents: the colour of the layers by their weights.
+out1() { grep -qF "out1 = $1;" main; }
+
+printf '/a/b\n/c\n' >stage.txt
+document '<look name="L"><materialassign material="red" geom="/"/><materialassign slot="050" material="quarter" geom="/a/b"/>
+  <materialassign slot="060" material="half" geom="/a/b"/></look>'
+check 'weights' exits 0 stacks
+check 'a line tells programs' grep -qx '2 stacks, 2 programs' out
+shader /a/b
+# 060: 0.5; 050: 0.25 · 0.5; 000: 0.75 · 0.5
+check 'opacity and mask hide what is below' out1 'vec4(0.375, 0.5, 0.125, 1.0)'
+shader /c
+check 'one layer' out1 'vec4(1.0, 0.0, 0.0, 1.0)'
+document '<look name="L"><materialassign material="quarter" geom="/"/></look>'
+check 'a masked layer alone' exits 0 stacks
+shader /c
+check 'is transparent where no mask is' out1 'vec4(0.0, 0.0, 0.25, 0.25)'
+document '<look name="L"><materialassign material="leaf" geom="/"/><materialassign slot="050" material="quarter" geom="/"/></look>'
+check 'a cutout' exits 0 stacks
+shader /c
+check 'makes a hole in all layers' out1 'vec4(0.375, 0.0, 0.125, 0.5)'
+document '<look name="L"><materialassign material="red" geom="/a"/></look>'
+check 'a primitive without layers' exits 0 stacks --environment none
+shader /c
+check 'is white' grep -q '0.8' main
+
+document '<look name="L"><materialassign material="red" geom="/"/><materialassign slot="000::010" nodegraph="NG_half" geom="/a"/>
+  <materialassign slot="000::020" nodegraph="NG_green" geom="/a/b"/></look>'
+check 'overrides' exits 0 stacks
+shader /a
+check 'of the mask that every material has' out1 'vec4(0.5, 0.0, 0.0, 0.5)'
+shader /a/b
+check 'of a shader' out1 'vec4(0.0, 0.5, 0.0, 0.5)'
+check 'as uniforms' exits 0 stacks --interface complete
+check 'share a program' grep -qx '3 stacks, 2 programs' out
+check 'have the names of slots' json 'value("/c", "x000_s_red_emission_color") == [1, 0, 0] and of("/c")["values"][0]["slot"] == "000"'
+check 'of the program, with values of the stack' json 'value("/a/b", "x000_s_red_emission_color") == [0, 1, 0] if of("/a/b")["program"] == of("/a")["program"] else 0'
+
+# Faults of overrides: once each, whatever the number of primitives.
+document '<nodegraph name="NG_text"><geompropvalue name="g" type="float"><input name="geomprop" type="string" value="g"/></geompropvalue>
+    <constant name="c" type="string"/>
+    <output name="emission_colour" type="float" nodename="g"/><output name="emission" type="string" nodename="c"/></nodegraph>
+  <nodegraph name="NG_mode"><geompropvalue name="m" type="string"><input name="geomprop" type="string" value="m"/></geompropvalue>
+    <output name="normal_mode" type="string" nodename="m"/></nodegraph>
+  <look name="L"><materialassign material="quarter" geom="/"/><materialassign slot="000::010" nodegraph="NG_text" geom="/"/>
+    <materialassign slot="000::020" nodegraph="NG_mode" geom="/"/></look>'
+check 'faulty overrides' exits 1 stacks
+check 'an output that drives nothing' eval '[ "$(grep -c override-unmatched err)" = 1 ] && grep -q "did you mean .emission_color" err'
+check 'an output of another type' eval '[ "$(grep -c override-type err)" = 1 ] && grep -q "s_blue/emission. *, which has the type float" err'
+check 'a uniform input that varies' eval '[ "$(grep -c override-varies err)" = 1 ] && grep -q "quarter/normal_mode" err'
+
+# The example in every target.
+for look in base metal replaced red dirty finished; do
+    check "examples/slots.mtlx, $look" exits 0 "$mxgen" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look "$look" --target osl -o osl.d
+    [ -z "$compile" ] || check "examples/slots.mtlx, $look, compiles" exits 0 "$compile" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look "$look"
+done
+if [ -n "$compile" ]; then
+    check 'in every other target' exits 0 "$compile" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished \
+        --targets hlsl,essl310 --interfaces reduced
+fi
+
+# Arguments that do not go together.
+check 'a look without a scene' exits 2 "$mxgen" look.mtlx --look L
+check 'an element of a scene' exits 2 stacks --element red
+check 'a scene on standard output' exits 2 stacks --stdout
+check 'a network of a scene' exits 2 "$mxgen" look.mtlx --stage stage.txt --target osl --osl-network -o out.d
+finish stacks
