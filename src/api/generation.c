@@ -335,6 +335,7 @@ bool generation_emit(struct generation *g)
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
+    g->result->shader.picks = g->options[OPTION_slots].number != 0;
     if (g->result->shader.scatters && g->result->shader.source_leaves.len) {
         generation_report_not_renderable(
             g, "a path tracer cannot sample closures whose source is for one target");

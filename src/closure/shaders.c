@@ -79,10 +79,10 @@ static struct closure_surface unlit_surface(struct ir_graph *g, ir_ref emitted, 
 {
     ir_ref through =
         ir_op2(g, IR_DOT, color_of(g, transmitted), ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
-    return (struct closure_surface){
-        .unlit = ir_op2(g, IR_MUL, emitted, opacity),
-        .alpha = ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)),
-        .premultiplied = true};
+    return (struct closure_surface){.unlit = ir_op2(g, IR_MUL, emitted, opacity),
+                                    .alpha =
+                                        ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)),
+                                    .premultiplied = true};
 }
 
 static ir_ref sum_of(struct ir_graph *g, ir_ref a, ir_ref b)
@@ -140,10 +140,23 @@ static struct closure_surface coated(const struct surfaces *s, struct closure_su
     return sum(g, out, lit);
 }
 
-struct closure_surface closure_slot_surface(struct ir_graph *g, struct closure_surface layer,
-                                            ir_ref weight)
+struct closure_surface closure_weighted(struct ir_graph *g, struct closure_surface layer,
+                                        ir_ref weight)
 {
     return scaled(g, premultiplied(g, layer), weight);
+}
+
+struct closure_surface closure_picked(struct ir_graph *g, struct closure_surface layer)
+{
+    if (layer.premultiplied && !closure_is_opaque(g, layer.alpha)) {
+        /* a layer of opacity 0 is never picked */
+        ir_ref one = ir_const_float(g, 1.0f), least = ir_const_float(g, 1e-6f);
+        ir_ref opacity = ir_op2(g, IR_MAX, layer.alpha, least);
+        layer = scaled(g, layer, ir_op2(g, IR_DIV, one, opacity));
+    }
+    layer.alpha = 0;
+    layer.premultiplied = false;
+    return layer;
 }
 
 /* The surface of a layer with its vertical ones. *next: the layer after them. */
@@ -162,14 +175,23 @@ static struct closure_surface layer_of(const struct surfaces *s, ir_ref slots, u
     return out;
 }
 
+static void find_layers(const struct surfaces *s, ir_ref slots, struct closure_surface *layers)
+{
+    for (unsigned i = 0, next = 0; i < ir_num_slots(s->graph, slots); i = next)
+        layers[i] = layer_of(s, slots, &next);
+}
+
 static struct closure_surface stack_of(const struct surfaces *s, ir_ref slots)
 {
     struct closure_surface out = {0};
-    for (unsigned i = 0; i < ir_num_slots(s->graph, slots);) {
+    unsigned num = ir_num_slots(s->graph, slots);
+    struct closure_surface *layers = ARENA_ARRAY(s->shader->arena, struct closure_surface, num);
+    find_layers(s, slots, layers);
+    for (unsigned i = 0; i < num; i++) {
         struct ir_slot slot = ir_slot(s->graph, slots, i);
-        struct closure_surface layer = layer_of(s, slots, &i);
-        if (slot.surface && !ir_const_is(s->graph, slot.weight, 0.0f))
-            out = sum(s->graph, out, closure_slot_surface(s->graph, layer, slot.weight));
+        bool is_layer = slot.surface && !ir_slot_is_vertical(s->graph, &slot);
+        if (is_layer && !ir_const_is(s->graph, slot.weight, 0.0f))
+            out = sum(s->graph, out, closure_weighted(s->graph, layers[i], slot.weight));
     }
     out.alpha = ir_arg(s->graph, slots, 0);
     out.premultiplied = true;
@@ -193,21 +215,38 @@ static struct closure_surface parts_of(const struct surfaces *s, ir_ref ref)
     }
 }
 
-struct closure_surface closure_surface_of(struct shader *shader, const struct closure_host *host,
-                                          ir_ref root)
+/* Finds the parts of all surfaces below the root. */
+static struct surfaces know(struct shader *shader, const struct closure_host *host, ir_ref root)
 {
     struct surfaces s = {.shader = shader, .graph = shader->graph, .host = host};
-    if (!root)
-        return (struct closure_surface){0};
     assert(ir_type_of(s.graph, root) == IR_TYPE_SURFACE);
-    if (ir_get(s.graph, root)->op == IR_SURFACE_SHADER)
-        return parts_of(&s, root);
     s.known = ARENA_ARRAY(shader->arena, struct closure_surface, root + 1);
     uint8_t *needed = ir_mark(s.graph, &root, 1, shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++)
         if (needed[ref] && ir_type_of(s.graph, ref) == IR_TYPE_SURFACE)
             s.known[ref] = parts_of(&s, ref);
-    return s.known[root];
+    return s;
+}
+
+struct closure_surface closure_surface_of(struct shader *shader, const struct closure_host *host,
+                                          ir_ref root)
+{
+    const struct surfaces s = {.shader = shader, .graph = shader->graph, .host = host};
+    if (!root)
+        return (struct closure_surface){0};
+    if (ir_get(s.graph, root)->op == IR_SURFACE_SHADER)
+        return parts_of(&s, root);
+    return know(shader, host, root).known[root];
+}
+
+struct closure_surface *closure_slot_surfaces(struct shader *shader,
+                                              const struct closure_host *host, ir_ref slots)
+{
+    struct surfaces s = know(shader, host, slots);
+    struct closure_surface *layers =
+        ARENA_ARRAY(shader->arena, struct closure_surface, ir_num_slots(s.graph, slots));
+    find_layers(&s, slots, layers);
+    return layers;
 }
 
 /* Only alphas: the same as closure_surface_of without closures. */
@@ -227,9 +266,9 @@ ir_ref closure_surface_alpha(struct shader *shader, ir_ref root)
             alphas[ref] =
                 unlit_surface(g, ir_arg(g, ref, 0), ir_arg(g, ref, 1), ir_arg(g, ref, 2)).alpha;
         else if (node.op == IR_SHADER_MIX)
-            alphas[ref] = ir_op3(g, IR_MIX, alphas[ir_arg(g, ref, 0)] ? alphas[ir_arg(g, ref, 0)] : one,
-                                 alphas[ir_arg(g, ref, 1)] ? alphas[ir_arg(g, ref, 1)] : one,
-                                 ir_arg(g, ref, 2));
+            alphas[ref] = ir_op3(
+                g, IR_MIX, alphas[ir_arg(g, ref, 0)] ? alphas[ir_arg(g, ref, 0)] : one,
+                alphas[ir_arg(g, ref, 1)] ? alphas[ir_arg(g, ref, 1)] : one, ir_arg(g, ref, 2));
     }
     assert(alphas[root]);
     return alphas[root];

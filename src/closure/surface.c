@@ -21,10 +21,12 @@ struct emitter {
     const struct closure_host *host;
     const struct closure_lighting *lighting;
     struct closure_lit lit;
+    uint32_t loop; /* number of the layer that is lit, if one is picked */
 };
 
 static void effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
 {
+    value = closure_in_loop(e->shader, value, e->loop);
     shader_effect(e->shader, STAGE_PIXEL,
                   (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
@@ -349,33 +351,129 @@ static const bool *find_parts(struct emitter *e, ir_ref bsdf, const struct closu
     return emitted;
 }
 
-/* Emits lights, environment and emission; false if a path tracer computes them. */
-static bool light_surface(struct emitter *e, const struct closure_surface *s)
+/* The leaves and the emission of a surface. */
+static void flatten_surface(struct emitter *e, const struct closure_surface *s,
+                            struct closure_list *out)
 {
-    struct closure_list list;
     /* most environment light arrives at the mirror of the viewer's angle */
     struct closure_host host = *e->host;
     ir_ref view = e->lighting->two_sided ? closure_view(e->shader, e->host) : 0;
     host.way_in = view ? &view : NULL;
     host.context = SOURCE_INDIRECT;
-    closure_flatten(e->shader, &host, s->bsdf, &list);
+    closure_flatten(e->shader, &host, s->bsdf, out);
     e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
-    if (e->shader->scatters) {
-        closure_scatter(e->shader, e->host, &list, e->lighting, e->lit.base, s->alpha);
-        return false;
-    }
+}
+
+static void find_scattering(struct emitter *e, const struct closure_surface *s,
+                            struct closure_scatter_layer *out)
+{
+    *out = (struct closure_scatter_layer){0};
+    flatten_surface(e, s, &out->list);
+    out->emission = e->lit.base;
+}
+
+/* Finds the parts under lights and environment, and the emission. */
+static void light_surface(struct emitter *e, const struct closure_surface *s)
+{
+    struct closure_list list;
+    flatten_surface(e, s, &list);
     const bool *emitted = find_parts(e, s->bsdf, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++)
         if (emitted[i])
             shader_add_closure(e->shader, list.leaves.items[i].leaf);
-    return true;
+}
+
+/* ---- one layer of a stack ---- */
+
+static ir_ref own_textures(struct emitter *e, ir_ref slots)
+{
+    uint32_t num_args = ir_get(e->graph, slots)->num_args;
+    ir_ref *args = ARENA_ARRAY(e->shader->arena, ir_ref, num_args);
+    memcpy(args, ir_args(e->graph, slots), num_args * sizeof *args);
+    for (uint32_t i = 1; i < num_args; i += IR_SLOT_OPERANDS)
+        args[i] = args[i] ? closure_own_textures(e->shader, args[i], slots) : 0;
+    return ir_build(e->graph, IR_SLOTS, IR_TYPE_SURFACE, 0, args, num_args);
+}
+
+/* A path tracer always picks. */
+static void scatter_stack(struct emitter *e, ir_ref slots)
+{
+    struct closure_scatter_layer layer;
+    struct closure_choices choices = {0};
+    ir_ref alpha = ir_arg(e->graph, slots, 0), number = closure_scatter_number(e->shader, alpha);
+    closure_choose(e->shader, e->host, slots, number, &choices);
+    struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
+    for (uint32_t i = 0; i < choices.items.len; i++) {
+        const struct closure_choice *choice = &choices.items.items[i];
+        find_scattering(e, &choice->layer, &layer);
+        layer.is_it = choice->is_it;
+        layer.chance =
+            ir_op2(e->graph, IR_DIV, ir_op2(e->graph, IR_SUB, number, choice->low), choice->share);
+        closure_scatter_layer(scatter, &layer);
+    }
+    closure_scatter_end(scatter, alpha);
+}
+
+static bool is_dark(const struct emitter *e, const struct closure_surface *s)
+{
+    return !s->bsdf && !s->edf && (!s->unlit || ir_const_is(e->graph, s->unlit, 0.0f));
+}
+
+static void emit_layer(struct emitter *e, const struct closure_choice *choice)
+{
+    if (is_dark(e, &choice->layer))
+        return;
+    if (choice->is_it)
+        effect(e, EFFECT_IF, 0, choice->is_it);
+    e->lit = (struct closure_lit){.color = e->lit.color};
+    light_surface(e, &choice->layer);
+    if (e->lit.base)
+        effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, e->lit.base));
+    emit_lit(e);
+    e->loop++;
+    if (choice->is_it)
+        effect(e, EFFECT_END, 0, 0);
+}
+
+static void emit_picked(struct emitter *e, ir_ref slots)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref one = ir_const_float(g, 1.0f), nothing = ir_const_float(g, 0.0f);
+    ir_ref number = closure_layer_number(e->shader, closure_position(e->shader, e->host));
+    struct closure_choices choices = {0};
+    closure_choose(e->shader, e->host, own_textures(e, slots), number, &choices);
+    declare_color(e);
+    for (uint32_t i = 0; i < choices.items.len; i++)
+        emit_layer(e, &choices.items.items[i]);
+    e->loop = 0;
+    e->lit.base = 0;
+    struct closure_surface whole = {.premultiplied = true};
+    if (choices.covered)
+        whole.alpha = ir_op3(g, IR_SELECT, ir_op2(g, IR_LT, number, choices.covered), one, nothing);
+    finish_surface(e, &whole);
 }
 
 static void emit_surface(struct emitter *e, ir_ref root)
 {
-    struct closure_surface s = closure_surface_of(e->shader, e->host, root);
-    if (!light_surface(e, &s))
+    bool is_stack = root && ir_get(e->graph, root)->op == IR_SLOTS;
+    if (is_stack && e->shader->scatters) {
+        scatter_stack(e, root);
         return;
+    }
+    if (is_stack && e->shader->picks) {
+        emit_picked(e, root);
+        return;
+    }
+    struct closure_surface s = closure_surface_of(e->shader, e->host, root);
+    if (e->shader->scatters) {
+        struct closure_scatter_layer layer;
+        find_scattering(e, &s, &layer);
+        struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
+        closure_scatter_layer(scatter, &layer);
+        closure_scatter_end(scatter, s.alpha);
+        return;
+    }
+    light_surface(e, &s);
     emit_lit(e);
     finish_surface(e, &s);
 }

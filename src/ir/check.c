@@ -226,6 +226,11 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
     case IR_LEAF: return callee_problem(graph, op, attr);
     case IR_GRAPH_CALL: return graph_call_problem(graph, type, attr, args, num_args);
     case IR_RESULT: return result_problem(graph, type, attr, args[0]);
+    case IR_CONTEXT:
+    case IR_SAMPLE:
+        if (num_args > 1 || (num_args && from != IR_TYPE_INT))
+            return "the operand is no number of a loop";
+        break;
     case IR_SLOTS:
         if (num_args % IR_SLOT_OPERANDS != 1)
             return "wrong number of operands";

@@ -268,6 +268,7 @@ struct shader {
     bool displaced;   /* the vertex stage moves the surface */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
+    bool picks;                       /* one layer of a stack, by a random number */
     struct shader_layout_rules rules; /* of shader_finish */
 };
 

@@ -91,6 +91,57 @@ check 'share a program' grep -qx '3 stacks, 2 programs' out
 check 'have the names of slots' json 'value("/c", "x000_s_red_emission_color") == [1, 0, 0] and of("/c")["values"][0]["slot"] == "000"'
 check 'of the program, with values of the stack' json 'value("/a/b", "x000_s_red_emission_color") == [0, 1, 0] if of("/a/b")["program"] == of("/a")["program"] else 0'
 
+# One layer runs: each pattern stands in a block of its own, and no two conditions hold for one number.
+cat >look.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <worleynoise3d name="worley" type="float"/><fractal3d name="fractal" type="float"/><cellnoise3d name="cell" type="float"/>
+  <image name="photo" type="float"><input name="file" type="filename" value="photo.png"/></image>
+  <noise2d name="noise" type="float"/><image name="stencil" type="float"><input name="file" type="filename" value="stencil.png"/></image>
+  <standard_surface name="a" type="surfaceshader"><input name="base" type="float" nodename="worley"/></standard_surface>
+  <standard_surface name="b" type="surfaceshader"><input name="specular_roughness" type="float" nodename="fractal"/></standard_surface>
+  <standard_surface name="c" type="surfaceshader"><input name="base" type="float" nodename="photo"/><input name="specular" type="float" nodename="cell"/></standard_surface>
+  <substance name="A" type="material"><input name="surfaceshader" type="surfaceshader" nodename="a"/></substance>
+  <substance name="B" type="material"><input name="surfaceshader" type="surfaceshader" nodename="b"/><input name="mask" type="float" nodename="noise"/></substance>
+  <substance name="C" type="material"><input name="surfaceshader" type="surfaceshader" nodename="c"/><input name="mask" type="float" nodename="stencil"/></substance>
+  <look name="L"><materialassign material="A" geom="/"/><materialassign slot="050" material="B" geom="/"/><materialassign slot="060" material="C" geom="/"/></look>
+</materialx>
+XML
+cat >layers.py <<'PY'
+"""The layers that run for a number: those whose patterns stand in a block whose condition holds. Argument: the file of the main function."""
+import re
+import sys
+
+patterns = {"000": r"worley", "050": r"fractal", "060": r"textureGrad\("}
+blocks, open_blocks = {slot: [] for slot in patterns}, []
+for line in open(sys.argv[1]).read().split("\n"):
+    text = line.strip()
+    for slot, pattern in patterns.items():
+        if re.search(pattern, text):
+            blocks[slot].append([b for b in open_blocks if "pick" in b])
+    open_blocks += [text] if text.endswith("{") else []
+    open_blocks = open_blocks[:-1] if text.startswith("}") else open_blocks
+assert all(blocks.values()), f"a pattern is missing: {blocks}"
+conditions = {slot: {c for found in list_ for c in found} for slot, list_ in blocks.items()}
+assert all(len(list_) == 1 for found in blocks.values() for list_ in found), f"a pattern runs for all layers: {blocks}"
+assert all(len(c) == 1 for c in conditions.values()) and len(set.union(*conditions.values())) == 3, conditions
+PY
+check 'stochastic' exits 0 stacks --slots stochastic
+shader /c
+check 'runs one layer' python3 layers.py main
+check 'its textures have derivatives from before' eval 'grep -n "dFdx" main | head -1 | cut -d: -f1 | { read at; [ "$at" -lt "$(grep -n "if (pick" main | head -1 | cut -d: -f1)" ]; }'
+check 'masks are read for all layers' eval 'grep -q "^    .*texture(.*stencil" main && grep -q "^    .*mx_noise_float" main'
+check 'blend' exits 0 stacks
+shader /c
+check 'runs all' exits 1 python3 layers.py main
+for target in glsl essl hlsl; do
+    [ -z "$compile" ] || check "stochastic, $target" exits 0 "$compile" look.mtlx --stage stage.txt --slots stochastic --targets $target --interfaces complete
+done
+check 'stochastic, osl' exits 0 "$mxgen" look.mtlx --stage stage.txt --slots stochastic --target osl -o osl.d
+check 'picks a closure' eval 'grep -q "if (layerSample" osl.d/*.osl && grep -q "hashnoise(P, time)" osl.d/*.osl'
+check 'a path tracer' exits 0 stacks --integrator scatter
+check 'picks a layer' eval '[ "$(grep -cE "^    if \(.*(distance|product|random|w)" out.d/$(program /c).frag)" -ge 1 ]'
+
 # Faults of overrides: once each, whatever the number of primitives.
 document '<nodegraph name="NG_text"><geompropvalue name="g" type="float"><input name="geomprop" type="string" value="g"/></geompropvalue>
     <constant name="c" type="string"/>
