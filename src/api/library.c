@@ -292,11 +292,11 @@ static bool serves(const struct library *lib, const struct implementation *impl,
 static bool has_implementation(const struct library *lib, uint32_t id, const struct target *target)
 {
     for (const struct library *layer = lib; id < layer->base_nodedefs; layer = layer->base)
-        for (uint32_t i = 0; i < layer->overrides.len; i++) {
-            assert(layer->overrides.items[i] < layer->impls.len);
-            const struct implementation *impl = &layer->impls.items[layer->overrides.items[i]];
-            if (impl->nodedef == id && serves(lib, impl, target))
+        for (uint32_t i = library_first_override(layer, id); i != LIBRARY_NONE;) {
+            const struct implementation *impl = library_impl(lib, i, NULL);
+            if (serves(lib, impl, target))
                 return true;
+            i = impl->next;
         }
     for (uint32_t i = library_nodedef(lib, id)->first_impl; i != LIBRARY_NONE;) {
         const struct implementation *impl = library_impl(lib, i, NULL);

@@ -2,6 +2,8 @@
 /* Implementations: from their elements to parsed functions and expressions. */
 #include "library/index_priv.h"
 
+#include "base/hash.h"
+
 #include <assert.h>
 
 static bool is_closure(doc_type type)
@@ -237,23 +239,64 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
 
 static void add_impl(struct indexer *ix, struct implementation impl)
 {
-    struct library *lib = ix->lib;
-    if (impl.nodedef < lib->base_nodedefs)
-        vec_push(ix->arena, &lib->overrides, lib->impls.len);
-    vec_push(ix->arena, &lib->impls, impl);
+    vec_push(ix->arena, &ix->lib->impls, impl);
 }
 
-/* Backwards, so that the first implementation of a definition becomes the head. */
-void index_link_implementations(struct library *lib)
+/* Makes the implementation the first one of this layer for a definition of a lower layer. */
+static void link_override(struct indexer *ix, uint32_t own)
 {
+    struct library *lib = ix->lib;
+    struct implementation *impl = &lib->impls.items[own];
+    uint32_t hash = hash_pair(impl->nodedef, 0), at = hash, first;
+    while ((first = table_next(&lib->overrides, hash, &at))
+           && lib->impls.items[first - 1].nodedef != impl->nodedef)
+        ;
+    impl->next = first ? lib->base_impls + first - 1 : LIBRARY_NONE;
+    if (first)
+        table_replace(&lib->overrides, at, own + 1);
+    else
+        table_add(&lib->overrides, ix->arena, hash, own + 1);
+}
+
+/* Drops the implementations beyond the limit, which would make each use of the node slow. */
+static void limit_implementations(struct indexer *ix, uint32_t first, const char *nodedef)
+{
+    uint32_t count = 1, id = first;
+    for (; id != LIBRARY_NONE; id = library_impl(ix->lib, id, NULL)->next)
+        if (count++ == INDEX_MAX_VARIANTS)
+            break;
+    if (id == LIBRARY_NONE)
+        return;
+    struct implementation *last = &ix->lib->impls.items[id - ix->lib->base_impls];
+    if (last->next == LIBRARY_NONE)
+        return;
+    const struct implementation *excess = library_impl(ix->lib, last->next, NULL);
+    diag_add(ix->diags, DIAG_ID_too_many_variants, doc_place(&ix->lib->doc, excess->element),
+             nodedef, INDEX_MAX_VARIANTS, "implementations");
+    last->next = LIBRARY_NONE;
+}
+
+void index_link_implementations(struct indexer *ix)
+{
+    struct library *lib = ix->lib;
+    /* backwards, so that the first implementation of a definition becomes the head */
     for (uint32_t i = lib->impls.len; i-- > 0;) {
         struct implementation *impl = &lib->impls.items[i];
-        impl->next = LIBRARY_NONE;
-        if (impl->nodedef < lib->base_nodedefs)
+        if (impl->nodedef < lib->base_nodedefs) {
+            link_override(ix, i);
             continue;
+        }
         uint32_t *first = &lib->nodedefs.items[impl->nodedef - lib->base_nodedefs].first_impl;
         impl->next = *first;
         *first = lib->base_impls + i;
+    }
+    for (uint32_t i = 0; i < lib->impls.len; i++) {
+        uint32_t nodedef = lib->impls.items[i].nodedef, id = lib->base_impls + i;
+        const struct nodedef *def = library_nodedef(lib, nodedef);
+        if (id
+            == (nodedef < lib->base_nodedefs ? library_first_override(lib, nodedef)
+                                             : def->first_impl))
+            limit_implementations(ix, id, index_text(ix, def->name));
     }
 }
 

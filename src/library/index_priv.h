@@ -15,7 +15,10 @@ struct indexer {
     struct diag_list *diags;
 };
 
-enum { INDEX_MAX_PORTS = 1024 }; /* of the inputs of a definition, because lookups are linear */
+enum {
+    INDEX_MAX_PORTS = 1024,   /* inputs of a definition, because lookups are linear */
+    INDEX_MAX_VARIANTS = 256, /* definitions of a node, and implementations of a definition */
+};
 
 static inline const char *index_text(const struct indexer *ix, str_id id)
 {
@@ -39,7 +42,7 @@ static inline const char *index_file(const struct indexer *ix, elem_id element)
 void index_implementation(struct indexer *ix, elem_id element);
 void index_functional_graph(struct indexer *ix, elem_id element);
 /* Links the implementations of each definition, the first one at its head. */
-void index_link_implementations(struct library *lib);
+void index_link_implementations(struct indexer *ix);
 
 /* Finds the function of an implementation in a parsed file; false after a diagnostic. */
 bool index_find_function(struct indexer *ix, struct implementation *impl, str_id name,

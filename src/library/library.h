@@ -221,8 +221,8 @@ struct library {
     VEC(uint32_t) element_info;
     /* replaces `element_info` in an image layer whose indices fit in 16 bits */
     const uint16_t *narrow_info;
-    /* indices of implementations in this layer for nodedefs of lower layers */
-    VEC(uint32_t) overrides;
+    /* nodedef of a lower layer → its first implementation in this layer (own index + 1) */
+    struct table overrides;
     struct diag_list *deferred; /* errors of implementations, which appear when a node uses one */
 };
 
@@ -252,6 +252,11 @@ uint32_t library_num_nodedefs(const struct library *lib); /* including lower lay
  * `next_same_node` links the others.
  */
 uint32_t library_first_of_node(const struct library *layer, str_id node);
+/*
+ * The first implementation that a layer has for a definition of a lower layer; LIBRARY_NONE. `next`
+ * links the others.
+ */
+uint32_t library_first_override(const struct library *layer, uint32_t nodedef);
 
 /* The ports of a definition: inputs, then outputs. */
 const struct port *library_ports(const struct library *lib, uint32_t nodedef,

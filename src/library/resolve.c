@@ -56,7 +56,7 @@ static elem_id root_of(const struct library *lib, elem_id element)
  * limit of elements to search for suggestions, because each generation of a large document may
  * search
  */
-enum { MAX_SEARCHED = 4096 };
+enum { MAX_SEARCHED = 4096, MAX_SEARCHED_LATER = 64 /* after many suggestions */ };
 
 /* A suggestion from the named children of a scope. */
 static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name,
@@ -252,8 +252,8 @@ static void report_output(const struct library *lib, elem_id port, elem_id graph
 {
     struct missing_output missing;
     begin_missing(&missing, text_of(lib, name), diags);
-    elem_id e = doc_element(&lib->doc, graph)->first_child;
-    for (unsigned searched = 0; e && searched < MAX_SEARCHED;
+    unsigned most = missing.may_guess ? MAX_SEARCHED : MAX_SEARCHED_LATER, searched = 0;
+    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e && searched < most;
          e = doc_element(&lib->doc, e)->next, searched++)
         if (doc_element(&lib->doc, e)->kind == KIND_OUTPUT)
             add_existing(&missing, text_of(lib, doc_element(&lib->doc, e)->name));

@@ -251,6 +251,7 @@ struct shader {
     struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
     VEC(struct shader_binding) bindings;
     struct table binding_table; /* by name, to indices + 1 */
+    struct table attributes;    /* by semantic, to the first variable of app data + 1 */
     /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];
     struct shader_stage stages[NUM_STAGES];
