@@ -272,6 +272,7 @@ function listen() {
 function openView() {
     try {
         view = new View($("canvas"));
+        view.onChange = () => { document.body.dataset.whole = "false"; };
         view.onPicture = isWhole => {
             document.body.dataset.picture ??= String(Math.round(performance.now()));
             document.body.dataset.whole = String(isWhole);

@@ -30,7 +30,7 @@ void main()
             sum += texelFetch(u_samples, first + ivec2(x, y), 0);
     sum /= float(u_oversampling * u_oversampling);
     float behind = 0.06 + 0.12 * (gl_FragCoord.y + 0.5) / u_height;
-    vec3 linear = clamp(sum.rgb + (1.0 - min(sum.a, 1.0)) * behind, 0.0, 1.0);
+    vec3 linear = clamp(0.6 * sum.rgb + (1.0 - min(sum.a, 1.0)) * behind, 0.0, 1.0);
     color = vec4(mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, linear)), 1.0);
 }`;
 
@@ -53,7 +53,8 @@ export class View {
     #shape = "ball";
     camera = { ...CAMERA };
     hasMoved = false; // an input has another value than the document of the shader
-    onPicture = () => {};
+    onChange = () => {}; // the picture is out of date
+    onPicture = () => {}; // the picture is drawn; the argument tells whether with all samples
     onError = () => {};
 
     constructor(canvas) {
@@ -84,8 +85,10 @@ export class View {
         this.#missing = this.#checker();
         for (const [file, { image }] of this.#textures)
             this.setTexture(file, image);
-        if (this.#drawn)
-            this.setShader(this.#drawn.shader);
+        const { shader } = this.#pending ?? this.#drawn ?? {};
+        this.#drawn = this.#pending = null;
+        if (shader)
+            this.setShader(shader);
     }
 
     #develop;
@@ -202,6 +205,7 @@ export class View {
 
     /** Asks for a frame: now with one sample for each pixel, and with all when the picture rests. */
     draw() {
+        this.onChange();
         clearTimeout(this.#rest);
         this.#rest = setTimeout(() => this.#request(OVERSAMPLING), IDLE);
         this.#request(1);

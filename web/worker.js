@@ -18,11 +18,6 @@ async function begin() {
 
 const ready = begin();
 
-/** Diagnostics that messages between threads can carry. */
-function plain(diagnostics, source) {
-    return diagnostics.items.map((item, index) => ({ ...item, text: diagnostics.formatOne(index, { source }) }));
-}
-
 /** Calls `use` with the document of a text; diagnostics of errors go to `found`. */
 function withDocument(context, text, found, use) {
     let document;
@@ -31,7 +26,7 @@ function withDocument(context, text, found, use) {
     } catch (error) {
         if (!(error instanceof DocumentError))
             throw error;
-        found.push(...plain(error.diagnostics, text));
+        found.push(...error.diagnostics);
         ({ document } = error);
     }
     try {
@@ -42,18 +37,18 @@ function withDocument(context, text, found, use) {
 }
 
 /** The shader of an element, as plain data. */
-function shaderOf(document, element, found, text) {
+function shaderOf(document, element, found) {
     let shader;
     try {
         shader = document.generate("essl", { element, options: OPTIONS });
     } catch (error) {
         if (!(error instanceof DocumentError))
             throw error;
-        found.push(...plain(error.diagnostics, text));
+        found.push(...error.diagnostics);
         return null;
     }
     const { info: { name, displaced, alpha }, vertex, pixel, variables } = shader;
-    found.push(...plain(shader.diagnostics, text));
+    found.push(...shader.diagnostics);
     shader.destroy();
     // What the values of the document make of it: most materials are opaque, although their opacity is a uniform.
     const reduced = document.generate("essl", { element, options: { ...OPTIONS, interface: "reduced" }, withoutSource: true });
@@ -64,7 +59,7 @@ function shaderOf(document, element, found, text) {
 
 /** The same fault can stand in the diagnostics of the document and of the shader. */
 function distinct(diagnostics) {
-    return [...new Map(diagnostics.map(item => [item.text, item])).values()];
+    return [...new Map(diagnostics.map(item => [JSON.stringify({ ...item, parent: 0 }), item])).values()];
 }
 
 const KINDS = {
@@ -84,9 +79,8 @@ const KINDS = {
         const { context } = await ready, diagnostics = [];
         const answer = withDocument(context, text, diagnostics, document => {
             const { renderables } = document, chosen = renderables.some(({ path }) => path === element) ? element : renderables[0]?.path ?? null;
-            const shader = chosen === null ? null : shaderOf(document, chosen, diagnostics, text);
-            const checked = document.validate();
-            diagnostics.push(...plain(checked, text));
+            const shader = chosen === null ? null : shaderOf(document, chosen, diagnostics);
+            diagnostics.push(...document.validate());
             return { renderables, element: chosen, shader };
         });
         return { renderables: [], element: null, shader: null, ...answer, diagnostics: distinct(diagnostics) };
