@@ -361,6 +361,39 @@ bool generation_finish(struct generation *g)
     return is_good(g);
 }
 
+/* The slots of the textures that the shader reads, each once. */
+static const char *list_slots(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    struct text list;
+    str_id last = 0;
+    text_init(&list, &g->scratch);
+    for (uint32_t i = 0; i < shader->interface.len; i++) {
+        const struct shader_variable *v = &shader->variables.items[shader->interface.items[i]];
+        if (v->block != BLOCK_TEXTURES || !v->slot || v->slot == last)
+            continue;
+        last = v->slot;
+        text_fmt(&list, "%s'%s'", list.len ? ", " : "", str_text(shader->strings, last));
+    }
+    return text_cstr(&list);
+}
+
+/* A stack may have more textures than a target can read; reports that. */
+static bool check_textures(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    const struct target *target = g->result->target;
+    uint32_t first = shader->first_of_block[BLOCK_TEXTURES],
+             num = shader->first_of_block[BLOCK_TEXTURES + 1] - first;
+    while (target && !target->max_textures)
+        target = target->base;
+    if (!g->desc.bindings || !target || num <= target->max_textures)
+        return true;
+    diag_add(diags_of(g), DIAG_ID_texture_limit, doc_place(&g->document->layer.doc, g->element),
+             (unsigned)num, (unsigned)target->max_textures, g->result->target->name, list_slots(g));
+    return false;
+}
+
 /* ---- Spell ---- */
 
 /*
@@ -539,9 +572,10 @@ static void generate(struct generation *g)
     if (g->result->network.arena)
         g->result->has_shader = built && generation_make_network(g);
     else
-        g->result->has_shader = built && generation_emit(g) && !g->desc.only_diagnostics
-                                && generation_finish(g)
-                                && (g->desc.without_source || generation_spell(g));
+        g->result->has_shader =
+            built && generation_emit(g) && (!g->desc.only_diagnostics || g->desc.bindings)
+            && generation_finish(g) && check_textures(g) && !g->desc.only_diagnostics
+            && (g->desc.without_source || generation_spell(g));
     if (!g->result->has_shader)
         drop_source(g->result);
     assert(!g->result->has_shader || diags_of(g)->num_errors == 0);

@@ -7,9 +7,9 @@
  *     p = weight · opacity of the layer,  sum = Σ p of the layers above
  *
  * In the mean this is the sum of all layers, because a layer counts 1 / p. Only the weights are
- * computed for all layers. What a layer reads through screen derivatives needs its neighbours, which
- * may have picked another layer: so textures take explicit derivatives, which the scheduler moves
- * before the branch.
+ * computed for all layers. What a layer reads through screen derivatives needs its neighbours,
+ * which may have picked another layer: so textures take explicit derivatives, which the scheduler
+ * moves before the branch.
  *
  * The number is the host's, u_layerSample, or below 0 a hash of the point and the frame: pcg3d
  * (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering").
@@ -39,9 +39,8 @@ static ir_ref hash_of(struct shader *shader, ir_ref point)
         shader_read(shader, shader_private_uniform(shader, STR_u_frame, IR_TYPE_FLOAT, 0));
     ir_ref v[3];
     for (unsigned i = 0; i < 3; i++) {
-        ir_ref bits =
-            ir_build(g, IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, 0,
-                     (ir_ref[]){ir_component(g, point, i)}, 1);
+        ir_ref bits = ir_build(g, IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, 0,
+                               (ir_ref[]){ir_component(g, point, i)}, 1);
         if (i == 2)
             bits = ir_op2(g, IR_XOR, bits,
                           ir_build(g, IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, 0, &frame, 1));

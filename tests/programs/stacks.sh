@@ -74,6 +74,21 @@ document '<look name="L"><materialassign material="leaf" geom="/"/><materialassi
 check 'a cutout' exits 0 stacks
 shader /c
 check 'makes a hole in all layers' out1 'vec4(0.375, 0.0, 0.125, 0.5)'
+document '<oren_nayar_diffuse_bsdf name="matt" type="BSDF"><input name="weight" type="float" value="0.5"/></oren_nayar_diffuse_bsdf>
+  <surface name="s_matt" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="matt"/></surface>
+  <substance name="coat" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s_matt"/><input name="mask" type="float" value="0.5"/>
+  </substance>
+  <look name="L"><materialassign material="red" geom="/"/><materialassign slot="000|010" material="coat" geom="/a"/>
+    <materialassign slot="000|020" material="coat" geom="/a/b"/><materialassign slot="000|010" material="half" geom="/c"/></look>'
+check 'vertical layers' exits 0 stacks --environment none --lights none
+shader /a
+# T of the coat is 0.5: 1 - 0.5 + 0.5 · 0.5
+check 'take light of the base' out1 'vec4(0.75, 0.0, 0.0, 1.0)'
+shader /a/b
+check 'lie on each other' out1 'vec4(0.5625, 0.0, 0.0, 1.0)'
+shader /c
+check 'add their own' out1 'vec4(1.0, 0.5, 0.0, 1.0)'
 document '<look name="L"><materialassign material="red" geom="/a"/></look>'
 check 'a primitive without layers' exits 0 stacks --environment none
 shader /c
@@ -141,6 +156,35 @@ check 'stochastic, osl' exits 0 "$mxgen" look.mtlx --stage stage.txt --slots sto
 check 'picks a closure' eval 'grep -q "if (layerSample" osl.d/*.osl && grep -q "hashnoise(P, time)" osl.d/*.osl'
 check 'a path tracer' exits 0 stacks --integrator scatter
 check 'picks a layer' eval '[ "$(grep -cE "^    if \(.*(distance|product|random|w)" out.d/$(program /c).frag)" -ge 1 ]'
+
+# Textures: equal ones count once, and a target has few.
+pictures() { # NUMBER NAME OFFSET: a surface that reads so many pictures
+    echo "<nodegraph name='NG_$2'>"
+    for i in $(seq "$1"); do
+        echo "<image name='i$i' type='float'><input name='file' type='filename' value='$((i + $3)).png'/></image>"
+        echo "<add name='s$i' type='float'><input name='in1' type='float' nodename='i$i'/>"
+        [ "$i" = 1 ] || echo "<input name='in2' type='float' nodename='s$((i - 1))'/>"
+        echo '</add>'
+    done
+    echo "<output name='out' type='float' nodename='s$1'/></nodegraph>"
+    echo "<standard_surface name='s_$2' type='surfaceshader'><input name='base' type='float' nodegraph='NG_$2'/><input name='opacity' type='color3' value='0.5, 0.5, 0.5'/></standard_surface>"
+    echo "<surfacematerial name='$2' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s_$2'/></surfacematerial>"
+}
+document "$(pictures 8 P 0) $(pictures 8 Q 4) <look name='L'><materialassign material='P' geom='/'/><materialassign slot='050' material='Q' geom='/'/></look>"
+check 'textures of layers' exits 0 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
+check 'merge' json 'sorted(t["file"] for t in of("/c")["textures"]) == sorted(f"{i}.png" for i in range(1, 13))'
+document "$(pictures 12 P 0) $(pictures 8 Q 12) <look name='L'><materialassign material='P' geom='/'/><materialassign slot='050' material='Q' geom='/'/></look>"
+check 'too many textures' exits 1 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
+check 'name their slots' grep -q "reads 20 textures, .* at most 16 in essl; .*: '000', '050' \[texture-limit\]" err
+check 'another target has no such limit' exits 0 "$mxgen" look.mtlx --stage stage.txt --target vulkan --environment none -o out.d
+
+# Looks without a scene.
+document '<look name="base"><materialassign slot="a b" material="red" geom="/"/><materialassign slot="050" nodegraph="NG_half" geom="/"/></look>
+  <look name="day" inherit="base"><materialassign material="red" geom="/{a"/><materialassign material="nothing" geom="/"/></look><look name="night" inherit="base"/>'
+check 'validate' exits 1 "$mxgen" validate look.mtlx
+check 'reports slots, once' eval '[ "$(grep -c "\[bad-slot\]" err)" = 1 ] && [ "$(grep -c "\[override-needed\]" err)" = 1 ]'
+check 'and what other rules report' grep -q '\[bad-geometry-name\]' err
+check 'and each place once' eval '[ "$(grep -cE "look.mtlx:.*: (error|warning)" err)" = "$(grep -oE "look.mtlx:[0-9]*:[0-9]*: (error|warning)" err | sort -u | wc -l)" ]'
 
 # Faults of overrides: once each, whatever the number of primitives.
 document '<nodegraph name="NG_text"><geompropvalue name="g" type="float"><input name="geomprop" type="string" value="g"/></geompropvalue>
