@@ -76,8 +76,7 @@ static void follow(struct driving *d, elem_id input)
     str_id graph = doc_attr_value(d->doc, input, STR_nodegraph);
     if (graph)
         meet_graph(d, doc_top_level(d->doc, KIND_NODEGRAPH, graph));
-    struct binding binding =
-        library_resolve_connection(d->lib, input, DOC_TYPE_NONE, &d->ignored);
+    struct binding binding = library_resolve_connection(d->lib, input, DOC_TYPE_NONE, &d->ignored);
     if (binding.kind == BIND_NODE && meet(d, binding.ref))
         vec_push(d->arena, &d->open, binding.ref);
 }
@@ -94,8 +93,7 @@ static void visit_open(struct driving *d)
     while (d->open.len) {
         elem_id node = vec_pop(&d->open);
         str_id type = doc_attr_value(d->doc, node, STR_type);
-        if (type == STR_surfaceshader || type == STR_displacementshader
-            || type == STR_volumeshader)
+        if (type == STR_surfaceshader || type == STR_displacementshader || type == STR_volumeshader)
             vec_push(d->arena, &d->substance.shaders, node);
         meet_graph(d, element(d, node)->parent);
         follow_inputs(d, node);
@@ -184,9 +182,8 @@ static elem_id holder_of(struct driving *d, elem_id source, const struct binding
         return binding->element ? binding->element : source;
     bool is_constant = binding->kind == BIND_NODE
                        && strcmp(text_of(d, element(d, binding->ref)->category), "constant") == 0;
-    elem_id value = is_constant
-                        ? doc_child_of_kind(d->doc, binding->ref, KIND_INPUT, STR_value)
-                        : 0;
+    elem_id value =
+        is_constant ? doc_child_of_kind(d->doc, binding->ref, KIND_INPUT, STR_value) : 0;
     if (!value)
         return 0;
     struct binding end = library_resolve_connection(d->lib, value, DOC_TYPE_NONE, &d->ignored);
@@ -202,17 +199,16 @@ static void report(struct driving *d, enum diag_id id, elem_id source, const str
     d->notes->seen[source - d->doc->first_element] |= DRIVE_REPORTED;
     text_init(&path, d->arena);
     doc_path(d->doc, driven->owner, '/', &path);
-    diag_add(d->notes->diags, id, doc_place(d->doc, source),
-             text_of(d, element(d, source)->name), driver->slot, text_cstr(&path),
-             text_of(d, driven->input), text_of(d, driven->type), have);
+    diag_add(d->notes->diags, id, doc_place(d->doc, source), text_of(d, element(d, source)->name),
+             driver->slot, text_cstr(&path), text_of(d, driven->input), text_of(d, driven->type),
+             have);
 }
 
 static void drive(struct driving *d, elem_id source, const struct driver *driver,
                   const struct driven *driven)
 {
     str_id type = doc_attr_value(d->doc, source, STR_type);
-    struct binding binding =
-        library_resolve_connection(d->lib, source, DOC_TYPE_NONE, &d->ignored);
+    struct binding binding = library_resolve_connection(d->lib, source, DOC_TYPE_NONE, &d->ignored);
     elem_id holder = holder_of(d, source, &binding);
     if (d->notes)
         d->notes->seen[source - d->doc->first_element] |= DRIVE_MATCHED;
@@ -227,8 +223,7 @@ static void drive(struct driving *d, elem_id source, const struct driver *driver
         return;
     }
     library_drive(d->out, d->arena,
-                  (struct library_drive){driven->owner, driven->input,
-                                         holder ? holder : source});
+                  (struct library_drive){driven->owner, driven->input, holder ? holder : source});
 }
 
 /* ---- By name ---- */
@@ -268,9 +263,8 @@ static void drive_by_path(struct driving *d, elem_id source, const struct driver
         if (own.len != (size_t)(slash - path) || memcmp(own.data, path, own.len) != 0)
             continue;
         bool has = owner == d->substance.material ? material_has(d, input, false, &driven)
-                   : element(d, owner)->kind == KIND_NODEGRAPH
-                       ? graph_has(d, owner, input, &driven)
-                       : node_has(d, owner, input, &driven);
+                   : element(d, owner)->kind == KIND_NODEGRAPH ? graph_has(d, owner, input, &driven)
+                                                               : node_has(d, owner, input, &driven);
         if (has)
             drive(d, source, driver, &driven);
     }
@@ -340,8 +334,7 @@ static void add_material(struct driving *d, elem_id target, const struct driver 
             drive_output(d, e, driver);
             continue;
         }
-        struct binding binding =
-            library_resolve_connection(d->lib, e, DOC_TYPE_NONE, &d->ignored);
+        struct binding binding = library_resolve_connection(d->lib, e, DOC_TYPE_NONE, &d->ignored);
         if (binding.kind == BIND_NODE)
             add_inputs(d, binding.ref, driver);
     }
@@ -373,12 +366,8 @@ void bind_drives(const struct bindings *b, const struct library *lib, const stru
                  uint32_t num, struct drive_notes *notes, struct arena *arena,
                  struct library_drives *out)
 {
-    struct driving d = {.b = b,
-                        .lib = lib,
-                        .doc = &lib->doc,
-                        .arena = arena,
-                        .out = out,
-                        .notes = notes};
+    struct driving d = {
+        .b = b, .lib = lib, .doc = &lib->doc, .arena = arena, .out = out, .notes = notes};
     assert(num > 0 && (items->kind == ITEM_LAYER || items->kind == ITEM_VERTICAL));
     diag_list_init(&d.ignored, arena);
     if (num == 1 && !b->look.variants.len)
@@ -449,8 +438,8 @@ static void warn_unmatched(const struct bindings *b, const struct library *lib,
         if (notes->seen[o->source - notes->first_element] & DRIVE_MATCHED)
             continue;
         str_id path = doc_attr_value(&lib->doc, o->source, STR_overrides);
-        const char *name = str_text(lib->doc.strings,
-                                    path ? path : doc_element(&lib->doc, o->source)->name);
+        const char *name =
+            str_text(lib->doc.strings, path ? path : doc_element(&lib->doc, o->source)->name);
         diag_add(notes->diags, DIAG_ID_override_unmatched, doc_place(&lib->doc, o->source), name,
                  o->slot, path ? "" : nearest(b, lib, o->slot, name, notes));
     }

@@ -52,7 +52,8 @@ static ir_ref clamped(struct builder *b, ir_ref x)
 }
 
 /* "050_mask" */
-static void name_value(struct builder *b, ir_ref value, const struct build_part *part, const char *role)
+static void name_value(struct builder *b, ir_ref value, const struct build_part *part,
+                       const char *role)
 {
     struct text name;
     size_t len;
@@ -228,4 +229,3 @@ ir_ref build_lone_substance(struct builder *b, ir_ref substance)
     struct build_part part = build_part_of(b, substance);
     return build_compose(b, &part, 1);
 }
-

@@ -35,9 +35,8 @@ static ir_ref with_virtual_inputs(struct builder *b, elem_id node, ir_ref materi
     ir_ref args[4] = {material, virtual_input(b, node, STR_normal, DOC_TYPE_vector3),
                       virtual_input(b, node, STR_mask, DOC_TYPE_float), 0};
     uint32_t modes = build_modes(IR_SLOT_MIX, IR_SLOT_MIX);
-    return args[1] || args[2]
-               ? ir_build(b->graph, IR_SUBSTANCE, IR_TYPE_MATERIAL, modes, args, 4)
-               : material;
+    return args[1] || args[2] ? ir_build(b->graph, IR_SUBSTANCE, IR_TYPE_MATERIAL, modes, args, 4)
+                              : material;
 }
 
 /* The inputs of overrides and variants belong to the interface of the shader. */
@@ -95,15 +94,14 @@ static ir_ref default_substance(struct builder *b)
                                          : build_default(b, &ports[i]);
     build_apply(b, nodedef, build_doc(b)->root, args, &bsdf);
     ir_ref surface[4] = {bsdf, 0, number(b, 1.0f), ir_const_bool(b->graph, false)};
-    ir_ref material[4] = {
-        ir_build(b->graph, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 0, surface, 4), 0, 0, 0};
+    ir_ref material[4] = {ir_build(b->graph, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 0, surface, 4), 0,
+                          0, 0};
     return ir_build(b->graph, IR_MATERIAL, IR_TYPE_MATERIAL, 0, material, 4);
 }
 
 ir_ref build_stack(struct builder *b, const struct bindings *bindings, uint32_t stack)
 {
-    const struct bind_state *state =
-        &bindings->states.items[bindings->stacks.items[stack].state];
+    const struct bind_state *state = &bindings->states.items[bindings->stacks.items[stack].state];
     const struct bind_item *items = bindings->items.items + state->first_item;
     struct build_part *parts = ARENA_ARRAY(b->arena, struct build_part, state->num_items);
     uint32_t num_parts = 0;

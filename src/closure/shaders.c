@@ -79,10 +79,10 @@ static struct closure_surface unlit_surface(struct ir_graph *g, ir_ref emitted, 
 {
     ir_ref through =
         ir_op2(g, IR_DOT, color_of(g, transmitted), ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
-    return (struct closure_surface){
-        .unlit = ir_op2(g, IR_MUL, emitted, opacity),
-        .alpha = ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)),
-        .premultiplied = true};
+    return (struct closure_surface){.unlit = ir_op2(g, IR_MUL, emitted, opacity),
+                                    .alpha =
+                                        ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)),
+                                    .premultiplied = true};
 }
 
 static ir_ref sum_of(struct ir_graph *g, ir_ref a, ir_ref b)
@@ -227,9 +227,9 @@ ir_ref closure_surface_alpha(struct shader *shader, ir_ref root)
             alphas[ref] =
                 unlit_surface(g, ir_arg(g, ref, 0), ir_arg(g, ref, 1), ir_arg(g, ref, 2)).alpha;
         else if (node.op == IR_SHADER_MIX)
-            alphas[ref] = ir_op3(g, IR_MIX, alphas[ir_arg(g, ref, 0)] ? alphas[ir_arg(g, ref, 0)] : one,
-                                 alphas[ir_arg(g, ref, 1)] ? alphas[ir_arg(g, ref, 1)] : one,
-                                 ir_arg(g, ref, 2));
+            alphas[ref] = ir_op3(
+                g, IR_MIX, alphas[ir_arg(g, ref, 0)] ? alphas[ir_arg(g, ref, 0)] : one,
+                alphas[ir_arg(g, ref, 1)] ? alphas[ir_arg(g, ref, 1)] : one, ir_arg(g, ref, 2));
     }
     assert(alphas[root]);
     return alphas[root];

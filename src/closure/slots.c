@@ -51,8 +51,8 @@ static void add_normal(struct normals *n, const struct ir_slot *slot)
     } else if (ir_const_is(g, slot->presence, 1.0f)) {
         n->current = slot->normal;
     } else {
-        n->current = ir_op1(g, IR_NORMALIZE,
-                            ir_op3(g, IR_MIX, n->current, slot->normal, slot->presence));
+        n->current =
+            ir_op1(g, IR_NORMALIZE, ir_op3(g, IR_MIX, n->current, slot->normal, slot->presence));
     }
 }
 
