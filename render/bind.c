@@ -179,7 +179,8 @@ static bool store_public(struct bind *bind, uint32_t object, const mxg_variable 
 static void store_private(struct bind *bind, uint32_t object, const mxg_variable *variable)
 {
     float values[MAX_COMPONENTS] = {0};
-    if (!scene_uniform(bind->scene, &bind->objects[object], variable->name, values) && variable->num_values)
+    if (!scene_uniform(bind->scene, &bind->objects[object], variable->name, values)
+        && variable->num_values)
         memcpy(values, variable->values, sizeof values);
     if (strcmp(variable->name, "u_numActiveLightSources") == 0
         && values[0] > (float)bind->max_lights)

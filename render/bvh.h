@@ -15,7 +15,7 @@ struct bvh_node {
 struct bvh_corner {
     float position[3], s, normal[3], t, tangent[3];
     uint32_t object;
-    float rest[3]; /* the position before displacement */
+    float rest[3];     /* the position before displacement */
     uint32_t triangle; /* number in its object */
     float moved[4];    /* the normal after displacement */
 };

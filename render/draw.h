@@ -36,9 +36,9 @@ struct draw_texture {
 struct draw_object {
     uint32_t num_vertices, num_indices;
     const uint32_t *indices;
-    void *attributes[DRAW_MAX_ATTRIBUTES];      /* 16 bytes per vertex; malloc */
+    void *attributes[DRAW_MAX_ATTRIBUTES];  /* 16 bytes per vertex; malloc */
     unsigned char *blocks[DRAW_MAX_BLOCKS]; /* malloc */
-    double distance;                            /* from the camera, where programs blend */
+    double distance;                        /* from the camera, where programs blend */
 };
 
 /* A program for several objects. */

@@ -66,7 +66,8 @@ static bool create_set_layout(struct maker *maker, uint32_t set)
     for (uint32_t i = 0; i < draw->num_blocks; ++i) {
         if (draw->blocks[i].set == set)
             bindings[count++] = (VkDescriptorSetLayoutBinding){
-                draw->blocks[i].binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, stages, NULL};
+                draw->blocks[i].binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, stages,
+                NULL};
     }
     for (uint32_t i = 0; i < draw->num_textures; ++i) {
         if (draw->textures[i].set == set)
@@ -118,7 +119,8 @@ static void write_sets(struct maker *maker)
                                             .dstSet = maker->inputs->sets[draw->blocks[i].set],
                                             .dstBinding = draw->blocks[i].binding,
                                             .descriptorCount = 1,
-                                            .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+                                            .descriptorType =
+                                                VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
                                             .pBufferInfo = &buffer};
         vkUpdateDescriptorSets(maker->gpu->device, 1, &write, 0, NULL);
     }

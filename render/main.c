@@ -232,10 +232,9 @@ static void apply_unit(struct job *job)
     static const struct {
         const char *name;
         double meters;
-    } units[] = {{"meter", 1},     {"centimeter", 0.01}, {"millimeter", 0.001},
-                 {"kilometer", 1000}, {"inch", 0.0254},  {"foot", 0.3048},
-                 {"micron", 1e-6}, {"nanometer", 1e-9},  {"yard", 0.9144},
-                 {"mile", 1609.344}};
+    } units[] = {{"meter", 1},     {"centimeter", 0.01}, {"millimeter", 0.001}, {"kilometer", 1000},
+                 {"inch", 0.0254}, {"foot", 0.3048},     {"micron", 1e-6},      {"nanometer", 1e-9},
+                 {"yard", 0.9144}, {"mile", 1609.344}};
     double unit = mxg_scene_meters_per_unit(job->stage.scene);
     if (args_is_given(&job->cli.parser, "distance-unit") || unit <= 0)
         return;
@@ -258,8 +257,7 @@ static bool make_stage(struct job *job)
         return false;
     }
     tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
-    return stage_aim(&job->stage, &painter->studio,
-                     names_camera(job) ? job->options.camera : NULL,
+    return stage_aim(&job->stage, &painter->studio, names_camera(job) ? job->options.camera : NULL,
                      job->options.camera && !names_camera(job), aspect, &painter->scene);
 }
 
@@ -377,8 +375,8 @@ static void add_item(struct items *list, const mxg_document *document, const cha
     if (!more)
         return;
     list->items = more;
-    more[list->len++] = (struct item){
-        {.document = document, .path = path, .element = element}, cli_format("%s", element)};
+    more[list->len++] = (struct item){{.document = document, .path = path, .element = element},
+                                      cli_format("%s", element)};
 }
 
 /* Adds the materials of the requested look, or the renderables. */
@@ -502,7 +500,8 @@ static void draw_grid(struct job *job, const mxg_document *document, const char 
         mxg_document_renderable(document, i, &renderable);
         if (job->options.element && strcmp(job->options.element, renderable.path) != 0)
             continue;
-        const struct subject subject = {.document = document, .path = path, .element = renderable.path};
+        const struct subject subject = {
+            .document = document, .path = path, .element = renderable.path};
         struct image pixels;
         if (picture_draw(&job->painter, &subject, 1, &pixels))
             print_values(renderable.path, num_components(renderable.type), &pixels);
@@ -530,8 +529,7 @@ static void tell_choice(const struct job *job, const mxg_document *document)
 static void render_file(struct job *job, const char *path)
 {
     mxg_document *document = load(job, path);
-    struct subject subject = {
-        .document = document, .path = path, .element = job->options.element};
+    struct subject subject = {.document = document, .path = path, .element = job->options.element};
     if (document && prepare(job)) {
         tell_choice(job, document);
         if (job->scene_kind == SCENE_GRID)
@@ -700,8 +698,8 @@ static int run(struct job *job)
     }
     bool is_grid = !strcmp(job->options.scene, "grid"),
          is_one = job->options.stage ? inputs->len < 2
-                                   : inputs->len == 1 && !files_is_folder(inputs->items[0])
-                                         && !job->options.look;
+                                     : inputs->len == 1 && !files_is_folder(inputs->items[0])
+                                           && !job->options.look;
     if (!job->options.output && !is_grid) {
         fputs("mxgen: where to? say -o PICTURE.png\n", stderr);
         return EXIT_USAGE;

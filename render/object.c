@@ -38,8 +38,7 @@ static bool copy_object(const struct scene_object *from, struct scene_object *to
     *to = (struct scene_object){.world = from->world, .path = from->path};
     to->primvars = calloc(from->num_primvars + 1, sizeof *to->primvars);
     bool good =
-        to->primvars
-        && mesh_allocate(&to->mesh, from->mesh.num_vertices, from->mesh.num_indices);
+        to->primvars && mesh_allocate(&to->mesh, from->mesh.num_vertices, from->mesh.num_indices);
     for (uint32_t i = 0; good && i < from->num_primvars; ++i, ++to->num_primvars)
         good = copy_primvar(&from->primvars[i], &to->primvars[i]);
     if (!good)

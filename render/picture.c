@@ -35,8 +35,7 @@ static bool refine_objects(struct part *part, const struct subject *subject)
 }
 
 /* A displaced surface needs a mesh with small triangles. */
-static bool choose_mesh(struct painting *painting, struct part *part,
-                        const struct subject *subject)
+static bool choose_mesh(struct painting *painting, struct part *part, const struct subject *subject)
 {
     struct painter *painter = painting->painter;
     mxg_shader_info info = {sizeof info};
@@ -245,8 +244,7 @@ static void tell_warning(struct painter *painter, const struct bind *bind,
 static bool make_parts(struct painting *painting, const struct subject *subjects, size_t count)
 {
     painting->parts = calloc(count, sizeof *painting->parts);
-    bool good = painting->parts
-                || report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
+    bool good = painting->parts || report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
     for (size_t i = 0; good && i < count; ++i, ++painting->num_parts) {
         struct part *part = &painting->parts[i];
         part->bind = calloc(1, sizeof *part->bind);
@@ -338,8 +336,8 @@ bool painting_draw(struct painting *painting, struct image *out)
     struct render *renders = calloc(painting->num_parts + 1, sizeof *renders);
     for (size_t i = 0; renders && i < painting->num_parts; ++i)
         renders[i] = painting->parts[i].render;
-    bool drawn = renders
-                 && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
+    bool drawn =
+        renders && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
     free(renders);
     if (!drawn) {
         const struct bind *bind = painting->parts[0].bind;
@@ -406,8 +404,7 @@ bool picture_draw(struct painter *painter, const struct subject *subjects, size_
         return picture_trace(painter, subjects, count, out);
     struct painting painting;
     *out = (struct image){0};
-    bool good =
-        painting_open(painter, subjects, count, &painting) && painting_draw(&painting, out);
+    bool good = painting_open(painter, subjects, count, &painting) && painting_draw(&painting, out);
     painting_close(&painting);
     return good;
 }

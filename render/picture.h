@@ -39,8 +39,8 @@ struct painter {
 
 struct subject {
     const mxg_document *document;
-    const char *path;    /* of the file */
-    const char *element; /* NULL: the first renderable; of a stack, its name */
+    const char *path;             /* of the file */
+    const char *element;          /* NULL: the first renderable; of a stack, its name */
     const mxg_bindings *bindings; /* of a stack; NULL: the element */
     uint32_t stack;
     const struct scene_object *objects; /* what has it */

@@ -66,8 +66,7 @@ bool render_frame(struct render *renders, size_t count, struct draw_canvas *canv
                     sizeof renders[0].bind->reason);
         }
     }
-    good = good
-           && (draw_frame(canvas, programs, count, out_pixels) || copy_reason(&renders[0]));
+    good = good && (draw_frame(canvas, programs, count, out_pixels) || copy_reason(&renders[0]));
     free(programs);
     return good;
 }
@@ -83,8 +82,8 @@ bool render_result(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t 
 {
     struct render render;
     struct draw_canvas *canvas = draw_open_canvas(gpu, width, height);
-    bool good = render_open(&render, canvas, gpu, bind)
-                && render_frame(&render, 1, canvas, out_pixels);
+    bool good =
+        render_open(&render, canvas, gpu, bind) && render_frame(&render, 1, canvas, out_pixels);
     render_close(&render);
     draw_close_canvas(canvas);
     return good;

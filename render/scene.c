@@ -56,8 +56,7 @@ static void primvar_name(const char *attribute, char out[64])
 {
     static const struct {
         const char *prefix, *first, *others;
-    } families[] = {
-        {"i_texcoord_", "st", "st"}, {"i_color_", "displayColor", "displayColor"}};
+    } families[] = {{"i_texcoord_", "st", "st"}, {"i_color_", "displayColor", "displayColor"}};
     for (size_t i = 0; i < sizeof families / sizeof *families; ++i) {
         size_t len = strlen(families[i].prefix);
         if (strncmp(attribute, families[i].prefix, len) != 0)
@@ -67,7 +66,8 @@ static void primvar_name(const char *attribute, char out[64])
                  is_first ? "" : attribute + len);
         return;
     }
-    snprintf(out, 64, "%s", strncmp(attribute, "i_geomprop_", 11) == 0 ? attribute + 11 : attribute);
+    snprintf(out, 64, "%s",
+             strncmp(attribute, "i_geomprop_", 11) == 0 ? attribute + 11 : attribute);
 }
 
 static bool primvar_attribute(const struct scene_object *object, const char *name, uint32_t index,
@@ -312,7 +312,7 @@ bool scene_init_sphere(struct scene *scene, double aspect)
     scene_set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
     scene->projection = matrix_perspective(40.0, aspect, 0.1, 20.0);
     scene->object.world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
-                                   matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
+                                          matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
     return environment_make(&scene->radiance, &scene->irradiance)
            && shape_make("sphere", 1, &scene->object.mesh);
 }
@@ -381,7 +381,8 @@ static struct matrix quad_projection(const struct scene *scene, const double pos
         plane.m[3][i] = origin[i];
     }
     struct matrix to_clip = {{{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 0.25, 0}, {-1, -1, 0.5, 1}}};
-    struct matrix from_plane = matrix_multiply(scene->view, matrix_multiply(scene->object.world, plane));
+    struct matrix from_plane =
+        matrix_multiply(scene->view, matrix_multiply(scene->object.world, plane));
     return matrix_multiply(to_clip, matrix_inverse(from_plane));
 }
 
@@ -392,9 +393,11 @@ bool scene_init_grid(struct scene *scene)
         .normal = {{-0.25, 0.61, 0.07}, {0.35, -0.11, -0.53}, {0.91, 0.08, -0.05}},
         .texcoord = {{0.0313, 0.9371, 0.0129}, {0.0217, 0.0171, 0.9331}},
     };
-    *scene =
-        (struct scene){.environment_samples = 64, .frame = SCENE_FRAME, .studio = matrix_identity(),
-                       .near = SCENE_NEAR, .environment = half_turn()};
+    *scene = (struct scene){.environment_samples = 64,
+                            .frame = SCENE_FRAME,
+                            .studio = matrix_identity(),
+                            .near = SCENE_NEAR,
+                            .environment = half_turn()};
     const double axis[3] = {1, 2, 3}, target[3] = {0.4, -0.3, 0.7};
     scene->object.world =
         matrix_multiply(matrix_translation(target[0], target[1], target[2]),
@@ -402,7 +405,8 @@ bool scene_init_grid(struct scene *scene)
     scene_set_camera(scene, (const double[3]){1.1, 0.9, 4.3}, target);
     scene->projection = quad_projection(scene, grid.position);
     return environment_make(&scene->radiance, &scene->irradiance)
-           && environment_make_test_texture(&scene->texture) && make_quad(&grid, &scene->object.mesh);
+           && environment_make_test_texture(&scene->texture)
+           && make_quad(&grid, &scene->object.mesh);
 }
 
 bool scene_init_plane(struct scene *scene)
@@ -423,7 +427,8 @@ bool scene_init_plane(struct scene *scene)
     scene_set_camera(scene, (const double[3]){0, 0, 3.4}, (const double[3]){0, 0, 0});
     scene->projection = quad_projection(scene, plane.position);
     return environment_make(&scene->radiance, &scene->irradiance)
-           && environment_make_test_texture(&scene->texture) && make_quad(&plane, &scene->object.mesh);
+           && environment_make_test_texture(&scene->texture)
+           && make_quad(&plane, &scene->object.mesh);
 }
 
 void scene_finish(struct scene *scene)

@@ -41,8 +41,8 @@ struct scene {
     struct scene_object object;
     struct matrix view, projection;
     double eye[3], target[3];
-    struct matrix studio;    /* from the studio, where lights are, to the world */
-    double near;             /* a distance that nothing has */
+    struct matrix studio; /* from the studio, where lights are, to the world */
+    double near;          /* a distance that nothing has */
     uint32_t num_lights;
     uint32_t environment_samples;
     int32_t frame;

@@ -24,8 +24,7 @@ struct scene_object *stage_add(struct stage *stage, uint32_t primitive, struct m
 {
     if (stage->num_objects == stage->capacity) {
         stage->capacity = stage->capacity ? 2 * stage->capacity : 16;
-        stage->objects =
-            memory_resize(stage->objects, stage->capacity * sizeof *stage->objects);
+        stage->objects = memory_resize(stage->objects, stage->capacity * sizeof *stage->objects);
     }
     struct stage_object *added = &stage->objects[stage->num_objects++];
     *added = (struct stage_object){
@@ -161,8 +160,8 @@ static void use_camera(const struct stage_camera *camera, double aspect, double 
         scene->target[i] = world.m[3][i] - world.m[2][i];
         distance += (centre[i] - scene->eye[i]) * (centre[i] - scene->eye[i]);
     }
-    scene->projection =
-        matrix_perspective(2 * atan(half) / DEGREE, aspect, radius / 1000, sqrt(distance) + 2 * radius);
+    scene->projection = matrix_perspective(2 * atan(half) / DEGREE, aspect, radius / 1000,
+                                           sqrt(distance) + 2 * radius);
 }
 
 /* The studio's camera looks at the sphere as at a mesh of size 1. */

@@ -15,8 +15,8 @@ struct stage_object {
 };
 
 struct stage_camera {
-    struct matrix world;                     /* it looks along -z, with y upwards */
-    double width, height;                    /* tangents of half its angles */
+    struct matrix world;  /* it looks along -z, with y upwards */
+    double width, height; /* tangents of half its angles */
     char *path;
 };
 

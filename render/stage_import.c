@@ -134,16 +134,15 @@ static void walk(struct importer *in)
         struct visit at = visits[--num];
         bool is_root = at.node == in->scene->mRootNode && !at.node->mNumMeshes;
         struct matrix world = matrix_multiply(at.world, matrix_of(&at.node->mTransformation));
-        char *path = is_root ? cli_format("%s", "")
-                             : add_primitive(in, at.parent, at.node->mName.data);
+        char *path =
+            is_root ? cli_format("%s", "") : add_primitive(in, at.parent, at.node->mName.data);
         add_node(in, at.node, path, world);
         if (num + at.node->mNumChildren > capacity) {
             capacity = 2 * (num + at.node->mNumChildren);
             visits = memory_resize(visits, capacity * sizeof *visits);
         }
         for (unsigned i = at.node->mNumChildren; i-- > 0;)
-            visits[num++] =
-                (struct visit){at.node->mChildren[i], cli_format("%s", path), world};
+            visits[num++] = (struct visit){at.node->mChildren[i], cli_format("%s", path), world};
         free(path);
         free(at.parent);
     }
@@ -152,7 +151,7 @@ static void walk(struct importer *in)
 
 bool stage_import(struct stage *stage, mxg_context *context, const char *path)
 {
-    struct mesh_fault fault;
+    struct mesh_fault fault = {"bad-mesh", "it has no normals"};
     if (!report_status(stage->report, mxg_scene_create(context, &stage->scene)))
         return false;
     const struct aiScene *scene = import_read(path, true, &fault);

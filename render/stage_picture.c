@@ -66,8 +66,8 @@ bool stage_subjects_make(struct painter *painter, const struct stage *stage,
     out->items = memory_alloc(stage->num_objects * sizeof *out->items);
     out->objects = memory_alloc(stage->num_objects * sizeof *out->objects);
     for (uint32_t i = 0; i < stage->num_objects; ++i)
-        dressed[i] = (struct dressed){
-            mxg_bindings_stack(out->bindings, stage->objects[i].primitive), i};
+        dressed[i] =
+            (struct dressed){mxg_bindings_stack(out->bindings, stage->objects[i].primitive), i};
     qsort(dressed, stage->num_objects, sizeof *dressed, compare_dressed);
     group(stage, document, path, dressed, out);
     free(dressed);

@@ -82,8 +82,7 @@ static struct object describe_object(const struct kernel *kernel, uint32_t objec
                                      size_t first_value)
 {
     const struct scene_object *from = &kernel->bind->objects[object];
-    struct object out = {.shader = kernel->first_shader
-                                   + (kernel->num_shaders > 1 ? object : 0),
+    struct object out = {.shader = kernel->first_shader + (kernel->num_shaders > 1 ? object : 0),
                          .blocks_light = !kernel->info.transparent,
                          .first_value = (uint32_t)first_value,
                          .num_triangles = from->mesh.num_indices / 3};
@@ -132,9 +131,9 @@ static bool create_buffers(struct tracer *tracer)
 {
     struct gpu *gpu = tracer->gpu;
     const struct bvh *bvh = &tracer->bvh;
-    size_t pixels = (size_t)tracer->width * tracer->height, corners = 3 * (size_t)bvh->num_triangles;
-    size_t film =
-        (is_displaced(tracer) && corners > pixels ? corners : pixels) * 4 * sizeof(float);
+    size_t pixels = (size_t)tracer->width * tracer->height,
+           corners = 3 * (size_t)bvh->num_triangles;
+    size_t film = (is_displaced(tracer) && corners > pixels ? corners : pixels) * 4 * sizeof(float);
     size_t num_sums;
     float *sums = importance_of_map(&scene_of(tracer)->radiance, &num_sums);
     const struct {

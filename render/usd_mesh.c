@@ -18,7 +18,7 @@ struct usd_mesh {
     uint32_t primitive;
     double *points, *counts, *indices, *normals;
     size_t num_points, num_faces, num_corners, num_normals; /* points and normals: of three */
-    char normals_of; /* 'c'orner, 'f'ace or 'p'oint; 0: none */
+    char normals_of;   /* 'c'orner, 'f'ace or 'p'oint; 0: none */
     uint32_t *subsets; /* by face: 1 + number of a subset, or NO_SUBSET */
     bool is_flipped, is_flat;
 };
@@ -52,7 +52,8 @@ static bool fail_indices(struct usd_mesh *mesh)
         }
     for (size_t i = 0; i < 3 * mesh->num_points; ++i)
         if (!isfinite(mesh->points[i])) {
-            stage_fail(mesh->stage, mesh->primitive, "points", "has numbers that are NaN or infinite");
+            stage_fail(mesh->stage, mesh->primitive, "points",
+                       "has numbers that are NaN or infinite");
             return true;
         }
     return false;
@@ -94,8 +95,7 @@ static bool read_mesh(struct usd_mesh *mesh)
     mesh->num_points /= 3;
     mesh->is_flipped = usd_is(stage, mesh->primitive, "orientation", "leftHanded");
     mesh->is_flat = usd_is(stage, mesh->primitive, "subdivisionScheme", "none");
-    if (!mesh->points || !mesh->counts || !mesh->indices || fail_counts(mesh)
-        || fail_indices(mesh))
+    if (!mesh->points || !mesh->counts || !mesh->indices || fail_counts(mesh) || fail_indices(mesh))
         return false;
     read_normals(mesh);
     return true;

@@ -12,16 +12,18 @@ unsigned usd_components(const char *type, size_t len)
     static const struct {
         const char *name;
         unsigned components;
-    } types[] = {
-        {"bool", 1},       {"uchar", 1},      {"int", 1},        {"uint", 1},       {"int64", 1},
-        {"uint64", 1},     {"half", 1},       {"float", 1},      {"double", 1},     {"int2", 2},
-        {"int3", 3},       {"int4", 4},       {"half2", 2},      {"half3", 3},      {"half4", 4},
-        {"float2", 2},     {"float3", 3},     {"float4", 4},     {"double2", 2},    {"double3", 3},
-        {"double4", 4},    {"texCoord2h", 2}, {"texCoord2f", 2}, {"texCoord2d", 2}, {"texCoord3h", 3},
-        {"texCoord3f", 3}, {"texCoord3d", 3}, {"color3h", 3},    {"color3f", 3},    {"color3d", 3},
-        {"color4h", 4},    {"color4f", 4},    {"color4d", 4},    {"point3h", 3},    {"point3f", 3},
-        {"point3d", 3},    {"normal3h", 3},   {"normal3f", 3},   {"normal3d", 3},   {"vector3h", 3},
-        {"vector3f", 3},   {"vector3d", 3},   {"quath", 4},      {"quatf", 4},      {"quatd", 4}};
+    } types[] = {{"bool", 1},       {"uchar", 1},      {"int", 1},        {"uint", 1},
+                 {"int64", 1},      {"uint64", 1},     {"half", 1},       {"float", 1},
+                 {"double", 1},     {"int2", 2},       {"int3", 3},       {"int4", 4},
+                 {"half2", 2},      {"half3", 3},      {"half4", 4},      {"float2", 2},
+                 {"float3", 3},     {"float4", 4},     {"double2", 2},    {"double3", 3},
+                 {"double4", 4},    {"texCoord2h", 2}, {"texCoord2f", 2}, {"texCoord2d", 2},
+                 {"texCoord3h", 3}, {"texCoord3f", 3}, {"texCoord3d", 3}, {"color3h", 3},
+                 {"color3f", 3},    {"color3d", 3},    {"color4h", 4},    {"color4f", 4},
+                 {"color4d", 4},    {"point3h", 3},    {"point3f", 3},    {"point3d", 3},
+                 {"normal3h", 3},   {"normal3f", 3},   {"normal3d", 3},   {"vector3h", 3},
+                 {"vector3f", 3},   {"vector3d", 3},   {"quath", 4},      {"quatf", 4},
+                 {"quatd", 4}};
     len -= len > 2 && memcmp(type + len - 2, "[]", 2) == 0 ? 2 : 0;
     for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
         if (strlen(types[i].name) == len && memcmp(types[i].name, type, len) == 0)
@@ -55,8 +57,8 @@ struct authored {
 /* The index of a corner's value; SIZE_MAX: there is none. */
 static size_t value_of(const struct authored *from, const struct usd_corners *corners, uint32_t i)
 {
-    size_t at = strcmp(from->interpolation, "constant") == 0     ? 0
-                : strcmp(from->interpolation, "uniform") == 0    ? corners->faces[i]
+    size_t at = strcmp(from->interpolation, "constant") == 0      ? 0
+                : strcmp(from->interpolation, "uniform") == 0     ? corners->faces[i]
                 : strcmp(from->interpolation, "faceVarying") == 0 ? corners->numbers[i]
                                                                   : corners->points[i];
     if (from->indices) {

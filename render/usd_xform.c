@@ -35,8 +35,9 @@ static bool is_op(const char *op, const char *type)
 
 static bool is_rotation(const char *op)
 {
-    static const char *const types[] = {"rotateX",   "rotateY",   "rotateZ",   "rotateXYZ", "rotateXZY",
-                                        "rotateYXZ", "rotateYZX", "rotateZXY", "rotateZYX"};
+    static const char *const types[] = {"rotateX",   "rotateY",   "rotateZ",
+                                        "rotateXYZ", "rotateXZY", "rotateYXZ",
+                                        "rotateYZX", "rotateZXY", "rotateZYX"};
     for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
         if (is_op(op, types[i]))
             return true;
@@ -72,8 +73,10 @@ static struct matrix read_op(struct stage *stage, uint32_t primitive, const char
     bool good = strncmp(name, prefix, strlen(prefix)) == 0
                 && make_matrix(name + strlen(prefix), v, count, &out);
     if (!good)
-        stage_fail(stage, primitive, name, "is no operation of a transform; expected for example "
-                                           "xformOp:translate with three numbers");
+        stage_fail(stage, primitive, "xformOpOrder",
+                   "lists '%s', which is no operation of a transform; expected for example "
+                   "xformOp:translate with three numbers",
+                   name);
     return good && is_inverse ? matrix_inverse(out) : out;
 }
 

@@ -107,8 +107,7 @@ MXG_API double mxg_scene_meters_per_unit(const mxg_scene *scene);
  * *out_document is set like that of mxg_document_parse.
  */
 MXG_API mxg_status mxg_document_with_materials(mxg_context *context, mxg_library *library,
-                                               const mxg_document *document,
-                                               const mxg_scene *scene,
+                                               const mxg_document *document, const mxg_scene *scene,
                                                mxg_document **out_document);
 
 /* ---- Bindings ---- */

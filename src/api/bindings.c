@@ -22,7 +22,10 @@ static void resolve(void *arg)
                                          .num_solo = job->desc.num_solo,
                                          .num_mute = job->desc.num_mute};
     struct diag_list *diags = &object->diagnostics.list;
-    bool needs_look = job->desc.look || look_exists(doc) || !result->scene->scene.bindings.len;
+    const struct scene *scene = &result->scene->scene;
+    /* a stage of USD says itself what is bound, and may bind nothing */
+    bool needs_look =
+        job->desc.look || look_exists(doc) || (!scene->bindings.len && !scene->layer.prims.len);
     elem_id look = needs_look ? look_choose(doc, job->desc.look, diags) : 0;
     if (needs_look && !look)
         return;

@@ -40,11 +40,9 @@ static bool is_hidden(const struct scene *scene, prim_id prim, uint32_t source,
                       struct text_word name)
 {
     const struct usda_property *all = scene->layer.properties.items;
-    for (uint32_t i = scene_source(scene, prim); i != source;
-         i = scene->sources.items[i - 1].next)
+    for (uint32_t i = scene_source(scene, prim); i != source; i = scene->sources.items[i - 1].next)
         for (uint32_t k = prim_of(scene, i)->first_property; k; k = all[k].next)
-            if (all[k].name.len == name.len
-                && memcmp(all[k].name.bytes, name.bytes, name.len) == 0)
+            if (all[k].name.len == name.len && memcmp(all[k].name.bytes, name.bytes, name.len) == 0)
                 return true;
     return false;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Materials of a USD layer as elements of a document. A UsdShade network becomes a nodegraph for
- * the patterns, and nodes beside it for the shaders. The inputs of the Material are the interface of
- * the nodegraph.
+ * the patterns, and nodes beside it for the shaders. The inputs of the Material are the interface
+ * of the nodegraph.
  */
 #include "bind/materials.h"
 
@@ -119,12 +119,12 @@ static str_id value_text(struct maker *m, const struct usda_property *property)
 static const char *type_of(struct text_word type)
 {
     static const char *const types[][2] = {
-        {"color3f", "color3"},   {"color4f", "color4"},     {"float", "float"},
-        {"double", "float"},     {"half", "float"},         {"float2", "vector2"},
-        {"texCoord2f", "vector2"}, {"float3", "vector3"},   {"vector3f", "vector3"},
-        {"normal3f", "vector3"}, {"point3f", "vector3"},    {"float4", "vector4"},
-        {"int", "integer"},      {"bool", "boolean"},       {"string", "string"},
-        {"token", "string"},     {"asset", "filename"},     {"matrix3d", "matrix33"},
+        {"color3f", "color3"},     {"color4f", "color4"},  {"float", "float"},
+        {"double", "float"},       {"half", "float"},      {"float2", "vector2"},
+        {"texCoord2f", "vector2"}, {"float3", "vector3"},  {"vector3f", "vector3"},
+        {"normal3f", "vector3"},   {"point3f", "vector3"}, {"float4", "vector4"},
+        {"int", "integer"},        {"bool", "boolean"},    {"string", "string"},
+        {"token", "string"},       {"asset", "filename"},  {"matrix3d", "matrix33"},
         {"matrix4d", "matrix44"}};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (usda_is(type, types[i][0]))
@@ -190,9 +190,9 @@ static elem_id graph_of(struct maker *m)
         text_init(&name, m->scratch);
         text_put(&name, material->name);
         text_str(&name, "_graph");
-        m->graph = add(m, m->doc->root, "nodegraph",
-                       str_intern(m->doc->strings, name.data, name.len), material->line,
-                       material->column);
+        m->graph =
+            add(m, m->doc->root, "nodegraph", str_intern(m->doc->strings, name.data, name.len),
+                material->line, material->column);
     }
     return m->graph;
 }
@@ -232,7 +232,8 @@ static const struct usda_property *connection_of(struct maker *m, usda_prim_id p
     return usda_find_property(m->layer, &m->layer->prims.items[prim], text_cstr(&text));
 }
 
-/* The port of a definition that USD names: UsdPreviewSurface has "surface" in the place of "out". */
+/* The port of a definition that USD names: UsdPreviewSurface has "surface" in the place of "out".
+ */
 static str_id port_of(struct maker *m, uint32_t nodedef, struct text_word name)
 {
     uint32_t num;
@@ -285,8 +286,7 @@ static str_id output_of(struct maker *m, const struct made_node *node, str_id po
     const struct port *outputs = outputs_of(m, node->nodedef, &num);
     struct text text;
     text_init(&text, m->scratch);
-    text_fmt(&text, "%s_%s",
-             str_text(m->doc->strings, doc_element(m->doc, node->element)->name),
+    text_fmt(&text, "%s_%s", str_text(m->doc->strings, doc_element(m->doc, node->element)->name),
              str_text(m->doc->strings, port));
     str_id name = str_intern(m->doc->strings, text.data, text.len);
     const struct usda_prim *at = &m->layer->prims.items[node->prim];
@@ -370,10 +370,10 @@ static void read_input(struct maker *m, const struct made_node *node,
     struct text_word name = property->name;
     if (name.len <= strlen(prefix) || memcmp(name.bytes, prefix, strlen(prefix)) != 0)
         return;
-    bool is_connection = name.len > strlen(connect_end)
-                         && memcmp(name.bytes + name.len - strlen(connect_end), connect_end,
-                                   strlen(connect_end))
-                                == 0;
+    bool is_connection =
+        name.len > strlen(connect_end)
+        && memcmp(name.bytes + name.len - strlen(connect_end), connect_end, strlen(connect_end))
+               == 0;
     if (!is_connection && connection_of(m, node->prim, name))
         return; /* the connection wins */
     name.bytes += strlen(prefix);
@@ -417,8 +417,8 @@ static bool add_product(struct maker *m, elem_id material, const char *const *ou
 static void add_material(struct maker *m, usda_prim_id prim)
 {
     static const char *const surfaces[] = {"outputs:mtlx:surface", "outputs:surface", NULL};
-    static const char *const displacements[] = {"outputs:mtlx:displacement",
-                                                "outputs:displacement", NULL};
+    static const char *const displacements[] = {"outputs:mtlx:displacement", "outputs:displacement",
+                                                NULL};
     const struct usda_prim *at = &m->layer->prims.items[prim];
     m->material = prim;
     m->graph = 0;
@@ -442,11 +442,8 @@ static void add_material(struct maker *m, usda_prim_id prim)
 void bind_add_materials(const struct scene *scene, struct library *lib, struct arena *scratch,
                         struct diag_list *diags)
 {
-    struct maker m = {.layer = &scene->layer,
-                      .lib = lib,
-                      .doc = &lib->doc,
-                      .scratch = scratch,
-                      .diags = diags};
+    struct maker m = {
+        .layer = &scene->layer, .lib = lib, .doc = &lib->doc, .scratch = scratch, .diags = diags};
     for (usda_prim_id prim = 1; prim < scene->layer.prims.len; prim++) {
         const struct usda_prim *at = &scene->layer.prims.items[prim];
         if (!usda_is(at->type, "Material") || at->is_variant || at->is_inactive)

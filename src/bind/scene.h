@@ -52,10 +52,10 @@ struct scene {
     VEC(prim_id) last; /* the levels of the path that was added last; the next often shares some */
     VEC(struct scene_binding) bindings;
     VEC(struct scene_member) members;
-    struct usda_layer layer;           /* of a stage of USD; otherwise without prims */
+    struct usda_layer layer; /* of a stage of USD; otherwise without prims */
     VEC(struct scene_source) sources;
     VEC(uint32_t) first_source; /* by primitive: 1 + index; shorter than prims: 0 */
-    const char *slot_order; /* with commas; NULL: the scene has none */
+    const char *slot_order;     /* with commas; NULL: the scene has none */
     struct diag_place slot_order_place;
     char *names; /* free part of the block of names */
     size_t names_left;

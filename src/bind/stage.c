@@ -205,9 +205,9 @@ static void add_binding(struct stage *s, prim_id prim, const struct usda_propert
     added.is_strong = usda_is(property->bind_as, "strongerThanDescendants");
     vec_push(s->scene->arena, &s->scene->bindings, added);
     if (said.is_collection)
-        vec_push(s->scratch, &s->pending,
-                 (struct pending){s->scene->bindings.len - 1,
-                                  scene_source(s->scene, prim), collection});
+        vec_push(
+            s->scratch, &s->pending,
+            (struct pending){s->scene->bindings.len - 1, scene_source(s->scene, prim), collection});
 }
 
 /*
@@ -324,7 +324,8 @@ static void visit(struct stage *s, struct visit at)
         vec_push(s->scratch, &s->open, chain[num - 1]);
         above = s->open.len;
     }
-    /* what is visited last is pushed first; what a prim says itself is stronger, so it comes last */
+    /* what is visited last is pushed first; what a prim says itself is stronger, so it comes last
+     */
     push_children(s, at.prim, (struct visit){0, at.from, added, at.to, at.above});
     for (uint32_t i = 0; i < num; i++)
         push_children(s, chain[i].prim,

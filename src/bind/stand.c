@@ -23,8 +23,8 @@ static uint32_t level_of(const struct bindings *b, const struct bind_state *stat
 }
 
 /*
- * Membership in a collection of USD is what the deepest of its paths says, and an exclusion beats an
- * inclusion of the same path (UsdCollectionMembershipQuery). The binding stands at its own prim.
+ * Membership in a collection of USD is what the deepest of its paths says, and an exclusion beats
+ * an inclusion of the same path (UsdCollectionMembershipQuery). The binding stands at its own prim.
  */
 static uint32_t level_of_usd(const struct bindings *b, const struct bind_state *state,
                              const struct look_collection *c)

@@ -41,8 +41,8 @@ struct usda_layer {
     const char *file;
     struct text_word default_prim, up_axis; /* without quotes; len 0: none */
     struct text_word meters_per_unit;       /* a number; len 0: none */
-    VEC(struct usda_prim) prims;          /* a parent stands before its children */
-    VEC(struct usda_property) properties; /* 0 unused */
+    VEC(struct usda_prim) prims;            /* a parent stands before its children */
+    VEC(struct usda_property) properties;   /* 0 unused */
 };
 
 /*
