@@ -142,6 +142,8 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     switch ((enum impl_kind)impl->kind) {
     case IMPL_VERBATIM:
         if (build_is_combined(b, frame)) {
+            diag_add(b->diags, DIAG_ID_builtin_operator, doc_place(&b->lib->doc, impl->element),
+                     build_text(b, def->node), build_text(b, impl->name));
             if (build_dynamic(b, frame, results))
                 return;
             break;

@@ -2,6 +2,8 @@
 /* Implementations: from their elements to parsed functions and expressions. */
 #include "library/index_priv.h"
 
+#include "base/hash.h"
+
 #include <assert.h>
 
 static bool is_closure(doc_type type)
@@ -235,12 +237,55 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
     index_break(ix, impl, is_trusted ? &unfit : &faults);
 }
 
+static bool are_in_one_file(const struct indexer *ix, elem_id a, elem_id b)
+{
+    return strcmp(index_file(ix, a), index_file(ix, b)) == 0;
+}
+
+/*
+ * The implementation of another file for the same definition, target and format; NULL: there is
+ * none. Two implementations of one file are a matter of validation.
+ */
+static struct implementation *find_rival(const struct indexer *ix,
+                                         const struct implementation *impl)
+{
+    uint32_t hash = hash_pair(impl->nodedef, impl->target);
+    for (uint32_t at = hash, found; (found = table_next(&ix->claims, hash, &at));) {
+        struct implementation *other = &ix->lib->impls.items[found - 1];
+        if (other->nodedef == impl->nodedef && other->target == impl->target
+            && index_attr(ix, other->element, STR_format)
+                   == index_attr(ix, impl->element, STR_format)
+            && !are_in_one_file(ix, other->element, impl->element))
+            return other;
+    }
+    return NULL;
+}
+
+/* The later of two libraries wins. */
+static void replace_impl(struct indexer *ix, struct implementation *old,
+                         const struct implementation *impl)
+{
+    const struct document *doc = &ix->lib->doc;
+    diag_add(ix->diags, DIAG_ID_replaced_implementation, doc_name_place(doc, impl->element),
+             index_text(ix, impl->name), index_file(ix, impl->element), index_text(ix, old->name),
+             index_file(ix, old->element),
+             index_text(ix, library_nodedef(ix->lib, impl->nodedef)->name));
+    diag_add(ix->diags, DIAG_ID_previous_definition, doc_name_place(doc, old->element));
+    *old = *impl;
+}
+
 static void add_impl(struct indexer *ix, struct implementation impl)
 {
     struct library *lib = ix->lib;
+    struct implementation *rival = find_rival(ix, &impl);
+    if (rival) {
+        replace_impl(ix, rival, &impl);
+        return;
+    }
     if (impl.nodedef < lib->base_nodedefs)
         vec_push(ix->arena, &lib->overrides, lib->impls.len);
     vec_push(ix->arena, &lib->impls, impl);
+    table_add(&ix->claims, ix->arena, hash_pair(impl.nodedef, impl.target), lib->impls.len);
 }
 
 /* Backwards, so that the first implementation of a definition becomes the head. */

@@ -13,6 +13,7 @@ struct indexer {
     struct arena *arena;
     const struct lang_reader *reader;
     struct diag_list *diags;
+    struct table claims; /* definition and target -> index of an implementation + 1 */
 };
 
 enum { INDEX_MAX_PORTS = 1024 }; /* of the inputs of a definition, because lookups are linear */

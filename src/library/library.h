@@ -253,6 +253,10 @@ uint32_t library_num_nodedefs(const struct library *lib); /* including lower lay
  */
 uint32_t library_first_of_node(const struct library *layer, str_id node);
 
+/* Reports how many implementations of a layer are for targets that mxgen does not have. */
+void library_report_foreign(const struct library *lib, struct arena *scratch,
+                            struct diag_list *diags);
+
 /* The ports of a definition: inputs, then outputs. */
 const struct port *library_ports(const struct library *lib, uint32_t nodedef,
                                  const struct library **out_layer);
