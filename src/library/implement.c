@@ -288,6 +288,40 @@ static void add_impl(struct indexer *ix, struct implementation impl)
     table_add(&ix->claims, ix->arena, hash_pair(impl.nodedef, impl.target), lib->impls.len);
 }
 
+/* True for a node of served.def that gives a closure, a shader or a material. */
+static bool is_operator(const struct indexer *ix, const struct nodedef *def)
+{
+    static const char *const operators[] = {
+#define OPERATOR(node) #node,
+#include "library/served.def"
+    };
+    ir_type_id type =
+        library_type_ir(ix->lib, ix->lib->ports.items[def->first_port + def->num_inputs].type);
+    for (size_t i = 0; i < sizeof operators / sizeof *operators; i++)
+        if (strcmp(operators[i], index_text(ix, def->node)) == 0)
+            return ir_type_is_closure(type) || ir_type_is_shader(type);
+    return false;
+}
+
+void index_operators(struct indexer *ix)
+{
+    struct library *lib = ix->lib;
+    bool *has_one = ARENA_ARRAY(ix->arena, bool, lib->nodedefs.len);
+    for (uint32_t i = 0; i < lib->impls.len; i++) {
+        const struct implementation *impl = &lib->impls.items[i];
+        if (impl->nodedef >= lib->base_nodedefs && impl->kind != IMPL_FOREIGN)
+            has_one[impl->nodedef - lib->base_nodedefs] = true;
+    }
+    for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
+        const struct nodedef *def = &lib->nodedefs.items[i];
+        if (!has_one[i] && def->num_outputs == 1 && is_operator(ix, def))
+            add_impl(ix, (struct implementation){.name = def->name,
+                                                 .element = def->element,
+                                                 .kind = IMPL_DYNAMIC,
+                                                 .nodedef = lib->base_nodedefs + i});
+    }
+}
+
 /* Backwards, so that the first implementation of a definition becomes the head. */
 void index_link_implementations(struct library *lib)
 {

@@ -39,6 +39,12 @@ static inline const char *index_file(const struct indexer *ix, elem_id element)
 /* implement.c: adds the implementation of an <implementation>, or of a functional <nodegraph>. */
 void index_implementation(struct indexer *ix, elem_id element);
 void index_functional_graph(struct indexer *ix, elem_id element);
+/*
+ * Gives mxgen's own code to operators of closures and to materials that lack an implementation for
+ * a target of mxgen. Generators of MaterialX read materials themselves, so its libraries implement
+ * few of them.
+ */
+void index_operators(struct indexer *ix);
 /* Links the implementations of each definition, the first one at its head. */
 void index_link_implementations(struct library *lib);
 
