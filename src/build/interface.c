@@ -107,7 +107,7 @@ struct shader_variable build_describe(struct builder *b, elem_id node, const str
 {
     return (struct shader_variable){
         .name = variable_name(b, node, input),
-        .type = library_type_ir(b->lib, port->type),
+        .type = build_type(b, port->type),
         .doc_type = library_type_name(b->lib, port->type),
         .path = path,
         .element = element ? element : node,

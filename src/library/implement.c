@@ -106,7 +106,36 @@ static bool find_family(struct indexer *ix, struct implementation *impl, str_id 
     return any;
 }
 
-static const char *check_signature(const struct indexer *ix, const struct implementation *impl,
+/* The extra inputs that a function for one target takes after the inputs of its node. */
+static uint32_t find_extra(const struct indexer *ix, const struct implementation *impl,
+                           uint32_t function)
+{
+    const struct lang_unit *unit;
+    const struct lang_function *fn = lang_function(&ix->lib->unit, function, &unit);
+    uint32_t next = library_nodedef(ix->lib, impl->nodedef)->num_inputs, extra = 0;
+    for (uint32_t i = 0; i < LIBRARY_NUM_EXTRA_INPUTS && impl->target; i++) {
+        if (next >= fn->num_params)
+            break;
+        const struct lang_slot *slot = &unit->slots.items[fn->first_slot + next];
+        if (slot->mode != LANG_IN || slot->type != library_extra_inputs[i].type
+            || strcmp(index_text(ix, slot->name), library_extra_inputs[i].name) != 0)
+            continue;
+        extra |= 1u << i;
+        next++;
+    }
+    return extra;
+}
+
+static uint32_t count_extra(uint32_t extra)
+{
+    uint32_t n = 0;
+    for (; extra; extra &= extra - 1)
+        n++;
+    return n;
+}
+
+/* NULL, or the fault of a function's parameters. Keeps its extra inputs. */
+static const char *check_signature(const struct indexer *ix, struct implementation *impl,
                                    uint32_t function)
 {
     const struct lang_unit *unit;
@@ -116,7 +145,9 @@ static const char *check_signature(const struct indexer *ix, const struct implem
     uint32_t outs = fn->return_type == IR_TYPE_VOID ? def->num_outputs : 0u;
     if (library_type_ir(ix->lib, ports[def->num_inputs].type) == IR_TYPE_LIGHT)
         return NULL; /* lights have a different signature, see library.md */
-    if (fn->num_params != def->num_inputs + outs)
+    uint32_t extra = find_extra(ix, impl, function);
+    uint32_t inputs = def->num_inputs + count_extra(extra);
+    if (fn->num_params != inputs + outs)
         return "it needs one parameter per input, then one `out` parameter per output (or a return "
                "value)";
     if (fn->return_type != IR_TYPE_VOID && def->num_outputs != 1)
@@ -124,12 +155,17 @@ static const char *check_signature(const struct indexer *ix, const struct implem
     assert(fn->first_slot + fn->num_params <= unit->slots.len);
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
-        bool out = i >= def->num_inputs;
-        if (slot->type != library_type_ir(ix->lib, ports[i].type))
-            return "a parameter differs in type from its input or output";
+        bool out = i >= inputs, is_extra = i >= def->num_inputs && !out;
         if ((slot->mode != LANG_IN) != out)
             return "inputs need `in` parameters, and outputs need `out` parameters";
+        if (is_extra)
+            continue;
+        ir_type_id type = library_type_ir(ix->lib, ports[out ? i - count_extra(extra) : i].type);
+        bool is_word = impl->target && type == IR_TYPE_STRING && slot->type == IR_TYPE_INT;
+        if (slot->type != type && !is_word)
+            return "a parameter differs in type from its input or output";
     }
+    impl->count = extra;
     return NULL;
 }
 
@@ -190,8 +226,11 @@ static bool parse_source(struct indexer *ix, struct implementation *impl, struct
     } else if (file_name) {
         if (!ix->reader)
             return index_read_source(ix, element, file_name, diags) != 0;
-        file = lang_parse_file(&ix->lib->unit, ix->reader, from, index_text(ix, file_name),
-                               doc_attr_place(&ix->lib->doc, element, STR_file), diags);
+        struct diag_place where = doc_attr_place(&ix->lib->doc, element, STR_file);
+        const char *ref = index_text(ix, file_name);
+        file = index_has_prelude(ix, impl)
+                   ? index_parse_with_prelude(ix, from, ref, where, diags)
+                   : lang_parse_file(&ix->lib->unit, ix->reader, from, ref, where, diags);
         if (file == LANG_NONE)
             return false;
     }
@@ -199,6 +238,8 @@ static bool parse_source(struct indexer *ix, struct implementation *impl, struct
         return index_find_function(ix, impl, function, file, diags);
     if (source && impl->target)
         source = index_expression(ix, source);
+    if (file == LANG_NONE && index_has_prelude(ix, impl))
+        file = index_parse_with_prelude(ix, "", NULL, doc_place(&ix->lib->doc, element), diags);
     return index_parse_expressions(ix, impl, source, file, diags);
 }
 

@@ -213,6 +213,12 @@ str_id library_type_name(const struct library *lib, doc_type type)
     return type >= DOC_TYPE_FIRST_USER ? user_type(lib, type)->name : doc_type_name(type);
 }
 
+elem_id library_typedef(const struct library *lib, doc_type type)
+{
+    assert(type >= DOC_TYPE_FIRST_USER);
+    return user_type(lib, type)->element;
+}
+
 ir_type_id library_type_ir(const struct library *lib, doc_type type)
 {
     return type >= DOC_TYPE_FIRST_USER ? user_type(lib, type)->ir : doc_type_ir(type);

@@ -47,7 +47,7 @@ struct nodedef {
 
 enum impl_kind {
     IMPL_EXPRESSION, /* ref: first of num_outputs expression functions in the layer's refs */
-    IMPL_FUNCTION,   /* ref: lang function id */
+    IMPL_FUNCTION,   /* ref: lang function id; count: bits of library_extra_inputs */
     IMPL_FAMILY,     /* ref: index of the leaf family */
     IMPL_GRAPH,      /* ref: element of the nodegraph */
     /* C code builds it; the node's name selects the code, or `ref` if that is chosen_input */
@@ -276,6 +276,8 @@ uint32_t library_nodedef_by_name(const struct library *lib, str_id name);
 /* A type by name, standard or from a typedef; 0: unknown. And the inverse. */
 doc_type library_type(const struct library *lib, str_id name);
 str_id library_type_name(const struct library *lib, doc_type type);
+elem_id library_typedef(const struct library *lib,
+                        doc_type type); /* of a type that is not standard */
 ir_type_id library_type_ir(const struct library *lib, doc_type type);
 
 /* unit.c: adds the units of a <unitdef>. The caller sorts the units afterwards. */
