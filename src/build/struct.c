@@ -67,7 +67,8 @@ static ir_ref build_members(struct builder *b, doc_type type, struct text_word t
         if (doc_element(doc, e)->kind != KIND_MEMBER || !of_member)
             continue;
         const char *own = build_text(b, doc_attr_value(doc, e, STR_value));
-        struct text_word value = is_default ? (struct text_word){own, strlen(own)} : next_member(&rest);
+        struct text_word value =
+            is_default ? (struct text_word){own, strlen(own)} : next_member(&rest);
         ir_ref member = build_value(b, of_member, value, is_default);
         if (!member)
             return 0;

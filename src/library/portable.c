@@ -46,8 +46,7 @@ const char *index_include_path(struct indexer *ix, const char *from, const char 
         return path;
     text_init(&name, ix->arena);
     text_fmt(&name, "mx_transform_uv%s", suffix ? suffix : "");
-    return index_text(ix,
-                      index_replace_token(ix, path, strlen(path), token, text_cstr(&name)));
+    return index_text(ix, index_replace_token(ix, path, strlen(path), token, text_cstr(&name)));
 }
 
 static bool read_portable(void *user_data, const char *from, const char *ref, const char **out_name,
