@@ -192,8 +192,8 @@ typedef struct mxg_context_desc {
     const char *const *include_roots; /* folders; num_include_roots of them */
     size_t num_include_roots;
     /*
-     * Folders to search for the source files of implementations, after the folder of the referring
-     * file and the folders of libraries; num_source_paths of them
+     * Folders to search for the source files of implementations and for included documents, after
+     * the folder of the referring file and the folders of libraries; num_source_paths of them
      */
     const char *const *source_paths;
     size_t num_source_paths;

@@ -62,6 +62,8 @@ static void map_image(void *arg)
     }
     library->image = data;
     library->image_size = size;
+    library_report_foreign(&library->layer, &load->files.scratch,
+                           &library->object.diagnostics.list);
 }
 
 static void read_file(struct load *load, const char *path)
@@ -125,6 +127,8 @@ static void read_paths(void *arg)
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     library->layer.digest = load->files.digest;
     report_deferred(library);
+    library_report_foreign(&library->layer, &load->files.scratch,
+                           &library->object.diagnostics.list);
     library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
     lang_make_canonical(&library->layer.unit);
 }

@@ -259,8 +259,20 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family);
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
 
+/* struct.c */
+
+/* The type of a graph's nodes for a type of the document. */
+ir_type_id build_type(const struct builder *b, doc_type type);
+/* The value of a struct type: its text, or without text its default. Poison after a report. */
+ir_ref build_struct(struct builder *b, const struct port *port, str_id text, elem_id element);
+
 /* verbatim.c: calls source for one target. Source that mxgen cannot call is an error. */
 void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *results);
+/*
+ * The arguments of a portable function for one target: a string is the index of its word where the
+ * parameter is an int, and extra inputs follow.
+ */
+const ir_ref *build_function_arguments(struct builder *b, const struct frame *frame);
 /* True if the source is the function of a light shader. */
 bool build_is_light_source(const struct builder *b, const struct implementation *impl);
 /* Adds the function of a light shader to the shader; UINT32_MAX after a diagnostic. */

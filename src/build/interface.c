@@ -109,7 +109,7 @@ struct shader_variable build_describe(struct builder *b, elem_id node, const str
 {
     return (struct shader_variable){
         .name = variable_name(b, node, input),
-        .type = library_type_ir(b->lib, port->type),
+        .type = build_type(b, port->type),
         .doc_type = library_type_name(b->lib, port->type),
         .path = path,
         .slot = b->slot,

@@ -456,10 +456,26 @@ static bool are_equal(const struct document *doc, elem_id a, elem_id b)
     return a == b;
 }
 
+/*
+ * True for implementations in two files: libraries may replace each other's, so their index decides
+ * between them. Equal text with a `file` names another file in another folder.
+ */
+static bool are_rivals(const struct document *doc, elem_id first, elem_id second, bool equal)
+{
+    if (doc_element(doc, first)->kind != KIND_IMPLEMENTATION
+        || doc_element(doc, second)->kind != KIND_IMPLEMENTATION
+        || (equal && !doc_attr(doc, second, STR_file)))
+        return false;
+    const char *file = doc_place(doc, first).file, *other = doc_place(doc, second).file;
+    return file && other && strcmp(file, other) != 0;
+}
+
 static void report_duplicate(struct document *doc, elem_id first, elem_id second,
                              struct diag_list *diags)
 {
     bool equal = are_equal(doc, first, second);
+    if (are_rivals(doc, first, second, equal))
+        return;
     diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name,
              doc_name_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
     diag_add(diags, DIAG_ID_previous_definition, doc_name_place(doc, first));

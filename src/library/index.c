@@ -290,6 +290,7 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     for_each(&ix, KIND_GEOMPROPDEF, add_geomprop);
     for_each(&ix, KIND_IMPLEMENTATION, index_implementation);
     for_each(&ix, KIND_NODEGRAPH, index_functional_graph);
+    index_operators(&ix);
     index_link_implementations(&ix);
     for_each(&ix, KIND_UNITDEF, add_unitdef);
     library_sort_units(lib);

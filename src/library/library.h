@@ -47,7 +47,7 @@ struct nodedef {
 
 enum impl_kind {
     IMPL_EXPRESSION, /* ref: first of num_outputs expression functions in the layer's refs */
-    IMPL_FUNCTION,   /* ref: lang function id */
+    IMPL_FUNCTION,   /* ref: lang function id; count: bits of library_extra_inputs */
     IMPL_FAMILY,     /* ref: index of the leaf family */
     IMPL_GRAPH,      /* ref: element of the nodegraph */
     /* C code builds it; the node's name selects the code, or `ref` if that is chosen_input */
@@ -258,6 +258,10 @@ uint32_t library_first_of_node(const struct library *layer, str_id node);
  */
 uint32_t library_first_override(const struct library *layer, uint32_t nodedef);
 
+/* Reports how many implementations of a layer are for targets that mxgen does not have. */
+void library_report_foreign(const struct library *lib, struct arena *scratch,
+                            struct diag_list *diags);
+
 /* The ports of a definition: inputs, then outputs. */
 const struct port *library_ports(const struct library *lib, uint32_t nodedef,
                                  const struct library **out_layer);
@@ -277,6 +281,8 @@ uint32_t library_nodedef_by_name(const struct library *lib, str_id name);
 /* A type by name, standard or from a typedef; 0: unknown. And the inverse. */
 doc_type library_type(const struct library *lib, str_id name);
 str_id library_type_name(const struct library *lib, doc_type type);
+elem_id library_typedef(const struct library *lib,
+                        doc_type type); /* of a type that is not standard */
 ir_type_id library_type_ir(const struct library *lib, doc_type type);
 
 /* unit.c: adds the units of a <unitdef>. The caller sorts the units afterwards. */

@@ -189,7 +189,7 @@ int main(int argc, char **argv)
     int code = 1;
     if (mxg_context_create(NULL, &context) == MXG_OK
         && (library = mxg_library_builtin(context)) != NULL && scene_init_grid(&run.scene)
-        && suite_open(&run.suite, argv[1])) {
+        && suite_open(&run.suite, argv[1], NULL)) {
         for (size_t i = 0; i < run.suite.num_documents; ++i)
             check_document(&run, context, library, i);
         size_t computed = run.suite.agree + run.suite.deviate + run.suite.undefined;
