@@ -121,10 +121,10 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
 /* A number from 0 to below 1 that picks a layer at a point. */
 ir_ref closure_layer_number(struct shader *shader, ir_ref point);
 /*
- * A layer whose textures take explicit derivatives, so that not all neighbours need to run it;
- * except textures that the weights of the stack read, too.
+ * A stack whose layers read textures with explicit derivatives, so that not all neighbours need to
+ * run a layer; except textures that the weights read, too.
  */
-ir_ref closure_own_textures(struct shader *shader, ir_ref surface, ir_ref slots);
+ir_ref closure_own_textures(struct shader *shader, ir_ref slots);
 /*
  * The value in another loop over the lights or samples: 0 is the first one. The current light of
  * one loop is not that of another.

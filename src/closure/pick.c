@@ -157,29 +157,34 @@ static ir_ref with_derivatives(struct rewriting *r, ir_ref ref)
     return ir_build(g, IR_TEX_GRAD, ir_type_of(g, ref), 0, args, 4);
 }
 
-ir_ref closure_own_textures(struct shader *shader, ir_ref surface, ir_ref slots)
+/* The nodes that the weights read: they are computed before the branch anyway. */
+static const uint8_t *mark_shared(struct shader *shader, ir_ref slots)
 {
-    struct rewriting r = {shader, shader->graph, surface + 1, NULL};
+    const struct ir_graph *g = shader->graph;
     uint32_t num = 0;
-    ir_ref *shared = ARENA_ARRAY(shader->arena, ir_ref, ir_get(r.graph, slots)->num_args);
-    for (unsigned i = 0; i < ir_num_slots(r.graph, slots); i++)
-        shared[num++] = ir_slot(r.graph, slots, i).weight;
-    shared[num++] = ir_arg(r.graph, slots, 0);
-    /* what the weights read is computed before the branch anyway */
-    const uint8_t *is_shared = ir_mark(r.graph, shared, num, shader->arena);
-    uint32_t num_marked = r.graph->nodes.len;
-    const uint8_t *needed = ir_mark(r.graph, &surface, 1, shader->arena);
+    ir_ref *shared = ARENA_ARRAY(shader->arena, ir_ref, ir_get(g, slots)->num_args);
+    for (unsigned i = 0; i < ir_num_slots(g, slots); i++)
+        shared[num++] = ir_slot(g, slots, i).weight;
+    shared[num++] = ir_arg(g, slots, 0);
+    return ir_mark(g, shared, num, shader->arena);
+}
+
+ir_ref closure_own_textures(struct shader *shader, ir_ref slots)
+{
+    struct rewriting r = {shader, shader->graph, slots + 1, NULL};
+    const uint8_t *is_shared = mark_shared(shader, slots),
+                  *needed = ir_mark(r.graph, &slots, 1, shader->arena);
     r.became = ARENA_ARRAY(shader->arena, ir_ref, r.num_nodes);
     for (ir_ref ref = 1; ref < r.num_nodes; ref++) {
         r.became[ref] = ref;
-        if (!needed[ref] || (ref < num_marked && is_shared[ref]))
+        if (!needed[ref] || is_shared[ref])
             continue;
         ir_push_origin_of(r.graph, ref);
         bool is_texture = ir_get(r.graph, ref)->op == IR_TEX;
         r.became[ref] = is_texture ? with_derivatives(&r, ref) : over_copies(&r, ref, 0);
         ir_pop_origin(r.graph);
     }
-    return r.became[surface];
+    return r.became[slots];
 }
 
 ir_ref closure_in_loop(struct shader *shader, ir_ref root, uint32_t loop)

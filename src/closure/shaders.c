@@ -249,26 +249,34 @@ struct closure_surface *closure_slot_surfaces(struct shader *shader,
     return layers;
 }
 
+/* The alpha of a surface that is made of no other ones. */
+static ir_ref alpha_of_leaf(struct ir_graph *g, ir_ref ref)
+{
+    const struct ir_node node = *ir_get(g, ref);
+    if (node.op == IR_SURFACE_SHADER)
+        return ir_arg(g, ref, 2);
+    if (node.op == IR_SURFACE_UNLIT)
+        return unlit_surface(g, ir_arg(g, ref, 0), ir_arg(g, ref, 1), ir_arg(g, ref, 2)).alpha;
+    return ir_const_float(g, 1.0f);
+}
+
 /* Only alphas: the same as closure_surface_of without closures. */
 ir_ref closure_surface_alpha(struct shader *shader, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
+    if (ir_get(g, root)->op != IR_SHADER_MIX)
+        return alpha_of_leaf(g, root);
     ir_ref *alphas = ARENA_ARRAY(shader->arena, ir_ref, root + 1), one = ir_const_float(g, 1.0f);
     uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++) {
-        const struct ir_node node = *ir_get(g, ref);
-        if (!needed[ref] || node.type != IR_TYPE_SURFACE)
+        if (!needed[ref] || ir_type_of(g, ref) != IR_TYPE_SURFACE)
             continue;
-        alphas[ref] = one;
-        if (node.op == IR_SURFACE_SHADER)
-            alphas[ref] = ir_arg(g, ref, 2);
-        else if (node.op == IR_SURFACE_UNLIT)
-            alphas[ref] =
-                unlit_surface(g, ir_arg(g, ref, 0), ir_arg(g, ref, 1), ir_arg(g, ref, 2)).alpha;
-        else if (node.op == IR_SHADER_MIX)
-            alphas[ref] = ir_op3(
-                g, IR_MIX, alphas[ir_arg(g, ref, 0)] ? alphas[ir_arg(g, ref, 0)] : one,
-                alphas[ir_arg(g, ref, 1)] ? alphas[ir_arg(g, ref, 1)] : one, ir_arg(g, ref, 2));
+        if (ir_get(g, ref)->op != IR_SHADER_MIX) {
+            alphas[ref] = alpha_of_leaf(g, ref);
+            continue;
+        }
+        ir_ref bg = alphas[ir_arg(g, ref, 0)], fg = alphas[ir_arg(g, ref, 1)];
+        alphas[ref] = ir_op3(g, IR_MIX, bg ? bg : one, fg ? fg : one, ir_arg(g, ref, 2));
     }
     assert(alphas[root]);
     return alphas[root];

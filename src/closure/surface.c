@@ -385,16 +385,6 @@ static void light_surface(struct emitter *e, const struct closure_surface *s)
 
 /* ---- one layer of a stack ---- */
 
-static ir_ref own_textures(struct emitter *e, ir_ref slots)
-{
-    uint32_t num_args = ir_get(e->graph, slots)->num_args;
-    ir_ref *args = ARENA_ARRAY(e->shader->arena, ir_ref, num_args);
-    memcpy(args, ir_args(e->graph, slots), num_args * sizeof *args);
-    for (uint32_t i = 1; i < num_args; i += IR_SLOT_OPERANDS)
-        args[i] = args[i] ? closure_own_textures(e->shader, args[i], slots) : 0;
-    return ir_build(e->graph, IR_SLOTS, IR_TYPE_SURFACE, 0, args, num_args);
-}
-
 /* A path tracer always picks. */
 static void scatter_stack(struct emitter *e, ir_ref slots)
 {
@@ -441,7 +431,7 @@ static void emit_picked(struct emitter *e, ir_ref slots)
     ir_ref one = ir_const_float(g, 1.0f), nothing = ir_const_float(g, 0.0f);
     ir_ref number = closure_layer_number(e->shader, closure_position(e->shader, e->host));
     struct closure_choices choices = {0};
-    closure_choose(e->shader, e->host, own_textures(e, slots), number, &choices);
+    closure_choose(e->shader, e->host, closure_own_textures(e->shader, slots), number, &choices);
     declare_color(e);
     for (uint32_t i = 0; i < choices.items.len; i++)
         emit_layer(e, &choices.items.items[i]);
