@@ -101,12 +101,11 @@ static struct page_layer describe(struct page *page, const mxg_layer *layer)
 {
     char *place = cli_format("%s%s%s %s:%u", layer->look, *layer->look ? "/" : "", layer->assign,
                              layer->file, layer->line);
-    struct page_layer out = {
-        .kind = (uint32_t)layer->kind,
-        .slot = number_of_text(page, layer->slot),
-        .material = number_of_text(page, layer->material),
-        .depth = layer->from == UINT32_MAX ? 0 : page->depths[layer->from],
-        .place = number_of_text(page, place)};
+    struct page_layer out = {.kind = (uint32_t)layer->kind,
+                             .slot = number_of_text(page, layer->slot),
+                             .material = number_of_text(page, layer->material),
+                             .depth = layer->from == UINT32_MAX ? 0 : page->depths[layer->from],
+                             .place = number_of_text(page, place)};
     free(place);
     return out;
 }
@@ -233,13 +232,14 @@ void bind_page_write(FILE *out, const mxg_scene *scene, const mxg_bindings *bind
           "<style>\n",
           out);
     markup_lines(out, layers_style);
-    fputs("</style>\n<header><h1>Layers</h1><input type=\"search\" placeholder=\"path, slot or "
-          "material\" aria-label=\"Search\"><button id=\"fold\">Fold all</button><button "
-          "id=\"unfold\">Unfold all</button><output></output></header>\n"
-          "<main><div id=\"list\" tabindex=\"0\"><div id=\"rows\"></div></div>"
-          "<aside id=\"detail\"><p>Click on a layer to see where it comes from.</p></aside></main>\n"
-          "<script id=\"look\" type=\"application/json\">",
-          out);
+    fputs(
+        "</style>\n<header><h1>Layers</h1><input type=\"search\" placeholder=\"path, slot or "
+        "material\" aria-label=\"Search\"><button id=\"fold\">Fold all</button><button "
+        "id=\"unfold\">Unfold all</button><output></output></header>\n"
+        "<main><div id=\"list\" tabindex=\"0\"><div id=\"rows\"></div></div>"
+        "<aside id=\"detail\"><p>Click on a layer to see where it comes from.</p></aside></main>\n"
+        "<script id=\"look\" type=\"application/json\">",
+        out);
     put_text(out, title, strlen(title));
     fputs("</script>\n<script id=\"data\" type=\"application/json\">\n", out);
     put_data(&page);

@@ -8,7 +8,6 @@
 
 #include <stdio.h>
 
-
 /* `title` is the name of the look. */
 void bind_page_write(FILE *out, const mxg_scene *scene, const mxg_bindings *bindings,
                      const char *title);

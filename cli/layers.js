@@ -145,6 +145,11 @@ function tell(row, layer) {
   add("comes from", link(from));
   add("assignment", data.texts[layer[4]]);
   let number = 0;
+  const atRoot = data.sets.flat().find(other => other[1] === layer[1] && other[0] === layer[0] && !other[3]);
+  if (atRoot) {
+    places.append(element("li", "", "/ " + data.texts[atRoot[2]]));
+    number++;
+  }
   for (let at = 0; at < count; at++)
     for (const other of set(at))
       if (other[1] === layer[1] && other[0] === layer[0] && other[3] === depth(at) && number++ < MOST) {
@@ -153,7 +158,7 @@ function tell(row, layer) {
         places.append(item);
       }
   keep({at: path(row), layer: set(row).indexOf(layer)});
-  detail.replaceChildren(element("h2", "", label(layer)), terms, element("h2", "", `set at ${number} primitives`), places);
+  detail.replaceChildren(element("h2", "", label(layer)), terms, element("h2", "", `set at ${number} path${number === 1 ? "" : "s"}`), places);
 }
 
 rows.addEventListener("click", event => {

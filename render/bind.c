@@ -375,7 +375,8 @@ static bool bind_textures(struct bind *bind)
         if (variable.block == MXG_BLOCK_TEXTURES && !bind_texture(bind, i, &variable))
             return false;
     }
-    return true;
+    return bind->checker || !bind->num_faults
+           || fail_as(bind, "missing-texture", "%s", bind->faults[0].reason);
 }
 
 /* ---- Attributes ---- */
@@ -540,6 +541,7 @@ void bind_finish(struct bind *bind)
     }
     for (uint32_t i = 0; i < bind->num_images; ++i)
         image_finish(&bind->images[i]);
+    free(bind->faults);
     free(bind->draw.objects);
     free(bind->orders);
 }

@@ -351,7 +351,7 @@ if [ -n "$browser" ]; then
     check 'by layers, too' seen 'filter=varnish' '"handle" in rows and "shell" not in rows'
     check 'a folded tree' seen 'fold=all' 'list(rows) == ["device"]'
     check 'where a layer comes from' seen 'at=/device/case/shell&layer=2' '"/device/case/shell" in detail and "dirty/dirt" in detail and "slots.mtlx:" in detail'
-    check 'and every place where its slot is set' seen 'at=/device/case/shell&layer=0' '"set at" in detail and "/device/screen/glass" in detail and "glass" in detail'
+    check 'and every place where its slot is set' seen 'at=/device/case/shell&layer=0' '"set at" in detail and "paths" in detail and "/device/screen/glass" in detail and "glass" in detail'
     seq 0 99999 | awk '{ printf "/set/g%d/h%d/p%d\n", $1 / 1000, $1 / 10, $1 }' >large.txt
     check 'a page of 100,000 primitives' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage large.txt --look base --html large.html
     check 'has the rows in view only' env page=large.html height=800 bash -c "$(declare -f seen); work='$work' browser='$browser'; seen '' '10 < len(rows) < 60 and output.startswith(\"110101 of\")'"
