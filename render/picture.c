@@ -230,11 +230,12 @@ static void tell_warning(struct painter *painter, const struct bind *bind,
                          const struct subject *subject)
 {
     if (bind->num_lacking)
-        report_warning(&painter->cli->report, "missing-primvar",
-                       "'%s' has no primvar for '%s', which '%s' reads%s; its default, or 0, stands "
-                       "in",
-                       bind->lacking, property_of(bind->lacked), subject->element,
-                       bind->num_lacking > 1 ? " (and others)" : "");
+        report_warning(
+            &painter->cli->report, "missing-primvar",
+            "'%s' has no primvar for '%s', which '%s' reads%s; its default, or 0, stands "
+            "in",
+            bind->lacking, property_of(bind->lacked), subject->element,
+            bind->num_lacking > 1 ? " (and others)" : "");
     tell_textures(painter, bind, subject); /* checkers replace them */
     if (bind->reason[0])                   /* a texture has bad pixels */
         report_warning(&painter->cli->report, bind->id, "%s", bind->reason);

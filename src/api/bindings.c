@@ -168,6 +168,7 @@ struct write_job {
     bool (*write)(void *user_data, const char *data, size_t size);
     void *user_data;
     bool is_stopped;
+    uint32_t num_lost;
 };
 
 static void flush_text(void *user_data, struct text *out)
@@ -190,10 +191,11 @@ static void write_all(void *arg, struct arena *scratch)
                                  .user_data = job,
                                  .colour = job->format == MXG_BINDINGS_TABLE_COLOUR};
     bind_writer_init(&writer);
-    if (job->format == MXG_BINDINGS_JSON)
-        bind_write_json(&writer);
-    else
-        bind_write_table(&writer);
+    switch (job->format) {
+    case MXG_BINDINGS_JSON: bind_write_json(&writer); break;
+    case MXG_BINDINGS_USDA: job->num_lost = bind_write_usda(&writer); break;
+    default: bind_write_table(&writer); break;
+    }
     flush_text(job, &out);
 }
 
@@ -201,10 +203,11 @@ mxg_status mxg_bindings_write(const mxg_bindings *bindings, mxg_bindings_format 
                               bool (*write)(void *user_data, const char *data, size_t size),
                               void *user_data)
 {
-    if (!bindings || !bindings->is_resolved || !write || (unsigned)format > MXG_BINDINGS_JSON)
+    if (!bindings || !bindings->is_resolved || !write || (unsigned)format > MXG_BINDINGS_USDA)
         return MXG_ERROR_ARGUMENT;
-    struct write_job job = {bindings, format, 0, write, user_data, false};
-    return context_run(bindings->object.context, write_all, &job);
+    struct write_job job = {bindings, format, 0, write, user_data, false, 0};
+    mxg_status status = context_run(bindings->object.context, write_all, &job);
+    return status == MXG_OK && job.num_lost ? MXG_ERROR_DOCUMENT : status;
 }
 
 static void write_reasons(void *arg, struct arena *scratch)
@@ -222,6 +225,6 @@ mxg_status mxg_bindings_explain(const mxg_bindings *bindings, uint32_t primitive
 {
     if (!state_of(bindings, primitive) || !write)
         return MXG_ERROR_ARGUMENT;
-    struct write_job job = {bindings, MXG_BINDINGS_TABLE, primitive, write, user_data, false};
+    struct write_job job = {bindings, MXG_BINDINGS_TABLE, primitive, write, user_data, false, 0};
     return context_run(bindings->object.context, write_reasons, &job);
 }

@@ -237,12 +237,18 @@ void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal)
 
 /* The materials of a scene are those of the documents, by the names of their prims. */
 static bool find_bound(struct bind_look *look, struct look_assign *assign,
-                       const struct scene_binding *binding)
+                       const struct scene_binding *binding, bool is_override)
 {
     const char *material = binding->material;
     str_id name = str_find(look->doc->strings, material, strlen(material));
     if (!*material || (name && set_material(look, assign, name)))
         return true;
+    elem_id graph = name && is_override ? doc_top_level(look->doc, KIND_NODEGRAPH, name) : 0;
+    if (graph) {
+        assign->target = graph;
+        assign->kind = ASSIGN_GRAPH;
+        return true;
+    }
     struct diag_guess guess;
     const char *near = "";
     if (diag_guess_begin(&guess, look->diags, material)) {
@@ -293,9 +299,9 @@ void look_read_binding(struct bind_look *look, uint32_t number)
     struct slot_name name;
     const char *text = binding->name;
     slot_parse(text, strlen(text), &name); /* the reader of the scene has checked it */
-    if (!find_bound(look, &assign, binding))
+    if (!find_bound(look, &assign, binding, name.parts[SLOT_OVERRIDE].len != 0))
         return;
-    if (name.parts[SLOT_OVERRIDE].len && assign.target)
+    if (name.parts[SLOT_OVERRIDE].len && assign.target && assign.kind != ASSIGN_GRAPH)
         assign.kind = ASSIGN_LAYER;
     if (assign.kind == ASSIGN_VOLUME || assign.kind == ASSIGN_LIGHT)
         move_beside(look, &assign, &name, &text);

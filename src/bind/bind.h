@@ -146,5 +146,10 @@ struct bind_writer {
 void bind_writer_init(struct bind_writer *writer);
 void bind_write_table(struct bind_writer *writer);
 void bind_write_json(struct bind_writer *writer);
+/*
+ * write_usda.c: returns how often a primitive has something that slot bindings cannot hold:
+ * products of weaker assignments, variants, a volume beside a layer.
+ */
+uint32_t bind_write_usda(struct bind_writer *writer);
 
 #endif
