@@ -42,8 +42,9 @@ def draw(type_, reference, name):
     return f'  <output name="{name}" type="{type_}" {reference}/>\n'
 
 
-def document(definition):
-    """The text of the document; None: nothing draws the node."""
+def document(definition, prefix):
+    """The text of the document; None: nothing draws the node. `prefix` is the namespace of the file, with its colon."""
+    prefix = f"{definition.get('namespace')}:" if definition.get("namespace") else prefix
     outputs = definition.findall("output")
     type_ = outputs[0].get("type") if len(outputs) == 1 else "multioutput"
     if type_ == "lightshader":  # every lit surface has the default lights
@@ -55,8 +56,8 @@ def document(definition):
             sources += f"  {SOURCES[port.get('type')].format(name=name)}\n"
             inputs += f'<input name="{port.get("name")}" type="{port.get("type")}" nodename="{name}"/>'
     version = f' version="{definition.get("version")}"' if definition.get("version") else ""
-    node = definition.get("node")
-    text = f'{sources}  <{node} name="n" type="{type_}" nodedef="{definition.get("name")}"{version}>{inputs}</{node}>\n'
+    node = prefix + definition.get("node")
+    text = f'{sources}  <{node} name="n" type="{type_}" nodedef="{prefix}{definition.get("name")}"{version}>{inputs}</{node}>\n'
     for output in outputs:
         reference = 'nodename="n"' + (f' output="{output.get("name")}"' if len(outputs) > 1 else "")
         text += draw(output.get("type"), reference, f"drawn_{output.get('name')}")
@@ -70,8 +71,10 @@ def write(libraries, folder):
     """Writes the documents; returns the names of the definitions that have one, and of the others."""
     written, others = [], []
     for file in sorted(pathlib.Path(libraries).rglob("*.mtlx")):
-        for definition in ElementTree.parse(file).getroot().iter("nodedef"):
-            text = document(definition) if definition.findall("output") else None
+        root = ElementTree.parse(file).getroot()
+        prefix = f"{root.get('namespace')}:" if root.get("namespace") else ""
+        for definition in root.iter("nodedef"):
+            text = document(definition, prefix) if definition.findall("output") else None
             (written if text else others).append(definition.get("name"))
             if text:
                 (folder / f"{definition.get('name')}.mtlx").write_text(text)

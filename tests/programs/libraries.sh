@@ -73,4 +73,74 @@ rm documents/shared/ash.mtlx && mkdir documents/shared/ash.mtlx
 check 'an include that cannot be read' exits 1 "$mxgen" documents/outer.mtlx -o made --source-path elsewhere
 check 'is not looked for elsewhere' grep -q 'outer.mtlx:2:' err
 
+# Source for genglsl is read as portable where it can be: functions of MaterialX's generators, words as numbers, implicit inputs, tokens of
+# textures. So it folds.
+mkdir -p portable
+cat >portable/defs.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_rest" node="rest"><input name="in" type="float" value="1"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_rest" nodedef="ND_rest" target="genglsl" sourcecode="mx_mod({{in}}, 0.75) * mx_square(M_PI / M_PI);"/>
+  <nodedef name="ND_pick" node="pick">
+    <input name="mode" type="string" value="third" enum="first, second, third" uniform="true"/><output name="out" type="float"/>
+  </nodedef>
+  <implementation name="IM_pick" nodedef="ND_pick" target="genglsl" file="pick.glsl" function="pick"/>
+  <nodedef name="ND_read" node="read"><input name="file" type="filename" value="" uniform="true"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_read" nodedef="ND_read" target="genglsl" file="read.glsl" function="read"/>
+</materialx>
+END
+cat >portable/pick.glsl <<'END'
+#include "lib/$fileTransformUv"
+void pick(int mode, vec2 uv_scale, vec2 uv_offset, out float result)
+{
+    result = mx_transform_uv(vec2(float(mode) * 0.25), uv_scale, uv_offset).x;
+}
+END
+mkdir -p portable/lib
+echo 'vec2 mx_transform_uv(vec2 uv, vec2 scale, vec2 offset) { return uv * scale + offset; }' >portable/lib/mx_transform_uv.glsl
+cat >portable/read.glsl <<'END'
+void read($texSamplerSignature, out float result)
+{
+    result = texture($texSamplerSampler2D, vec2(0.25)).x;
+}
+END
+cat >portable.mtlx <<'END'
+<materialx version="1.39">
+  <rest name="a" type="float"/><output name="rest" type="float" nodename="a"/>
+  <pick name="b" type="float"/><output name="pick" type="float" nodename="b"/>
+  <read name="c" type="float"><input name="file" type="filename" value="x.png"/></read><output name="read" type="float" nodename="c"/>
+</materialx>
+END
+check 'source for genglsl' exits 0 "$mxgen" portable.mtlx --interface reduced --library portable -o made
+check 'functions of the generators fold' grep -qF 'vec4(0.25, 0.25, 0.25, 1.0)' made/rest.frag
+check 'a word is a number, and inputs are implicit' grep -qF 'vec4(0.5, 0.5, 0.5, 1.0)' made/pick.frag
+check 'tokens of textures' grep -q 'texture(.*vec2(0.25))' made/read.frag
+check 'without a copied function' test "$(grep -c 'void read' made/read.frag)" = 0
+
+# Operators and materials that only foreign targets implement are mxgen's own.
+cat >operators.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_surface" node="surface">
+    <input name="bsdf" type="BSDF" value=""/><input name="edf" type="EDF" value=""/>
+    <input name="opacity" type="float" value="1"/><input name="thin_walled" type="boolean" value="false" uniform="true"/>
+    <output name="out" type="surfaceshader"/>
+  </nodedef>
+  <implementation name="IM_surface" nodedef="ND_surface" target="genmdl" file="none.mdl" function="surface"/>
+  <nodedef name="ND_surfacematerial" node="surfacematerial">
+    <input name="surfaceshader" type="surfaceshader" value=""/><input name="backsurfaceshader" type="surfaceshader" value=""/>
+    <input name="displacementshader" type="displacementshader" value=""/><output name="out" type="material"/>
+  </nodedef>
+  <nodedef name="ND_other" node="other"><output name="out" type="surfaceshader"/></nodedef>
+</materialx>
+END
+cat >material.mtlx <<'END'
+<materialx version="1.39">
+  <surface name="s" type="surfaceshader"/>
+  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+</materialx>
+END
+check 'operators without implementations' exits 0 "$mxgen" material.mtlx --no-builtin-library --library operators.mtlx -o made
+sed 's/<surface name="s" type="surfaceshader"/<other name="s" type="surfaceshader"/' material.mtlx >other.mtlx
+check 'other nodes without implementations' exits 1 "$mxgen" other.mtlx --no-builtin-library --library operators.mtlx -o made
+check 'are an error' grep -q 'missing-implementation' err
+
 finish libraries
