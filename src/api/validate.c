@@ -163,16 +163,42 @@ static void check_look(struct generation *g, elem_id element, struct told *told)
     }
 }
 
+/* The look of this layer that a look inherits; 0: none. */
+static elem_id parent_of(const struct document *doc, elem_id look)
+{
+    str_id base = doc_attr_value(doc, look, STR_inherit);
+    elem_id parent = base ? doc_top_level(doc, KIND_LOOK, base) : 0;
+    return parent >= doc->first_element ? parent : 0;
+}
+
+/*
+ * A look is read with all that it inherits, so only those that no other look inherits are read; and
+ * one of each cycle, in which all are inherited.
+ */
 static void check_looks(struct generation *g)
 {
+    enum { INHERITED = 1, DONE = 2 };
     const struct document *doc = &g->document->layer.doc;
     const struct diag_list *diags = &g->result->object.diagnostics.list;
+    elem_id begin = doc_element(doc, doc->root)->first_child, zero = doc->first_element;
+    uint8_t *states = ARENA_ARRAY(&g->scratch, uint8_t, doc->elements.len);
     struct told told = {.arena = &g->scratch};
     for (uint32_t i = 0; i < diags->items.len; i++)
         tell_place(&told, diags->items.items[i].place);
-    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_LOOK)
+    for (elem_id e = begin; e; e = doc_element(doc, e)->next) {
+        elem_id parent = doc_element(doc, e)->kind == KIND_LOOK ? parent_of(doc, e) : 0;
+        if (parent)
+            states[parent - zero] = INHERITED;
+    }
+    for (uint8_t skipped = INHERITED | DONE; skipped; skipped = skipped & INHERITED ? DONE : 0)
+        for (elem_id e = begin; e; e = doc_element(doc, e)->next) {
+            if (doc_element(doc, e)->kind != KIND_LOOK || states[e - zero] & skipped)
+                continue;
             check_look(g, e, &told);
+            for (elem_id read = e; read && !(states[read - zero] & DONE);
+                 read = parent_of(doc, read))
+                states[read - zero] |= DONE;
+        }
 }
 
 static void validate(struct generation *g)
