@@ -103,6 +103,9 @@ static void set_build_options(struct generation *g)
         .texture_fault = stdio_texture_fault,
         .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
+        .vertex_stage = (caps & CAP_VERTEX_STAGE) && o[OPTION_integrator].number != 2,
+        .codes = context->codes,
+        .num_codes = context->num_codes,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
     };

@@ -471,6 +471,37 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
     return as_wanted(shader->graph, shader_read(shader, index), type);
 }
 
+/* The variable that carries this value already; UINT32_MAX: there is none. */
+static uint32_t find_computed(const struct shader *shader, ir_ref value)
+{
+    const struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
+    for (uint32_t i = 0; i < effects->len; i++)
+        if (effects->items[i].kind == EFFECT_OUTPUT && effects->items[i].value == value
+            && shader->variables.items[effects->items[i].index].is_computed)
+            return effects->items[i].index;
+    return UINT32_MAX;
+}
+
+ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value)
+{
+    ir_type_id type = ir_type_of(shader->graph, value);
+    uint32_t index = find_computed(shader, value);
+    assert(type >= IR_TYPE_INT && type <= IR_TYPE_VEC4);
+    if (index == UINT32_MAX) {
+        struct shader_variable variable = {.name = name,
+                                           .block = BLOCK_VERTEX_DATA,
+                                           .type = type,
+                                           .flat = ir_type_info(type)->scalar != IR_TYPE_FLOAT,
+                                           .is_computed = true,
+                                           .rank = UINT16_MAX,
+                                           .semantic = name};
+        index = shader_add_variable(shader, &variable);
+        shader_effect(shader, STAGE_VERTEX,
+                      (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
+    }
+    return shader_read(shader, index);
+}
+
 void shader_effect(struct shader *shader, enum shader_stage_id stage, struct effect effect)
 {
     assert(effect.value < shader->graph->nodes.len);

@@ -62,6 +62,7 @@ struct shader_variable {
     bool has_default;
     bool has_reader; /* for textures: `sampling` and the default belong to a node */
     bool flat;       /* not interpolated (integer streams) */
+    bool is_computed; /* vertex data with a value of the document: shader_interpolate */
     uint16_t rank;   /* order within the block: the row of streams.def; equal ranks by index */
     ir_type_id type;
     uint16_t array_length; /* 0: not an array */
@@ -261,6 +262,7 @@ struct shader {
     uint8_t kind;           /* enum shader_kind */
     /* document type of a shader for a plain value */
     str_id value_type;
+    uint64_t codes;   /* a hash of the nodes in C and their versions; part of the topology */
     bool transparent; /* by analysis: the alpha output may be below 1 */
     uint8_t alpha;    /* enum shader_alpha */
     bool lit;         /* reads lights or environment */
@@ -315,6 +317,11 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
  * VEC3, color_N FLOAT or VEC3, and geomprop_* any type. 0: there is no such stream.
  */
 ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type);
+/*
+ * The IR node, in the pixel stage, of a value that the vertex stage computes from its vertex data,
+ * attributes and uniforms. `name` is for its variable. The type is an int, a float or a vector.
+ */
+ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value);
 /* The vertex attribute that a stream copies; false: the vertex stage computes the stream. */
 bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index);
 /* The expression of the stream in the vertex stage, for displacement. */
