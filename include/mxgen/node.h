@@ -7,8 +7,8 @@
  *     {
  *         const char *const names[] = {"x", "gain"};
  *         const mxg_ref args[] = {mxg_build_input(build, "in"), mxg_build_input(build, "gain")};
- *         results[0] = mxg_build_expression(build, "float", "pow({{x}}, {{gain}})", names, args, 2);
- *         return true;
+ *         results[0] = mxg_build_expression(build, "float", "pow({{x}}, {{gain}})", names, args,
+ * 2); return true;
  *     }
  *     static const mxg_node_code gain = {sizeof gain, "ND_gain_float", NULL, 1, build_gain};
  *
@@ -52,9 +52,11 @@ typedef bool (*mxg_build_fn)(void *user_data, mxg_build *build, mxg_ref *results
 
 typedef struct mxg_node_code {
     size_t size; /* sizeof(mxg_node_code) */
-    /* the definition, "ND_gain_float"; or a node, "gain": all its definitions without an own code */
+    /* the definition, "ND_gain_float"; or a node, "gain": all its definitions without an own code
+     */
     const char *name;
-    /* a target by its MaterialX name, "genglsl", and all that inherit from it; NULL: every target */
+    /* a target by its MaterialX name, "genglsl", and all that inherit from it; NULL: every target
+     */
     const char *target;
     uint64_t version; /* enters the topology of shaders; a change of the code needs another one */
     mxg_build_fn build;

@@ -343,7 +343,8 @@ mxg_status definition_info(const struct mxg_context *context, const struct libra
 
 mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
 {
-    return library ? definition_info(library->object.context, &library->layer, index, out) : MXG_ERROR_ARGUMENT;
+    return library ? definition_info(library->object.context, &library->layer, index, out)
+                   : MXG_ERROR_ARGUMENT;
 }
 
 mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t index,

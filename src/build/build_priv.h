@@ -101,9 +101,9 @@ struct builder {
     struct table code_expressions; /* by key: indices of code_parsed + 1 */
     VEC(struct code_parsed) code_parsed;
     uint32_t code_serial, code_depth;
-    uint32_t without_code; /* 1 + the definition whose code does not count; 0: all codes count */
-    bool has_colorspace;       /* the library has transforms to the option's colour space */
-    bool has_distance_unit;    /* the library has the option's unit */
+    uint32_t without_code;  /* 1 + the definition whose code does not count; 0: all codes count */
+    bool has_colorspace;    /* the library has transforms to the option's colour space */
+    bool has_distance_unit; /* the library has the option's unit */
     bool cancelled;
 };
 

@@ -271,7 +271,9 @@ static const char *result_fault(const struct mxg_build *build, unsigned output, 
     bool may_be_absent = ir_type_is_closure(type) || ir_type_is_shader(type);
     if (!ref)
         return may_be_absent ? NULL : "gives no value for the output";
-    return ir_type_of(build->b->graph, ref) == type ? NULL : "gives a value of another type for the output";
+    return ir_type_of(build->b->graph, ref) == type
+               ? NULL
+               : "gives a value of another type for the output";
 }
 
 static void take_results(struct mxg_build *build, const mxg_ref *values, ir_ref *results)

@@ -17,11 +17,11 @@ struct mxg_build {
     const struct frame *frame;
     const struct nodedef *def;
     const struct port *ports;
-    ir_type_id type;    /* of the first output */
-    uint32_t serial;    /* of this use; its values have it */
+    ir_type_id type;     /* of the first output */
+    uint32_t serial;     /* of this use; its values have it */
     const char *foreign; /* name of a host's code; NULL: code of mxgen */
-    bool has_failed;    /* after a report, or a consequence of one */
-    bool has_no_memory; /* the builder jumps when the code has ended */
+    bool has_failed;     /* after a report, or a consequence of one */
+    bool has_no_memory;  /* the builder jumps when the code has ended */
 };
 
 /* The arguments of a function of node.h, for its work inside a trap. */

@@ -3,6 +3,7 @@
 #include "build/code.h"
 
 #include "base/structs.h"
+#include "tree/ast.h"
 
 /* ---- Other definitions ---- */
 
@@ -122,13 +123,30 @@ mxg_ref mxg_build_stream(mxg_build *build, const char *name, const char *type)
                         make_stream);
 }
 
-/* True if the value depends on the pixel in another way than by streams. */
+static bool reads_stream(const struct builder *b, uint32_t callee)
+{
+    const struct ir_callee *called = &b->graph->callees.items[callee];
+    const struct lang_unit *layer;
+    if (called->kind != IR_CALLEE_FUNCTION)
+        return true;
+    const struct lang_function *fn = lang_function(b->shader->unit, called->index, &layer);
+    for (uint32_t i = 0; i < fn->num_globals; i++)
+        if (lang_global(b->shader->unit, ast_globals(layer, fn)[i], NULL)->kind
+            == LANG_GLOBAL_STREAM)
+            return true;
+    return false;
+}
+
+/* True if the value depends on the pixel in another way than by the nodes of streams. */
 static bool belongs_to_pixel(struct builder *b, ir_ref value)
 {
     const uint8_t *needed = ir_mark(b->graph, &value, 1, b->arena);
-    for (ir_ref ref = 1; ref <= value; ref++) {
-        unsigned op = ir_get(b->graph, ref)->op;
-        if (needed[ref] && (op == IR_PARAM || op == IR_LOCAL || op == IR_CONTEXT || op == IR_SAMPLE))
+    for (ir_ref ref = 1; ref < b->graph->nodes.len; ref++) {
+        const struct ir_node *node = ir_get(b->graph, ref);
+        bool is_call = node->op == IR_CALL || node->op == IR_VERBATIM;
+        bool is_local = node->op == IR_PARAM || node->op == IR_LOCAL || node->op == IR_CONTEXT
+                        || node->op == IR_SAMPLE;
+        if (needed[ref] && (is_local || (is_call && reads_stream(b, node->attr))))
             return true;
     }
     return false;
@@ -143,8 +161,8 @@ static void make_interpolated(void *request)
         return;
     ir_type_id type = value ? ir_type_of(b->graph, value) : IR_TYPE_VOID;
     if (type < IR_TYPE_INT || type > IR_TYPE_VEC4 || !r->name) {
-        code_fault(r->build, "interpolates a value that is no number or vector:",
-                   r->name ? r->name : "NULL");
+        code_fault(r->build,
+                   "interpolates a value that is no number or vector:", r->name ? r->name : "NULL");
         return;
     }
     bool stays = !b->options->vertex_stage || ir_is_const(b->graph, value)
@@ -193,8 +211,8 @@ static void make_uniform(void *request)
     str_id name = str_intern_z(b->shader->strings, word);
     const char *fault = build_uniform_fault(b, name, type);
     if (fault) {
-        code_fault(r->build, "adds a uniform of mxgen, with another type, or a word of the target:",
-                   word);
+        code_fault(r->build,
+                   "adds a uniform of mxgen, with another type, or a word of the target:", word);
         return;
     }
     uint32_t index = shader_private_uniform(b->shader, name, type, 0);

@@ -32,8 +32,8 @@ bool code_numbers(struct mxg_build *build, ir_type_id type, const float *numbers
 {
     *out = (struct ir_value){.type = type};
     if (!build_is_number(type) || !numbers || n != ir_type_info(type)->components) {
-        code_fault(build, "gives another number of components than the type has:",
-                   ir_type_text(type));
+        code_fault(build,
+                   "gives another number of components than the type has:", ir_type_text(type));
         return false;
     }
     for (uint32_t i = 0; i < n; i++)
@@ -98,7 +98,10 @@ static const struct opaque_op {
     {IR_DISPLACEMENT_SHADER, IR_TYPE_DISPLACEMENT, false, {OF(FLOAT) | OF(VEC3), OF(FLOAT)}},
     {IR_LIGHT_SHADER, IR_TYPE_LIGHT, false, {OF(EDF), OF(FLOAT), OF(FLOAT)}},
     {IR_SHADER_MIX, 0, true, {SHADERS, SHADERS, OF(FLOAT)}},
-    {IR_MATERIAL, IR_TYPE_MATERIAL, false, {OF(SURFACE), OF(SURFACE), OF(DISPLACEMENT), OF(VOLUME)}},
+    {IR_MATERIAL,
+     IR_TYPE_MATERIAL,
+     false,
+     {OF(SURFACE), OF(SURFACE), OF(DISPLACEMENT), OF(VOLUME)}},
 };
 
 static const struct opaque_op *find_opaque(enum ir_op op)
@@ -216,12 +219,10 @@ static void make_op(void *request)
 mxg_ref mxg_build_op(mxg_build *build, const char *op, const char *type, const mxg_ref *args,
                      uint32_t num_args)
 {
-    return code_request(&(struct code_request){.build = build,
-                                               .name = op,
-                                               .type = type,
-                                               .args = args,
-                                               .num = num_args},
-                        make_op);
+    return code_request(
+        &(struct code_request){
+            .build = build, .name = op, .type = type, .args = args, .num = num_args},
+        make_op);
 }
 
 static void make_swizzle(void *request)
@@ -247,14 +248,14 @@ static void make_swizzle(void *request)
     if (is_good && n)
         r->result = code_issue(r->build, ir_swizzle(g, value, components, n));
     else
-        code_fault(r->build, "asks for components that the value does not have:",
-                   r->name ? r->name : "NULL");
+        code_fault(r->build,
+                   "asks for components that the value does not have:", r->name ? r->name : "NULL");
 }
 
 mxg_ref mxg_build_swizzle(mxg_build *build, mxg_ref value, const char *components)
 {
-    return code_request(
-        &(struct code_request){.build = build, .name = components, .value = value}, make_swizzle);
+    return code_request(&(struct code_request){.build = build, .name = components, .value = value},
+                        make_swizzle);
 }
 
 /* ---- Expressions ---- */

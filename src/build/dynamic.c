@@ -135,9 +135,9 @@ static mxg_ref tangent_of(mxg_build *build, mxg_ref point, mxg_ref uv, bool alon
             du_dy = mxg_build_swizzle(build, op1(build, "dFdy", uv), "x"),
             dv_dx = mxg_build_swizzle(build, op1(build, "dFdx", uv), "y"),
             dv_dy = mxg_build_swizzle(build, op1(build, "dFdy", uv), "y");
-    mxg_ref sum = op2(
-        build, "sub", op2(build, "mul", op1(build, first, point), along_v ? du_dx : dv_dy),
-        op2(build, "mul", op1(build, second, point), along_v ? du_dy : dv_dx));
+    mxg_ref sum =
+        op2(build, "sub", op2(build, "mul", op1(build, first, point), along_v ? du_dx : dv_dy),
+            op2(build, "mul", op1(build, second, point), along_v ? du_dy : dv_dx));
     mxg_ref area =
         op2(build, "sub", op2(build, "mul", du_dx, dv_dy), op2(build, "mul", du_dy, dv_dx));
     return op1(build, "normalize", op2(build, "mul", sum, op1(build, "sign", area)));
@@ -210,8 +210,8 @@ static ir_ref geomprop_stream(mxg_build *build, const char *name)
     uint32_t attribute;
     text_init(&full, b->arena);
     text_fmt(&full, "geomprop_%s", name);
-    ir_ref stream = shader_stream(
-        b->shader, str_intern(b->shader->strings, full.data, full.len), build->type);
+    ir_ref stream =
+        shader_stream(b->shader, str_intern(b->shader->strings, full.data, full.len), build->type);
     if (ir_get(b->graph, stream)->op == IR_STREAM) {
         record_default(build, ir_get(b->graph, stream)->attr);
         if (shader_attribute(b->shader, ir_get(b->graph, stream)->attr, &attribute))
@@ -243,9 +243,9 @@ static bool build_geompropvalue(void *user_data, mxg_build *build, mxg_ref *resu
 static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    results[0] = code_issue(build, build_blur(build->b, arg(build, STR_in), arg(build, STR_size),
-                                              arg(build, STR_filtertype),
-                                              build->frame->node.element));
+    results[0] =
+        code_issue(build, build_blur(build->b, arg(build, STR_in), arg(build, STR_size),
+                                     arg(build, STR_filtertype), build->frame->node.element));
     return true;
 }
 
@@ -279,9 +279,9 @@ static bool build_multiply(void *user_data, mxg_build *build, mxg_ref *results)
 static bool thin_film(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    results[0] = code_issue(build, build_film(build->b, arg(build, STR_thickness),
-                                              arg(build, STR_ior), arg(build, STR_base),
-                                              build->frame->node.element));
+    results[0] =
+        code_issue(build, build_film(build->b, arg(build, STR_thickness), arg(build, STR_ior),
+                                     arg(build, STR_base), build->frame->node.element));
     return true;
 }
 
@@ -335,8 +335,8 @@ static bool build_displacement(void *user_data, mxg_build *build, mxg_ref *resul
 
 static bool build_surfacematerial(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    static const char *const inputs[] = {"surfaceshader", "backsurfaceshader",
-                                         "displacementshader", NULL};
+    static const char *const inputs[] = {"surfaceshader", "backsurfaceshader", "displacementshader",
+                                         NULL};
     (void)user_data;
     return op_of(build, "material", inputs, 4, results);
 }

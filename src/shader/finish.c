@@ -57,22 +57,14 @@ static void mark_outputs(struct shader *shader, enum shader_stage_id id)
             mark_read(shader, effects->items[i].index, id);
 }
 
-/* Keeps the vertex data that a displaced position or a computed value reads. */
-static void keep_inputs(struct shader *shader, ir_ref value)
+/* Keeps the vertex data that a displaced position reads. */
+static void keep_inputs(struct shader *shader, ir_ref position)
 {
-    uint8_t *needed = ir_mark(shader->graph, &value, 1, shader->arena);
+    assert(ir_type_of(shader->graph, position) == IR_TYPE_VEC4);
+    uint8_t *needed = ir_mark(shader->graph, &position, 1, shader->arena);
     for (ir_ref ref = 1; ref < shader->graph->nodes.len; ref++)
         if (needed[ref] && ir_get(shader->graph, ref)->op == IR_STREAM)
             mark_read(shader, ir_get(shader->graph, ref)->attr, STAGE_VERTEX);
-}
-
-/* True for vertex data that the vertex stage computes, and that a later step reads. */
-static bool is_computed(const struct shader *shader, const struct effect *effect)
-{
-    if (effect->kind != EFFECT_OUTPUT)
-        return false;
-    const struct shader_variable *output = &shader->variables.items[effect->index];
-    return output->is_computed && output->stages;
 }
 
 /* Drops the vertex data that the pixel stage does not read, and adds the position. */
@@ -81,8 +73,8 @@ static void complete_vertex_stage(struct shader *shader)
     struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
     bool has_position = false;
     uint32_t kept = 0;
-    for (uint32_t i = effects->len; i-- > 0;) /* a value reads vertex data from before it */
-        if (effects->items[i].kind == EFFECT_POSITION || is_computed(shader, &effects->items[i]))
+    for (uint32_t i = 0; i < effects->len; i++)
+        if (effects->items[i].kind == EFFECT_POSITION)
             keep_inputs(shader, effects->items[i].value);
     for (uint32_t i = 0; i < effects->len; i++) {
         const struct effect *effect = &effects->items[i];

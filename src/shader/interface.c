@@ -482,9 +482,26 @@ static uint32_t find_computed(const struct shader *shader, ir_ref value)
     return UINT32_MAX;
 }
 
+/*
+ * The value with the vertex data that it reads computed anew, so that the pixel stage, which does
+ * not need these, does not get them.
+ */
+static ir_ref at_vertices(struct shader *shader, ir_ref value)
+{
+    const struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
+    for (uint32_t i = effects->len; i-- > 0;) { /* vertex data may read earlier ones */
+        const struct effect *effect = &effects->items[i];
+        if (effect->kind == EFFECT_OUTPUT)
+            value = ir_replace(shader->graph, value, shader_read(shader, effect->index),
+                               effect->value, shader->arena);
+    }
+    return value;
+}
+
 ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value)
 {
     ir_type_id type = ir_type_of(shader->graph, value);
+    value = at_vertices(shader, value);
     uint32_t index = find_computed(shader, value);
     assert(type >= IR_TYPE_INT && type <= IR_TYPE_VEC4);
     if (index == UINT32_MAX) {

@@ -60,10 +60,10 @@ struct shader_variable {
     uint8_t stages;
     uint8_t update; /* enum shader_update */
     bool has_default;
-    bool has_reader; /* for textures: `sampling` and the default belong to a node */
-    bool flat;       /* not interpolated (integer streams) */
+    bool has_reader;  /* for textures: `sampling` and the default belong to a node */
+    bool flat;        /* not interpolated (integer streams) */
     bool is_computed; /* vertex data with a value of the document: shader_interpolate */
-    uint16_t rank;   /* order within the block: the row of streams.def; equal ranks by index */
+    uint16_t rank;    /* order within the block: the row of streams.def; equal ranks by index */
     ir_type_id type;
     uint16_t array_length; /* 0: not an array */
     str_id doc_type;       /* "color3"; 0 for variables without a document type */
@@ -318,8 +318,9 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
  */
 ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type);
 /*
- * The IR node, in the pixel stage, of a value that the vertex stage computes from its vertex data,
- * attributes and uniforms. `name` is for its variable. The type is an int, a float or a vector.
+ * The IR node, in the pixel stage, of a value that the vertex stage computes instead. `name` is for
+ * its variable. The type is an int, a float or a vector of these. No function that the value calls
+ * reads a stream.
  */
 ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value);
 /* The vertex attribute that a stream copies; false: the vertex stage computes the stream. */
