@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A plug-in with three nodes in C. Their definitions are in studio.mtlx.
+ * A plug-in with nodes in C. Their definitions are in studio.mtlx.
  *
  *     cc -shared -fPIC studio.c $(pkg-config --cflags mxgen) -o studio.so
  *     mxgen felt.mtlx --plugin ./studio.so
@@ -83,8 +83,8 @@ static bool build_placed_texcoord(void *user_data, mxg_build *build, mxg_ref *re
     snprintf(stream, sizeof stream, "texcoord_%d", index.integer);
     const mxg_ref args[] = {mxg_build_stream(build, stream, "vec2"),
                             mxg_build_input(build, "scale"), mxg_build_input(build, "offset")};
-    mxg_ref placed = mxg_build_expression(build, "vec2", "{{uv}} * {{scale}} + {{offset}}", names,
-                                          args, 3);
+    mxg_ref placed =
+        mxg_build_expression(build, "vec2", "{{uv}} * {{scale}} + {{offset}}", names, args, 3);
     results[0] = mxg_build_interpolated(build, "placed_texcoord", placed);
     return true;
 }
@@ -113,20 +113,22 @@ static bool build_fuzz(void *user_data, mxg_build *build, mxg_ref *results)
 
 static const mxg_node_code curve = {sizeof curve, "ND_curve_float", NULL, 1, build_curve, NULL,
                                     NULL};
-static const mxg_node_code placed_texcoord = {sizeof placed_texcoord,
-                                              "placed_texcoord",
-                                              NULL,
-                                              1,
-                                              build_placed_texcoord,
-                                              NULL,
-                                              NULL};
+static const mxg_node_code placed_texcoord = {
+    sizeof placed_texcoord, "placed_texcoord", NULL, 1, build_placed_texcoord, NULL, NULL};
 static const mxg_node_code fuzz = {sizeof fuzz, "ND_fuzz_bsdf", NULL, 1, build_fuzz, NULL, NULL};
+
+/* Not code: a cheaper definition for one target. */
+static const mxg_node_code cheap = {.size = sizeof cheap,
+                                    .name = "ND_unifiednoise3d_float",
+                                    .target = "essl",
+                                    .version = 1,
+                                    .instead = "ND_noise3d_float"};
 
 MXG_API const mxg_plugin *mxgen_plugin(void);
 const mxg_plugin *mxgen_plugin(void)
 {
-    static const mxg_node_code *const nodes[] = {&curve, &placed_texcoord, &fuzz};
+    static const mxg_node_code *const nodes[] = {&curve, &placed_texcoord, &fuzz, &cheap};
     static const char *const libraries[] = {"studio.mtlx"};
-    static const mxg_plugin plugin = {MXG_PLUGIN_VERSION, "studio", nodes, 3, libraries, 1};
+    static const mxg_plugin plugin = {MXG_PLUGIN_VERSION, "studio", nodes, 4, libraries, 1};
     return &plugin;
 }

@@ -13,7 +13,7 @@
  *     static const mxg_node_code gain = {sizeof gain, "ND_gain_float", NULL, 1, build_gain};
  *
  * The definition itself, with its inputs and outputs, is a <nodedef> of a library or document.
- * docs/embedding.md has a chapter with examples.
+ * docs/nodes.md explains an example.
  */
 #ifndef MXGEN_NODE_H
 #define MXGEN_NODE_H

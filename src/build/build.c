@@ -24,18 +24,6 @@ static const int *find_option(const struct build_options *options, const char *n
     return NULL;
 }
 
-const char *build_uniform_fault(const struct builder *b, str_id name, ir_type_id type)
-{
-    const char *text = build_text(b, name);
-    ir_type_id known = shader_uniform_type(name);
-    if (known != IR_TYPE_VOID && known != type)
-        return "which is a uniform of mxgen with another type";
-    bool is_reserved = strncmp(text, "gl_", 3) == 0 || strcmp(text, "main") == 0
-                       || strstr(text, "__")
-                       || lang_syntax_is_reserved(b->options->syntax, text, strlen(text));
-    return is_reserved ? "which is a word of the target" : NULL;
-}
-
 static ir_ref make_uniform(struct builder *b, struct ir_graph *graph,
                            const struct lang_global *global)
 {

@@ -196,6 +196,8 @@ ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, e
 void build_compile_in(struct builder *b, elem_id node, const struct port *port, elem_id element);
 /* The path of an input: "SR_gold/base_color". */
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
+/* The reason why no shader can have this uniform; NULL: it can. Hosts bind uniforms by name. */
+const char *build_uniform_fault(const struct builder *b, str_id name, ir_type_id type);
 
 /* value.c */
 
@@ -322,8 +324,5 @@ void build_report_index(void *user_data, int32_t index, uint32_t length);
  * node, or the definition differs from its needs.
  */
 void build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
-
-/* The reason why no shader can have this uniform; NULL: it can. Hosts bind uniforms by name. */
-const char *build_uniform_fault(const struct builder *b, str_id name, ir_type_id type);
 
 #endif

@@ -67,7 +67,7 @@ void code_run(struct builder *b, const struct frame *frame, mxg_build_fn build, 
 void code_find_all(struct builder *b);
 /* An implementation of kind IMPL_CODE for a definition; NULL: no code of a host serves it. */
 const struct implementation *code_implementation(struct builder *b, uint32_t nodedef);
-/* Builds a node whose implementation is such a one. */
+/* code_node.c: builds a node whose implementation is such a one. */
 void code_build(struct builder *b, const struct frame *frame, ir_ref *results);
 
 #endif

@@ -62,8 +62,8 @@ static void open_host(struct host *h, const struct run *run)
              run->body ? run->body
                        : "<probe name='use' type='float'/>"
                          "<output name='M' type='float' nodename='use'/>");
-    h->status = mxg_document_parse(h->context, h->library, "code.mtlx", text, strlen(text),
-                                   &h->document);
+    h->status =
+        mxg_document_parse(h->context, h->library, "code.mtlx", text, strlen(text), &h->document);
     REQUIRE_EQ(h->status, MXG_OK);
     mxg_options *options = NULL;
     mxg_options_create(h->context, &options);
@@ -123,13 +123,14 @@ static bool build_everything(void *user_data, mxg_build *build, mxg_ref *results
     REQUIRE(mxg_build_constant(build, "number", &value));
     REQUIRE_EQ(value.integer, 2);
 
-    mxg_ref n = mxg_build_op(build, "convert", "float", (mxg_ref[]){mxg_build_input(build, "number")}, 1);
+    mxg_ref n =
+        mxg_build_op(build, "convert", "float", (mxg_ref[]){mxg_build_input(build, "number")}, 1);
     const mxg_ref args[] = {in, mxg_build_string(build, "word"), tint, n};
     mxg_ref sum = mxg_build_expression(
         build, "float", "{{x}} * 3.0 + ({{word}} == \"word\" ? {{tint}}.y : {{n}}) + {{n}}", names,
         args, 4);
-    mxg_ref facing = mxg_build_op(build, "dot", NULL,
-                                  (mxg_ref[]){mxg_build_stream(build, "normalWorld", NULL), tint}, 2);
+    mxg_ref facing = mxg_build_op(
+        build, "dot", NULL, (mxg_ref[]){mxg_build_stream(build, "normalWorld", NULL), tint}, 2);
     const mxg_build_uniform uniform = {sizeof uniform, "u_studioStep", "float",
                                        "studioStep",   &step,          1};
     mxg_ref parts[] = {sum, facing, mxg_build_add_uniform(build, &uniform)};
@@ -178,8 +179,8 @@ static bool build_same(void *user_data, mxg_build *build, mxg_ref *results)
     static const char *const names[] = {"in", "tint"};
     const mxg_ref args[] = {mxg_build_input(build, "in"), mxg_build_input(build, "tint")};
     (void)user_data;
-    results[0] = mxg_build_expression(build, "float", "sin({{in}}) * {{tint}}.x + {{in}}", names,
-                                      args, 2);
+    results[0] =
+        mxg_build_expression(build, "float", "sin({{in}}) * {{tint}}.x + {{in}}", names, args, 2);
     return true;
 }
 
@@ -412,7 +413,9 @@ static bool misuse_values(enum fault fault, mxg_build *build, mxg_ref in, mxg_re
     switch (fault) {
     case FAULT_UNKNOWN_OP: *out = mxg_build_op(build, "conjure", NULL, &in, 1); return true;
     case FAULT_SOURCE_OP: *out = mxg_build_op(build, "uniform", "float", &in, 1); return true;
-    case FAULT_OPERANDS: *out = mxg_build_op(build, "cross", NULL, (mxg_ref[]){in, in}, 2); return true;
+    case FAULT_OPERANDS:
+        *out = mxg_build_op(build, "cross", NULL, (mxg_ref[]){in, in}, 2);
+        return true;
     case FAULT_OPERAND_COUNT: *out = mxg_build_op(build, "add", NULL, &in, 1); return true;
     case FAULT_NO_OPERANDS: *out = mxg_build_op(build, "construct", "vec3", NULL, 3); return true;
     case FAULT_UNKNOWN_INPUT: *out = mxg_build_input(build, "inn"); return true;
@@ -521,13 +524,13 @@ static void test_wrong_texts_and_values(void)
     REQUIRE_EQ(d.column, 2);
     close_host(&h);
     mxg_ref kept = 0;
-    open_host(&h, &(struct run){
-                      .build = hand_over,
-                      .user_data = &kept,
-                      .body = "<probe name='a' type='float'/>"
-                              "<probe name='b' type='float'><input name='in' type='float' "
-                              "nodename='a'/></probe>"
-                              "<output name='M' type='float' nodename='b'/>"});
+    open_host(&h,
+              &(struct run){.build = hand_over,
+                            .user_data = &kept,
+                            .body = "<probe name='a' type='float'/>"
+                                    "<probe name='b' type='float'><input name='in' type='float' "
+                                    "nodename='a'/></probe>"
+                                    "<output name='M' type='float' nodename='b'/>"});
     REQUIRE_EQ(h.status, MXG_ERROR_DOCUMENT);
     REQUIRE(has_diagnostic(mxg_result_diagnostics(h.result), "code-fault"));
     close_host(&h);
@@ -551,13 +554,12 @@ static void test_limits(void)
 {
     struct host h;
     uint64_t steps = 0;
-    open_host(&h, &(struct run){
-                      .build = build_endlessly, .user_data = &steps, .max_nodes = 2000});
+    open_host(&h, &(struct run){.build = build_endlessly, .user_data = &steps, .max_nodes = 2000});
     REQUIRE_EQ(h.status, MXG_ERROR_DOCUMENT);
     REQUIRE(has_diagnostic(mxg_result_diagnostics(h.result), "node-limit"));
     close_host(&h);
-    open_host(&h, &(struct run){
-                      .build = build_endlessly, .user_data = &steps, .max_memory = 6 << 20});
+    open_host(&h,
+              &(struct run){.build = build_endlessly, .user_data = &steps, .max_memory = 6 << 20});
     REQUIRE_EQ(h.status, MXG_ERROR_MEMORY);
     REQUIRE(h.result == NULL);
     close_host(&h);
