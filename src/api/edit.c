@@ -330,7 +330,8 @@ static void remove_attrs(struct document *doc, elem_id element, const str_id *at
 static const str_id sources[] = {STR_nodename, STR_nodegraph, STR_interfacename, STR_output,
                                  STR_value};
 
-static bool check_value(struct change *c)
+/* The type of the input after the change. Fails if the input is new and has no type. */
+static doc_type input_type(struct change *c)
 {
     const struct document *doc = tree_of(c->edit);
     elem_id input = child_of(c->edit, c->element, c->name);
@@ -338,17 +339,19 @@ static bool check_value(struct change *c)
     const char *type = c->type ? c->type : str_text(doc->strings, name);
     if (!*type)
         fail(c, "the input '%s' is new; give its type", c->name);
-    else if (!doc_value_is_valid(doc_type_of(str_find(doc->strings, type, strlen(type))), c->text,
-                                 strlen(c->text)))
-        fail(c, "'%s' is no value of the type of the input", c->text);
-    return !c->failed;
+    return doc_type_of(str_find(doc->strings, type, strlen(type)));
 }
 
 static void set_value(void *arg)
 {
     struct change *c = arg;
     struct document *doc = tree_of(c->edit);
-    if (!check_input(c) || !check_text(c, c->type) || !check_text(c, c->text) || !check_value(c))
+    if (!check_input(c) || !check_text(c, c->type) || !check_text(c, c->text))
+        return;
+    doc_type type = input_type(c);
+    if (!c->failed && !doc_value_is_valid(type, c->text, strlen(c->text)))
+        fail(c, "'%s' is no value of the type of the input", c->text);
+    if (c->failed)
         return;
     elem_id input = make_input(c, c->type);
     remove_attrs(doc, input, sources, sizeof sources / sizeof *sources - 1);
@@ -380,14 +383,13 @@ static void write_numbers(const struct change *c, doc_type type, struct text *ou
 static void set_numbers(void *arg)
 {
     struct change *c = arg;
-    const struct document *doc = tree_of(c->edit);
-    doc_type type = doc_type_of(c->type ? str_find(doc->strings, c->type, strlen(c->type)) : 0);
-    uint32_t num = type == DOC_TYPE_boolean ? 1 : doc_type_components(type);
-    if (!num || num != c->num_numbers) {
-        fail(c, "'%s' is no type with this number of components", c->type);
+    if (!check_input(c))
         return;
-    }
-    for (uint32_t i = 0; i < num; i++)
+    doc_type type = input_type(c);
+    uint32_t num = type == DOC_TYPE_boolean ? 1 : doc_type_components(type);
+    if (!c->failed && (!num || num != c->num_numbers))
+        fail(c, "the type of '%s' does not have this number of components", c->name);
+    for (uint32_t i = 0; !c->failed && i < num; i++)
         if (!isfinite(c->numbers[i]))
             fail(c, "a value of '%s' is infinite or not a number", c->name);
     if (c->failed)

@@ -275,9 +275,10 @@ static void test_edit_of_a_document(void)
     char before[4096];
     snprintf(before, sizeof before, "%s", xml_below(f.document));
     mxg_edit *edit = begin(&f, f.document);
-    const float half[] = {0.5f};
+    const float half[] = {0.5f}, quarter[] = {0.25f};
     REQUIRE_EQ(mxg_edit_numbers(edit, shader, "metalness", "float", half, 1), MXG_OK);
-    REQUIRE_EQ(mxg_edit_value(edit, shader, "coat", NULL, "0.25"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_value(edit, shader, "coat", NULL, "0.5"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_numbers(edit, shader, "coat", NULL, quarter, 1), MXG_OK);
     REQUIRE_EQ(mxg_edit_set(edit, texture, "doc", "a \"quoted\" <text> & more"), MXG_OK);
     REQUIRE_EQ(mxg_edit_set(edit, texture, "doc", NULL), MXG_OK);
     mxg_document *next = NULL;
@@ -416,6 +417,7 @@ static void test_refused(void)
     REFUSED(mxg_edit_value(e, 0, "coat", "float", "1"), "no such element");
     REFUSED(mxg_edit_numbers(e, shader, "coat", "color3", numbers, 3), "not a number");
     REFUSED(mxg_edit_numbers(e, shader, "coat", "color3", numbers, 2), "number of components");
+    REFUSED(mxg_edit_numbers(e, shader, "coat", NULL, numbers, 1), "give its type");
     REFUSED(mxg_edit_numbers(e, shader, "coat", "surfaceshader", numbers, 1),
             "number of components");
     REFUSED(mxg_edit_connect(e, shader, "coat", spots, NULL), "beside the port");
