@@ -38,9 +38,8 @@ static void open_device(struct gpu *g)
                       NULL, &g->device));
     vkGetDeviceQueue(g->device, 0, 0, &g->queue);
     VK(vkCreateCommandPool(
-        g->device,
-        &(VkCommandPoolCreateInfo){.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO}, NULL,
-        &g->pool));
+        g->device, &(VkCommandPoolCreateInfo){.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO},
+        NULL, &g->pool));
 }
 
 static VkDeviceMemory allocate(const struct gpu *g, VkMemoryRequirements needs,
@@ -141,9 +140,8 @@ VkCommandBuffer gpu_begin(const struct gpu *g)
                                         .commandPool = g->pool,
                                         .commandBufferCount = 1};
     VK(vkAllocateCommandBuffers(g->device, &info, &commands));
-    VK(vkBeginCommandBuffer(
-        commands,
-        &(VkCommandBufferBeginInfo){.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO}));
+    VK(vkBeginCommandBuffer(commands, &(VkCommandBufferBeginInfo){
+                                          .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO}));
     return commands;
 }
 
@@ -172,10 +170,8 @@ static void make_ball(struct gpu *g)
         for (uint32_t sector = 0; sector <= SECTORS; ++sector, ++v) {
             float s = (float)sector / SECTORS, t = (float)ring / RINGS;
             float r = sinf(t * pi), x = sinf(2 * pi * s), z = cosf(2 * pi * s);
-            *v = (struct vertex){{r * x, cosf(t * pi), r * z},
-                                 {r * x, cosf(t * pi), r * z},
-                                 {z, 0, -x},
-                                 {s, 1 - t}};
+            *v = (struct vertex){
+                {r * x, cosf(t * pi), r * z}, {r * x, cosf(t * pi), r * z}, {z, 0, -x}, {s, 1 - t}};
         }
     for (uint32_t ring = 0; ring < RINGS; ++ring)
         for (uint32_t sector = 0; sector < SECTORS; ++sector) {
@@ -204,8 +200,7 @@ static void make_frame(struct gpu *g)
                              : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
     VkSubpassDescription subpass = {
         .colorAttachmentCount = 1,
-        .pColorAttachments =
-            &(VkAttachmentReference){0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
+        .pColorAttachments = &(VkAttachmentReference){0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
         .pDepthStencilAttachment =
             &(VkAttachmentReference){1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL}};
     VkRenderPassCreateInfo pass = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
@@ -230,8 +225,8 @@ static void change_layout(VkCommandBuffer commands, VkImage image, VkImageLayout
 {
     VkImageMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
                                     .srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT,
-                                    .dstAccessMask = VK_ACCESS_MEMORY_READ_BIT
-                                                     | VK_ACCESS_MEMORY_WRITE_BIT,
+                                    .dstAccessMask =
+                                        VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT,
                                     .oldLayout = from,
                                     .newLayout = to,
                                     .image = image,
@@ -251,11 +246,10 @@ static void make_checkerboard(struct gpu *g)
     VkCommandBuffer commands = gpu_begin(g);
     change_layout(commands, g->checker.image, VK_IMAGE_LAYOUT_UNDEFINED,
                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    vkCmdCopyBufferToImage(commands, texels.buffer, g->checker.image,
-                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                           &(VkBufferImageCopy){
-                               .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                               .imageExtent = {TEXELS, TEXELS, 1}});
+    vkCmdCopyBufferToImage(
+        commands, texels.buffer, g->checker.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+        &(VkBufferImageCopy){.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                             .imageExtent = {TEXELS, TEXELS, 1}});
     change_layout(commands, g->checker.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     gpu_run(g, commands);
@@ -276,11 +270,10 @@ void gpu_open(struct gpu *g)
 
 void gpu_write_picture(struct gpu *g, VkCommandBuffer commands, const char *path)
 {
-    vkCmdCopyImageToBuffer(commands, g->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           g->readback.buffer, 1,
-                           &(VkBufferImageCopy){
-                               .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                               .imageExtent = {SIZE, SIZE, 1}});
+    vkCmdCopyImageToBuffer(
+        commands, g->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, g->readback.buffer, 1,
+        &(VkBufferImageCopy){.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                             .imageExtent = {SIZE, SIZE, 1}});
     gpu_run(g, commands);
     FILE *file = fopen(path, "wb");
     check(file, path);

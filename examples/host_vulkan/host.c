@@ -98,7 +98,8 @@ static uint32_t find_program(struct host *h, uint32_t index)
 
 /* ---- Uniforms ---- */
 
-/* Columns of the matrix from the world, of which the balls fill a square, to Vulkan's clip space. */
+/* Columns of the matrix from the world, of which the balls fill a square, to Vulkan's clip space.
+ */
 static void set_view(struct host *h, float matrix[16])
 {
     float side = ceilf(sqrtf((float)h->num_balls));
@@ -113,9 +114,22 @@ static void set_place(struct host *h, uint32_t index, float matrix[16])
 {
     uint32_t side = (uint32_t)ceilf(sqrtf((float)h->num_balls));
     float first = 1 - (float)side;
-    const float place[16] = {
-        0.9f, 0, 0, 0, 0, 0.9f, 0, 0, 0, 0, 0.9f, 0,
-        first + 2 * (float)(index % side), -first - 2 * (float)(index / side), 0, 1};
+    const float place[16] = {0.9f,
+                             0,
+                             0,
+                             0,
+                             0,
+                             0.9f,
+                             0,
+                             0,
+                             0,
+                             0,
+                             0.9f,
+                             0,
+                             first + 2 * (float)(index % side),
+                             -first - 2 * (float)(index / side),
+                             0,
+                             1};
     memcpy(matrix, place, sizeof place);
 }
 
@@ -201,11 +215,10 @@ static void make_sets(struct host *h)
     VK(vkCreateDescriptorPool(h->gpu.device, &pool, NULL, &h->sets));
     for (uint32_t i = 0; i < h->num_balls; ++i) {
         struct ball *ball = &h->balls[i];
-        VkDescriptorSetAllocateInfo info = {
-            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-            .descriptorPool = h->sets,
-            .descriptorSetCount = 1,
-            .pSetLayouts = &h->programs[ball->program].set_layout};
+        VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                            .descriptorPool = h->sets,
+                                            .descriptorSetCount = 1,
+                                            .pSetLayouts = &h->programs[ball->program].set_layout};
         VK(vkAllocateDescriptorSets(h->gpu.device, &info, &ball->set));
         program_bind(&h->gpu, ball->result, h->uniforms.buffer, ball->offsets, ball->set);
     }
@@ -391,8 +404,7 @@ static bool connect_input(struct host *h, const char *node, const char *input, c
 static void draw(struct host *h, const char *path)
 {
     VkCommandBuffer commands = gpu_begin(&h->gpu);
-    const VkClearValue clear[] = {{.color = {{0.02f, 0.02f, 0.02f, 1}}},
-                                  {.depthStencil = {1, 0}}};
+    const VkClearValue clear[] = {{.color = {{0.02f, 0.02f, 0.02f, 1}}}, {.depthStencil = {1, 0}}};
     VkRenderPassBeginInfo pass = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
                                   .renderPass = h->gpu.pass,
                                   .framebuffer = h->gpu.frame,

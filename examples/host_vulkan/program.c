@@ -113,12 +113,11 @@ static VkShaderModule make_module(const struct gpu *g, const mxg_result *result,
 {
     size_t size;
     VkShaderModule module;
-    uint32_t *words = compile_spirv(mxg_result_source(result, stage, NULL),
-                                    stage == MXG_STAGE_VERTEX, &size);
+    uint32_t *words =
+        compile_spirv(mxg_result_source(result, stage, NULL), stage == MXG_STAGE_VERTEX, &size);
     check(words, "the compilation of a shader");
-    VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                     .codeSize = size,
-                                     .pCode = words};
+    VkShaderModuleCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = words};
     VK(vkCreateShaderModule(g->device, &info, NULL, &module));
     free(words);
     return module;
@@ -143,10 +142,10 @@ static void make_layouts(const struct gpu *g, const mxg_result *result, struct p
             .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
             .descriptorCount = 1,
             .stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
-    VkDescriptorSetLayoutCreateInfo set = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-        .bindingCount = num,
-        .pBindings = bindings};
+    VkDescriptorSetLayoutCreateInfo set = {.sType =
+                                               VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                           .bindingCount = num,
+                                           .pBindings = bindings};
     VK(vkCreateDescriptorSetLayout(g->device, &set, NULL, &p->set_layout));
     VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                          .setLayoutCount = 1,
@@ -254,9 +253,8 @@ void program_free(const struct gpu *g, struct program *p)
 void program_bind(const struct gpu *g, const mxg_result *result, VkBuffer uniforms,
                   const uint32_t *offsets, VkDescriptorSet set)
 {
-    VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                  .dstSet = set,
-                                  .descriptorCount = 1};
+    VkWriteDescriptorSet write = {
+        .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, .dstSet = set, .descriptorCount = 1};
     for (uint32_t i = 0; i < NUM_UNIFORM_BLOCKS; ++i) {
         mxg_block_info block = block_of(result, uniform_blocks[i]);
         if (!block.byte_size)

@@ -6,7 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Compiles a stage of Vulkan's GLSL. The caller frees the words. NULL: an error, which is printed. */
+/* Compiles a stage of Vulkan's GLSL. The caller frees the words. NULL: an error, which is printed.
+ */
 uint32_t *compile_spirv(const char *source, bool is_vertex, size_t *out_bytes);
 
 #endif

@@ -12,6 +12,7 @@ static const struct known_option {
 } known_options[] = {{"option_environment", offsetof(struct build_options, environment)},
                      {"option_albedo", offsetof(struct build_options, albedo)},
                      {"option_texture_modes", offsetof(struct build_options, texture_modes)},
+                     {"option_texture_origin", offsetof(struct build_options, texture_origin)},
                      {"option_integrator", offsetof(struct build_options, integrator)},
                      {"option_sample_filter", offsetof(struct build_options, sample_filter)}};
 

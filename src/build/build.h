@@ -39,6 +39,7 @@ struct build_options {
     int albedo;
     int sample_filter;
     int texture_modes;
+    int texture_origin; /* 1: v is 0 at the top of images */
     /* texture() takes the default of a missing image as an argument, which may be a uniform */
     bool missing_colors;
     /*

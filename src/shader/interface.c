@@ -70,7 +70,7 @@ static struct name_set *names_of(struct shader *shader, uint32_t scope)
     struct name_set *names = &shader->taken[scope];
     if (!names->arena) {
         names_init(names, shader->arena, shader->style ? shader->style->syntax : NULL);
-        names_take_frame(names);
+        names_take_frame(names, shader);
     }
     return names;
 }

@@ -208,12 +208,13 @@ enum shader_packing {
 struct shader_layout_rules {
     bool blocks; /* uniforms stand in blocks */
     enum shader_packing packing;
-    bool bindings;       /* sets and bindings are numbered, locations given */
-    bool neutral_names;  /* public variables are numbered: equal topology, equal names */
-    bool one_stage;      /* there is no vertex stage */
-    bool typed_textures; /* texture() gives one or three channels where no more are wanted */
-    bool names_wholes;   /* parts are taken of variables only: v.x, but not (a + b).x */
-    uint32_t set;        /* descriptor set of everything */
+    bool bindings;          /* sets and bindings are numbered, locations given */
+    bool neutral_names;     /* public variables are numbered: equal topology, equal names */
+    bool one_stage;         /* there is no vertex stage */
+    bool typed_textures;    /* texture() gives one or three channels where no more are wanted */
+    bool names_wholes;      /* parts are taken of variables only: v.x, but not (a + b).x */
+    uint32_t set;           /* descriptor set of everything */
+    uint32_t first_binding; /* of the private uniforms; the other bindings follow */
 };
 
 struct source_language;
@@ -227,6 +228,8 @@ struct shader {
     struct ir_graph *graph;
     /* the unit of the generation, above the units of the library: contains the specialisations */
     struct lang_unit *unit;
+    const char *const *reserved; /* names that the host keeps for itself */
+    uint32_t num_reserved;
     struct lang_style *style; /* its reserved words are not valid for variables; NULL: none */
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;

@@ -20,8 +20,8 @@ const mxg_plugin *mxgen_plugin(void)
 {
     static const mxg_node_code node = {sizeof node, "ND_x", "genmoon", 1, NULL, NULL, "ND_y"};
     static const mxg_node_code *const nodes[] = {&node};
-    static const mxg_plugin plugin = {MXG_PLUGIN_VERSION + (KIND == OTHER_VERSION), "wrong", nodes,
-                                      KIND == BAD_NODE, NULL, 0};
+    static const mxg_plugin plugin = {
+        MXG_PLUGIN_VERSION + (KIND == OTHER_VERSION), "wrong", nodes, KIND == BAD_NODE, NULL, 0};
     return KIND == NOTHING ? NULL : &plugin;
 }
 #endif
