@@ -29,8 +29,7 @@ static ir_ref texel(struct ir_graph *g, ir_ref map, ir_ref uv, unsigned channel)
 ir_ref closure_occlusion(struct shader *shader, bool flips_v)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref uv =
-        shader_stream(shader, str_intern_z(shader->strings, "texcoord_0"), IR_TYPE_VEC2);
+    ir_ref uv = shader_stream(shader, str_intern_z(shader->strings, "texcoord_0"), IR_TYPE_VEC2);
     if (flips_v) {
         ir_ref parts[2] = {ir_component(g, uv, 0),
                            ir_op2(g, IR_SUB, number(g, 1.0f), ir_component(g, uv, 1))};
@@ -54,11 +53,10 @@ ir_ref closure_shadow(struct shader *shader, const struct closure_host *host)
     ir_ref map = uniform(shader, STR_u_shadowMap, IR_TYPE_SAMPLER),
            uv = ir_swizzle(g, place, (const uint8_t[]){0, 1}, 2), mean = texel(g, map, uv, 0),
            square = texel(g, map, uv, 1), depth = ir_component(g, place, 2);
-    ir_ref variance =
-        ir_op2(g, IR_MAX, ir_op2(g, IR_SUB, square, ir_op2(g, IR_MUL, mean, mean)),
-               number(g, 0.00001f));
+    ir_ref variance = ir_op2(g, IR_MAX, ir_op2(g, IR_SUB, square, ir_op2(g, IR_MUL, mean, mean)),
+                             number(g, 0.00001f));
     ir_ref behind = ir_op2(g, IR_SUB, depth, mean);
-    ir_ref bound = ir_op2(g, IR_DIV, variance,
-                          ir_op2(g, IR_ADD, variance, ir_op2(g, IR_MUL, behind, behind)));
+    ir_ref bound =
+        ir_op2(g, IR_DIV, variance, ir_op2(g, IR_ADD, variance, ir_op2(g, IR_MUL, behind, behind)));
     return ir_op3(g, IR_SELECT, ir_op2(g, IR_LE, depth, mean), number(g, 1.0f), bound);
 }

@@ -54,9 +54,9 @@ enum impl_kind {
     IMPL_DYNAMIC,
     IMPL_VERBATIM, /* ref: verbatim source */
     IMPL_FOREIGN,  /* for a target that mxgen does not have: its source is unread */
-    IMPL_CODE,     /* C code of a host; ref: its index. No library has this kind */
     /* its diagnostics are deferred: [ref, ref + count) of the layer's deferred list */
     IMPL_BROKEN,
+    IMPL_CODE, /* C code of a host; ref: its index. No library has this kind */
 };
 
 struct implementation {
