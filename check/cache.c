@@ -131,6 +131,8 @@ static void add_renderer(SHA2_CTX *sha)
     free(program);
 }
 
+#define PLUGIN "--plugin=" /* as args_forward writes it */
+
 void cache_init(struct cache *cache, const struct arg_list *args, const mxg_library *library)
 {
     cache->begin = time(NULL);
@@ -146,6 +148,8 @@ void cache_init(struct cache *cache, const struct arg_list *args, const mxg_libr
         add_text(&sha, args->items[i]);
         if (strcmp(args->items[i], "--render") == 0)
             add_renderer(&sha);
+        if (strncmp(args->items[i], PLUGIN, strlen(PLUGIN)) == 0)
+            add_text(&sha, hash_file(cache, args->items[i] + strlen(PLUGIN)).hex);
     }
     for (uint32_t i = 0; i < mxg_library_num_files(library); ++i) {
         add_text(&sha, mxg_library_file(library, i));

@@ -24,6 +24,9 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
         {"source-path", 0, ARG_LIST, "DIR",
          "another folder to search for source files of implementations and included documents",
          &cli->source_paths, ARG_COMMON},
+        {"plugin", 0, ARG_LIST, "FILE",
+         "loads a shared object with nodes in C; it runs with your rights, so not with --sandbox",
+         &cli->plugin_files, ARG_COMMON},
         {"max-memory", 0, ARG_SIZE, "BYTES", "limit of memory (default: none)", &cli->max_memory,
          ARG_LIMITS},
         {"max-file-size", 0, ARG_SIZE, "MIB", "limit of the size of an input file (default: 256)",
@@ -101,22 +104,48 @@ static bool create_context(struct cli *cli)
     desc.num_include_roots = cli->include_roots.len;
     desc.source_paths = cli->source_paths.items;
     desc.num_source_paths = cli->source_paths.len;
+    desc.node_codes = cli->plugins.codes;
+    desc.num_node_codes = cli->plugins.num_codes;
     char *warnings = warnings_join(&cli->warnings);
     desc.warnings = warnings;
     mxg_status status = mxg_context_create(&desc, &cli->context);
     free(warnings);
+    if (status == MXG_ERROR_ARGUMENT && cli->plugins.num_codes) {
+        fputs("mxgen: a plug-in has a node without a name, with neither or both of 'build' and "
+              "'instead', or for an unknown target\n",
+              stderr);
+        return false;
+    }
     return report_status(&cli->report, status);
 }
 
+/* Plug-ins run with the rights of the user, and a sandbox gives documents fewer rights. */
+static bool load_plugins(struct cli *cli)
+{
+    if (cli->plugin_files.len && cli->sandbox) {
+        fputs("mxgen: --sandbox allows no --plugin, because a plug-in runs without limits\n",
+              stderr);
+        return false;
+    }
+    return plugins_load(&cli->plugins, &cli->plugin_files);
+}
+
+/* The libraries of the command line, then those of plug-ins. */
 static bool load_library(struct cli *cli)
 {
     mxg_library *base = cli->no_builtin_library ? NULL : mxg_library_builtin(cli->context);
-    if (base && cli->library_paths.len == 0) {
+    size_t num_paths = cli->library_paths.len + cli->plugins.libraries.len;
+    if (base && num_paths == 0) {
         cli->library = base;
         return true;
     }
-    mxg_status status = mxg_library_load(cli->context, base, cli->library_paths.items,
-                                         cli->library_paths.len, &cli->library);
+    struct arg_list paths = {0};
+    for (size_t i = 0; i < num_paths; ++i)
+        args_append(&paths, i < cli->library_paths.len
+                                ? cli->library_paths.items[i]
+                                : cli->plugins.libraries.items[i - cli->library_paths.len]);
+    mxg_status status = mxg_library_load(cli->context, base, paths.items, paths.len, &cli->library);
+    free(paths.items);
     mxg_library_unref(base);
     if (cli->library)
         report_list(&cli->report, mxg_library_diagnostics(cli->library));
@@ -169,6 +198,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
         fprintf(stderr, "usage: mxgen %s\n", command->usage);
         return false;
     }
+    if (!load_plugins(cli))
+        return false;
     if (!create_context(cli)
         || !report_status(&cli->report, mxg_options_create(cli->context, &cli->options))) {
         *out_exit = EXIT_FAULT;
@@ -198,6 +229,8 @@ void cli_finish(struct cli *cli)
     mxg_options_destroy(cli->options);
     mxg_library_unref(cli->library);
     mxg_context_destroy(cli->context);
+    plugins_finish(&cli->plugins);
+    free(cli->plugin_files.items);
     report_finish(&cli->report);
     free(cli->library_paths.items);
     free(cli->warnings.items);

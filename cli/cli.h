@@ -9,6 +9,7 @@
 #define MXG_CLI_CLI_H
 
 #include "cli/args.h"
+#include "cli/plugin.h"
 #include "cli/report.h"
 
 #include <mxgen/mxgen.h>
@@ -36,11 +37,13 @@ struct cli {
     struct arg_list warnings; /* words of -W */
     struct arg_list include_roots;
     struct arg_list source_paths;
+    struct arg_list plugin_files;
     bool trust, sandbox;
     size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors,
         max_depth, max_include_depth, max_includes;
 
     struct report report;
+    struct plugins plugins;
     mxg_context *context;
     mxg_library *library;
     mxg_options *options; /* options of generation */

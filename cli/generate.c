@@ -341,6 +341,8 @@ static int generate_all(struct generate *gen)
         !gen->depfile || outputs_write(&gen->files, &gen->cli.report, gen->depfile, "--depfile");
     for (uint32_t i = 0; i < mxg_library_num_files(gen->cli.library); ++i)
         good = generate_add_source(gen, mxg_library_file(gen->cli.library, i)) && good;
+    for (size_t i = 0; i < gen->cli.plugin_files.len; ++i)
+        good = generate_add_source(gen, gen->cli.plugin_files.items[i]) && good;
     good = find_documents(gen) && good;
     for (size_t i = 0; i < gen->documents.len && good; ++i)
         generate_file(gen, gen->documents.items[i], gen->folders.items[i]);

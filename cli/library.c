@@ -136,6 +136,9 @@ static bool load(struct cli *cli, const struct action *action)
     for (size_t i = 1; i < inputs->len; ++i)
         if (!action->has_words || !is_word(inputs->items[i]))
             args_append(&paths, inputs->items[i]);
+    const struct arg_list *more = &cli->plugins.libraries;
+    for (size_t i = 0; i < more->len && (action->has_words || action->has_pages); ++i)
+        args_append(&paths, more->items[i]);
     mxg_library *builtin = cli->no_builtin_library ? NULL : mxg_library_builtin(cli->context);
     if (paths.len == 0 && builtin) {
         cli->library = builtin;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen compiles MaterialX documents to shaders. This header and document.h,
- * which it includes, are the whole public interface.
+ * mxgen compiles MaterialX documents to shaders. This header and those that it
+ * includes are the whole public interface.
  *
  *     mxg_context *ctx;
  *     mxg_context_create(NULL, &ctx);
@@ -197,6 +197,13 @@ typedef struct mxg_context_desc {
      */
     const char *const *source_paths;
     size_t num_source_paths;
+    /*
+     * Code for nodes (node.h), num_node_codes of them; of two for the same definition the first one
+     * counts. It replaces the implementations of libraries and documents. The structs, their texts
+     * and their user data live as long as the context.
+     */
+    const struct mxg_node_code *const *node_codes;
+    size_t num_node_codes;
 } mxg_context_desc;
 #define MXG_CONTEXT_DESC_INIT MXG_INIT(mxg_context_desc)
 
@@ -382,6 +389,8 @@ MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_documen
 #include <mxgen/document.h>
 /* Scenes, and the layers of materials of their primitives. */
 #include <mxgen/scene.h>
+/* Nodes that a host or a plug-in implements in C. */
+#include <mxgen/node.h>
 
 /* ---- Targets and options ---- */
 

@@ -4,6 +4,7 @@
 // Each point lies in a triangle of a lattice, whose three corners are the middles of hexagonal tiles. Each tile shows
 // the texture turned, scaled and moved at random; the three are blended by barycentric weights.
 
+#include "image.glsl"
 #include "rotate.glsl"
 
 const float MX_LATTICE_DENSITY = 3.4641016; // 2 sqrt(3) tiles per unit
@@ -60,6 +61,11 @@ mx_HexTile mx_hextile(vec2 coord, vec2 corner, float rotation, vec2 rotation_ran
               mix(vec2(offset_range.x), vec2(offset_range.y), random * offset);
     tile.dx = mx_rotate2d(dFdx(coord), -tile.rotation) / size;
     tile.dy = mx_rotate2d(dFdy(coord), -tile.rotation) / size;
+    if (option_texture_origin == 1) {
+        tile.uv.y = 1.0 - tile.uv.y;
+        tile.dx.y = -tile.dx.y;
+        tile.dy.y = -tile.dy.y;
+    }
     return tile;
 }
 

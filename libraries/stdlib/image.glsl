@@ -6,6 +6,9 @@
 // functions below, over a sampler that repeats and filters linearly; 3 a texture() that does all but borders of a colour.
 const int option_texture_modes = 0;
 
+// Where v is 0 in the textures of the host: 0 at the bottom of the image, 1 at its top.
+const int option_texture_origin = 0;
+
 // Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture
 // Filtering", GPU Gems 2, 2005, chapter 20. Each lookup stands for two texels of a row and two of a column, between
 // which it lies by the ratio of their weights.
@@ -31,6 +34,8 @@ vec4 mx_sample_cubic(sampler2D file, vec2 uv)
 
 vec4 mx_sample(sampler2D file, vec2 uv, string filtertype)
 {
+    if (option_texture_origin == 1)
+        uv.y = 1.0 - uv.y;
     if ((option_texture_modes == 1 || option_texture_modes == 2) && filtertype == "cubic")
         return mx_sample_cubic(file, uv);
     if (option_texture_modes == 2 && filtertype == "closest") {
@@ -79,7 +84,8 @@ vec2 mx_latlong(vec3 direction, float rotation)
 vec4 mx_latlong_image(sampler2D file, vec3 direction, float rotation)
 {
     vec2 uv = mx_latlong(direction, rotation);
-    return texture(file, vec2(uv.x, mx_address(uv.y, textureSize(file, 0).y, "clamp"))); // poles do not meet
+    float v = option_texture_origin == 1 ? 1.0 - uv.y : uv.y;
+    return texture(file, vec2(uv.x, mx_address(v, textureSize(file, 0).y, "clamp"))); // poles do not meet
 }
 
 vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, vec3 position, vec3 normal, int upaxis,

@@ -9,6 +9,7 @@
 #ifndef MXG_API_API_H
 #define MXG_API_API_H
 
+#include "base/structs.h"
 #include "build/build.h"
 #include "spell/target.h"
 #include "xml/reader.h"
@@ -86,19 +87,6 @@ static inline mxg_status object_status(const struct object *object)
     return object->diagnostics.list.num_errors ? MXG_ERROR_DOCUMENT : MXG_OK;
 }
 
-/* ---- Structs of the interface: structs.c ---- */
-
-/*
- * Copies a struct of the caller. false if its size is unknown, or if it sets members that this
- * version does not have.
- */
-bool struct_read(void *out, size_t out_size, const void *in);
-/*
- * Copies `from` up to the size of the caller's struct and zeroes the rest; both begin with their
- * size.
- */
-mxg_status struct_write(void *out, const void *from, size_t from_size);
-
 /* ---- The objects ---- */
 
 struct mxg_library {
@@ -125,6 +113,8 @@ struct mxg_context {
     enum library_trust trust;   /* for verbatim source in documents */
     struct sandbox_root *roots; /* canonical */
     struct source_path *source_paths;
+    mxg_node_code *codes; /* num_codes of them */
+    uint32_t num_codes;
     struct mxg_library builtin; /* size 0: this build has no built-in library */
 };
 
@@ -138,6 +128,15 @@ struct mxg_document {
 
 /* target.c: true if mxgen has the target of this MaterialX name. */
 bool target_exists(const char *materialx_name);
+
+/*
+ * codes.c: copies the nodes in C of the description. codes_finish also frees what a failure leaves.
+ */
+mxg_status codes_take(struct mxg_context *context, const mxg_context_desc *desc);
+void codes_finish(struct mxg_context *context);
+/* True if code serves a definition for the target; NULL: for any. */
+bool codes_serve(const struct mxg_context *context, const char *nodedef, const char *node,
+                 const struct target *target);
 
 /* ---- Files: files.c ---- */
 
@@ -247,7 +246,8 @@ uint64_t options_hash(const struct option_value *values);
 /* ---- Definitions: library.c ---- */
 
 /* mxg_library_nodedef and mxg_library_port, for the layer of a library or of a document. */
-mxg_status definition_info(const struct library *lib, uint32_t index, mxg_nodedef *out);
+mxg_status definition_info(const struct mxg_context *context, const struct library *lib,
+                           uint32_t index, mxg_nodedef *out);
 mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t index,
                            mxg_port *out);
 

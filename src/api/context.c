@@ -110,9 +110,10 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->trust = d.trust     ? LIBRARY_TRUST_ALL
                      : d.sandbox ? LIBRARY_TRUST_GRAPHS
                                  : LIBRARY_TRUST_PORTABLE;
-    if (!take_folders(context, &d)) {
+    mxg_status status = take_folders(context, &d) ? codes_take(context, &d) : MXG_ERROR_MEMORY;
+    if (status != MXG_OK) {
         mxg_context_destroy(context);
-        return MXG_ERROR_MEMORY;
+        return status;
     }
     xml_startup();
     context->resolver = d.resolver ? *d.resolver : stdio_resolver(context);
@@ -129,5 +130,6 @@ void mxg_context_destroy(mxg_context *context)
     object_empty(&context->builtin.object);
     sandbox_finish(context);
     source_paths_finish(context);
+    codes_finish(context);
     context->mem.realloc(context->mem.user_data, context, sizeof *context, 0);
 }

@@ -231,7 +231,8 @@ uint32_t mxg_document_num_nodedefs(const mxg_document *document)
 
 mxg_status mxg_document_nodedef(const mxg_document *document, uint32_t index, mxg_nodedef *out)
 {
-    return document ? definition_info(&document->layer, index, out) : MXG_ERROR_ARGUMENT;
+    return document ? definition_info(document->object.context, &document->layer, index, out)
+                    : MXG_ERROR_ARGUMENT;
 }
 
 mxg_status mxg_document_port(const mxg_document *document, uint32_t nodedef, uint32_t index,

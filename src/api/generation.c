@@ -93,6 +93,7 @@ static void set_build_options(struct generation *g)
         .environment = o[OPTION_environment].number,
         .albedo = o[OPTION_albedo].number,
         .sample_filter = o[OPTION_sample_filter].number,
+        .texture_origin = o[OPTION_texture_origin].number,
         .texture_modes =
             caps & CAP_SAMPLERS ? o[OPTION_texture_modes].number : TEXTURE_MODES_BUT_BORDERS,
         .missing_colors = caps & CAP_MISSING_COLORS,
@@ -104,6 +105,9 @@ static void set_build_options(struct generation *g)
         .texture_fault = stdio_texture_fault,
         .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
+        .vertex_stage = (caps & CAP_VERTEX_STAGE) && o[OPTION_integrator].number != 2,
+        .codes = context->codes,
+        .num_codes = context->num_codes,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
     };
@@ -170,6 +174,8 @@ static void name_shader(struct generation *g)
     for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
         shader->source_language = t->source;
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
+    shader->reserved = g->options[OPTION_reserved].list.items;
+    shader->num_reserved = g->options[OPTION_reserved].list.len;
 }
 
 /* The place of messages about a stack: its base, or the look. */
@@ -292,6 +298,12 @@ void generation_start_closures(struct generation *g)
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
         .environment = g->options[OPTION_environment].number != 0,
         .two_sided = g->options[OPTION_layering].number != 0,
+        .transmits_alpha = g->options[OPTION_transmission].number != 0,
+        .transparency = (uint8_t)g->options[OPTION_transparency].number,
+        .shadow = g->options[OPTION_shadow_map].number != 0,
+        .occlusion = g->options[OPTION_occlusion_map].number != 0,
+        .flips_v = g->options[OPTION_texture_origin].number != 0,
+        .encodes = g->options[OPTION_encode].number != 0,
     };
 }
 
@@ -307,6 +319,8 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
         .one_stage = !(caps & CAP_VERTEX_STAGE),
         .typed_textures = caps & CAP_TYPED_TEXTURES,
         .names_wholes = caps & CAP_NAMED_WHOLES,
+        .set = (uint32_t)g->options[OPTION_binding_set].number,
+        .first_binding = (uint32_t)g->options[OPTION_first_binding].number,
     };
 }
 

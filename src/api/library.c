@@ -293,8 +293,12 @@ static bool serves(const struct library *lib, const struct implementation *impl,
            && (!target || !impl->target || target_is_a(target, text_of(lib, impl->target)));
 }
 
-static bool has_implementation(const struct library *lib, uint32_t id, const struct target *target)
+static bool has_implementation(const struct mxg_context *context, const struct library *lib,
+                               uint32_t id, const struct target *target)
 {
+    const struct nodedef *def = library_nodedef(lib, id);
+    if (codes_serve(context, text_of(lib, def->name), text_of(lib, def->node), target))
+        return true;
     for (const struct library *layer = lib; id < layer->base_nodedefs; layer = layer->base)
         for (uint32_t i = library_first_override(layer, id); i != LIBRARY_NONE;) {
             const struct implementation *impl = library_impl(lib, i, NULL);
@@ -302,7 +306,7 @@ static bool has_implementation(const struct library *lib, uint32_t id, const str
                 return true;
             i = impl->next;
         }
-    for (uint32_t i = library_nodedef(lib, id)->first_impl; i != LIBRARY_NONE;) {
+    for (uint32_t i = def->first_impl; i != LIBRARY_NONE;) {
         const struct implementation *impl = library_impl(lib, i, NULL);
         assert(impl->nodedef == id);
         if (serves(lib, impl, target))
@@ -316,10 +320,11 @@ bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const ch
 {
     const struct target *found = target ? target_find(target) : NULL;
     return found && nodedef < mxg_library_num_nodedefs(library)
-           && has_implementation(&library->layer, nodedef, found);
+           && has_implementation(library->object.context, &library->layer, nodedef, found);
 }
 
-mxg_status definition_info(const struct library *lib, uint32_t index, mxg_nodedef *out)
+mxg_status definition_info(const struct mxg_context *context, const struct library *lib,
+                           uint32_t index, mxg_nodedef *out)
 {
     if (index >= library_num_nodedefs(lib))
         return MXG_ERROR_ARGUMENT;
@@ -334,7 +339,7 @@ mxg_status definition_info(const struct library *lib, uint32_t index, mxg_nodede
         .file = file ? file : "",
         .num_inputs = def->num_inputs,
         .num_outputs = def->num_outputs,
-        .has_implementation = has_implementation(lib, index, NULL),
+        .has_implementation = has_implementation(context, lib, index, NULL),
         .is_default_version = !def->version || def->is_default_version,
     };
     return struct_write(out, &full, sizeof full);
@@ -342,7 +347,8 @@ mxg_status definition_info(const struct library *lib, uint32_t index, mxg_nodede
 
 mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
 {
-    return library ? definition_info(&library->layer, index, out) : MXG_ERROR_ARGUMENT;
+    return library ? definition_info(library->object.context, &library->layer, index, out)
+                   : MXG_ERROR_ARGUMENT;
 }
 
 mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t index,

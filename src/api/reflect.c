@@ -3,6 +3,7 @@
  * The reflection of a shader: variables, facts; and its JSON form.
  */
 #include "api/generation.h"
+#include "base/hash.h"
 
 #include <assert.h>
 
@@ -216,10 +217,17 @@ static uint32_t count_textures(const mxg_result *result)
     return count;
 }
 
+/* Nodes in C count with their versions, because hosts keep shaders by their topology. */
+static uint64_t network_topology(const mxg_result *result)
+{
+    uint64_t topology = result->target->network->topology(&result->network);
+    return result->shader.codes ? hash_mix(topology, result->shader.codes) : topology;
+}
+
 static void write_topology(const struct object *object, struct text *out)
 {
     const mxg_result *result = (const mxg_result *)object;
-    uint64_t topology = result->network.arena ? result->target->network->topology(&result->network)
+    uint64_t topology = result->network.arena ? network_topology(result)
                                               : shader_topology(&result->shader, out->arena);
     text_mem(out, (const char *)&topology, sizeof topology);
 }
@@ -272,7 +280,7 @@ static void write_json(const struct object *object, struct text *out)
     };
     if (result->network.arena) {
         options.network = &result->network;
-        options.network_topology = result->target->network->topology(&result->network);
+        options.network_topology = network_topology(result);
         options.reflect_network = result->target->network->reflect;
     }
     shader_reflect_json(&result->shader, &options, out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "build/build_priv.h"
+#include "build/code.h"
 #include "print/print.h"
 
 #include <assert.h>
@@ -12,6 +12,7 @@ static const struct known_option {
 } known_options[] = {{"option_environment", offsetof(struct build_options, environment)},
                      {"option_albedo", offsetof(struct build_options, albedo)},
                      {"option_texture_modes", offsetof(struct build_options, texture_modes)},
+                     {"option_texture_origin", offsetof(struct build_options, texture_origin)},
                      {"option_integrator", offsetof(struct build_options, integrator)},
                      {"option_sample_filter", offsetof(struct build_options, sample_filter)}};
 
@@ -24,24 +25,10 @@ static const int *find_option(const struct build_options *options, const char *n
     return NULL;
 }
 
-/* The reason why no shader can have this uniform; NULL: it can. Hosts bind uniforms by their name.
- */
-static const char *uniform_fault(const struct builder *b, const struct lang_global *global)
-{
-    const char *name = build_text(b, global->name);
-    ir_type_id known = shader_uniform_type(global->name);
-    if (known != IR_TYPE_VOID && known != global->type)
-        return "which is a uniform of mxgen with another type";
-    bool is_reserved = strncmp(name, "gl_", 3) == 0 || strcmp(name, "main") == 0
-                       || strstr(name, "__")
-                       || lang_syntax_is_reserved(b->options->syntax, name, strlen(name));
-    return is_reserved ? "which is a word of the target" : NULL;
-}
-
 static ir_ref make_uniform(struct builder *b, struct ir_graph *graph,
                            const struct lang_global *global)
 {
-    const char *fault = uniform_fault(b, global);
+    const char *fault = build_uniform_fault(b, global->name, global->type);
     if (fault) {
         diag_add(b->diags, DIAG_ID_uniform_name,
                  doc_place(build_doc(b), b->called ? b->called : build_doc(b)->root),
@@ -129,6 +116,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->document->slots = ARENA_ARRAY(b->arena, uint32_t, lib->doc.elements.len);
     build_check_colorspace(b);
     build_check_distance_unit(b);
+    code_find_all(b);
     return b;
 }
 

@@ -18,6 +18,8 @@ enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED
 
 enum { TEXTURE_MODES_BUT_BORDERS = 3 }; /* libraries/stdlib/image.glsl lists all values */
 
+struct mxg_node_code; /* mxgen/node.h */
+
 struct build_options {
     /* MaterialX names of the target and of its bases: "essl", "genglsl" */
     const str_id *targets;
@@ -37,6 +39,7 @@ struct build_options {
     int albedo;
     int sample_filter;
     int texture_modes;
+    int texture_origin; /* 1: v is 0 at the top of images */
     /* texture() takes the default of a missing image as an argument, which may be a uniform */
     bool missing_colors;
     /*
@@ -53,6 +56,9 @@ struct build_options {
     const char *(*texture_fault)(void *user_data, const char *from, const char *file);
     void *texture_user_data;
     int integrator;
+    bool vertex_stage; /* the shader has one, which can compute values for the pixels */
+    const struct mxg_node_code *codes; /* nodes in C: code.h */
+    uint32_t num_codes;
     bool (*cancel)(void *user_data);
     void *cancel_user_data;
 };

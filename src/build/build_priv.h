@@ -55,6 +55,16 @@ struct memo {
     uint32_t function;     /* + 1, after its body is complete */
 };
 
+struct code_value { /* a value that the code of a node has */
+    ir_ref ref;
+    uint32_t serial; /* of the use */
+};
+
+struct code_parsed { /* an expression in the code of a node */
+    str_id key;
+    uint32_t function; /* LANG_NONE: its errors are reported */
+};
+
 struct builder {
     const struct library *lib;
     const struct build_options *options;
@@ -84,8 +94,17 @@ struct builder {
     ir_ref missing_texel;      /* the current node's texel outside all tiles of its image */
     struct recorder *recorder; /* network.c; NULL: one shader is built */
     str_id slot;               /* the name of the layer that is built, for names of variables; 0 */
-    bool has_colorspace;       /* the library has transforms to the option's colour space */
-    bool has_distance_unit;    /* the library has the option's unit */
+    /* code.h */
+    VEC(struct code_value) code_values;
+    struct table code_names; /* by name: indices of options->codes + 1 */
+    struct table code_table; /* by definition: indices of code_impls + 1 */
+    VEC(const struct implementation *) code_impls;
+    struct table code_expressions; /* by key: indices of code_parsed + 1 */
+    VEC(struct code_parsed) code_parsed;
+    uint32_t code_serial, code_depth;
+    uint32_t without_code;  /* 1 + the definition whose code does not count; 0: all codes count */
+    bool has_colorspace;    /* the library has transforms to the option's colour space */
+    bool has_distance_unit; /* the library has the option's unit */
     bool cancelled;
 };
 
@@ -178,6 +197,8 @@ ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, e
 void build_compile_in(struct builder *b, elem_id node, const struct port *port, elem_id element);
 /* The path of an input: "SR_gold/base_color". */
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
+/* The reason why no shader can have this uniform; NULL: it can. Hosts bind uniforms by name. */
+const char *build_uniform_fault(const struct builder *b, str_id name, ir_type_id type);
 
 /* value.c */
 
@@ -244,7 +265,7 @@ bool build_has_tokens(const struct builder *b, elem_id node);
 /* The implementation of a definition for the target; NULL after a diagnostic. */
 const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
 /* The implementation of a definition for the target; NULL: there is none. */
-const struct implementation *build_best_implementation(const struct builder *b, uint32_t nodedef);
+const struct implementation *build_best_implementation(struct builder *b, uint32_t nodedef);
 /*
  * The definition of a node for a type: "ND_constant_color3" for "constant"; LIBRARY_NONE if the
  * library has none.
@@ -331,7 +352,10 @@ int build_mode(const char *word);
 void build_report_large(void *user_data);
 void build_report_index(void *user_data, int32_t index, uint32_t length);
 
-/* dynamic.c: builds nodes in C; false after a report that the definition has no such code. */
-bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
+/*
+ * dynamic.c: builds nodes in the C code of mxgen. Poison after a report: there is no code for the
+ * node, or the definition differs from its needs.
+ */
+void build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Chooses the definition of a node, and the implementation of a definition for the target. */
-#include "build/build_priv.h"
+#include "build/code.h"
 
 /*
  * 0: not for this target. Higher is better: the target itself, then inherited targets, then
@@ -26,8 +26,11 @@ static void consider(const struct builder *b, const struct implementation *impl,
     }
 }
 
-const struct implementation *build_best_implementation(const struct builder *b, uint32_t nodedef)
+const struct implementation *build_best_implementation(struct builder *b, uint32_t nodedef)
 {
+    const struct implementation *code = code_implementation(b, nodedef);
+    if (code)
+        return code;
     const struct implementation *best = NULL;
     unsigned best_fitness = 0;
     /* Higher layers first: a document's implementation wins over the library's of equal fitness. */

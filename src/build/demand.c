@@ -267,14 +267,17 @@ static void step_inputs(struct builder *b)
         }
     }
     push_origin(b, frame);
-    build_args(b, frame);
-    if (frame->impl->kind == IMPL_GRAPH) {
+    struct frame use = *frame; /* frames move while an input or a node applies definitions */
+    build_args(b, &use);
+    if (use.impl->kind == IMPL_GRAPH) {
+        frame = &vec_last(&b->frames);
+        frame->args = use.args;
         enter_graph(b, frame);
     } else {
         ir_ref results[LIBRARY_MAX_OUTPUTS];
-        build_node(b, frame, results);
-        convert_colors(b, frame, results);
-        name_results(b, frame, results);
+        build_node(b, &use, results);
+        convert_colors(b, &use, results);
+        name_results(b, &use, results);
         finish(b, add_results(b, results, def->num_outputs));
     }
     ir_pop_origin(b->graph);

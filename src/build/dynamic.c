@@ -1,111 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Dynamic implementations: named streams, and the constructors of closures and shaders, each of
- * which is an op of the IR.
+ * Dynamic implementations: named streams, and the constructors of closures and shaders. Each is
+ * code for a node like that of a host (mxgen/node.h). Few of them need more of the builder than a
+ * host has.
  */
-#include "build/build_priv.h"
+#include "build/code.h"
 
-struct call {
-    struct builder *b;
-    const struct frame *frame;
-    const struct nodedef *def;
-    const struct port *ports;
-    ir_type_id type; /* type of the first output */
-};
+#include <stdio.h>
 
-static ir_ref arg(const struct call *c, str_id name)
+enum { MAX_OPERANDS = 4 };
+
+/* An input that a definition may lack: then 0. */
+static mxg_ref optional_input(mxg_build *build, const char *wanted)
 {
-    for (unsigned i = 0; i < c->def->num_inputs; i++)
-        if (c->ports[i].name == name)
-            return c->frame->args[i];
+    const char *name = NULL;
+    for (uint32_t i = 0; i < build->def->num_inputs; i++)
+        if (strcmp(mxg_build_port(build, i, NULL), wanted) == 0)
+            name = wanted;
+    return name ? mxg_build_input(build, name) : 0;
+}
+
+/* An op of inputs; the name NULL stands for an absent operand. */
+static bool op_of(mxg_build *build, const char *op, const char *const *inputs, uint32_t n,
+                  mxg_ref *results)
+{
+    mxg_ref args[MAX_OPERANDS];
+    assert(n <= MAX_OPERANDS);
+    for (uint32_t i = 0; i < n; i++)
+        args[i] = inputs[i] ? optional_input(build, inputs[i]) : 0;
+    results[0] = mxg_build_op(build, op, NULL, args, n);
+    return true;
+}
+
+static mxg_ref op1(mxg_build *build, const char *op, mxg_ref a)
+{
+    return mxg_build_op(build, op, NULL, &a, 1);
+}
+
+static mxg_ref op2(mxg_build *build, const char *op, mxg_ref a, mxg_ref b)
+{
+    return mxg_build_op(build, op, NULL, (mxg_ref[]){a, b}, 2);
+}
+
+static ir_ref arg(const mxg_build *build, str_id name)
+{
+    for (unsigned i = 0; i < build->def->num_inputs; i++)
+        if (build->ports[i].name == name)
+            return build->frame->args[i];
     return 0;
 }
 
-static ir_ref build_op(const struct call *c, enum ir_op op, const ir_ref *args, unsigned n)
+static bool misfit(const mxg_build *build, const char *fault)
 {
-    return ir_build(c->b->graph, op, c->type, 0, args, n);
-}
-
-static ir_ref misfit(const struct call *c, const char *fault)
-{
-    diag_add(c->b->diags, DIAG_ID_function_signature,
-             doc_place(&c->b->lib->doc, c->frame->impl->element), build_text(c->b, c->def->node),
-             build_text(c->b, c->def->name), fault);
-    return ir_poison(c->b->graph, c->type);
+    struct builder *b = build->b;
+    diag_add(b->diags, DIAG_ID_function_signature,
+             doc_place(&b->lib->doc, build->frame->impl->element), build_text(b, build->def->node),
+             build_text(b, build->def->name), fault);
+    return false;
 }
 
 /* ---- streams ---- */
 
-static ir_ref not_constant(const struct call *c, str_id input)
+/* The index in an input; false after a report. */
+static bool read_index(mxg_build *build, int32_t *out)
 {
-    /* the fault is already reported */
-    if (ir_get(c->b->graph, arg(c, input))->op == IR_POISON)
-        return ir_poison(c->b->graph, c->type);
-    diag_add(c->b->diags, DIAG_ID_input_must_be_constant,
-             doc_place(&c->b->lib->doc, c->frame->node.element), build_text(c->b, input),
-             build_text(c->b, c->def->node));
-    return ir_poison(c->b->graph, c->type);
+    mxg_value index = MXG_INIT(mxg_value);
+    if (!mxg_build_constant(build, "index", &index))
+        return false;
+    *out = index.integer;
+    if (index.integer < 0)
+        mxg_build_error(build, "index", "the index is negative; the first one is 0");
+    return index.integer >= 0;
 }
 
-static ir_ref named_stream(const struct call *c, const char *prefix, str_id name, uint32_t number,
-                           ir_type_id type)
+/* The stream "texcoord_2" for 2. */
+static mxg_ref numbered_stream(mxg_build *build, const char *prefix, int32_t number)
 {
-    struct text full;
-    text_init(&full, c->b->arena);
-    text_str(&full, prefix);
-    if (name)
-        text_str(&full, build_text(c->b, name));
-    else
-        text_u32(&full, number);
-    return shader_stream(c->b->shader, str_intern(c->b->shader->strings, full.data, full.len),
-                         type);
+    char name[32];
+    snprintf(name, sizeof name, "%s%d", prefix, number);
+    return mxg_build_stream(build, name, NULL);
 }
 
 /*
- * Fits a stream to the number of components of the node's output: drops components, or fills with
- * 0.
+ * Fits a stream of `have` components to the node's output: drops components, or fills with 0.
  */
-static ir_ref fit_components(const struct call *c, ir_ref value)
+static mxg_ref fit_components(mxg_build *build, mxg_ref value, unsigned have)
 {
-    static const uint8_t first[] = {0, 1, 2, 3};
-    struct ir_graph *g = c->b->graph;
-    unsigned have = ir_type_info(ir_type_of(g, value))->components,
-             want = ir_type_info(c->type)->components;
+    static const char *const names[] = {NULL, "x", "xy", "xyz", "xyzw"};
+    unsigned want = ir_type_info(build->type)->components, n = 1;
+    mxg_ref parts[4] = {value};
     if (want < have)
-        return ir_swizzle(g, value, first, want);
+        return mxg_build_swizzle(build, value, names[want]);
     if (want == have)
         return value;
-    ir_ref parts[4] = {value};
-    unsigned n = 1;
     for (unsigned i = have; i < want; i++)
-        parts[n++] = ir_const_float(g, 0.0f);
-    return ir_construct(g, c->type, parts, n);
+        parts[n++] = mxg_build_number(build, "float", (const float[]){0.0f}, 1);
+    return mxg_build_op(build, "construct", ir_type_text(build->type), parts, n);
 }
 
-static ir_ref indexed_stream(const struct call *c, const char *prefix, ir_type_id type)
+static bool indexed_stream(mxg_build *build, const char *prefix, unsigned components,
+                           mxg_ref *results)
 {
-    struct ir_value index;
-    if (!build_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0)
-        return not_constant(c, STR_index);
-    return fit_components(c, named_stream(c, prefix, 0, (uint32_t)index.w[0].i, type));
+    int32_t index;
+    if (!read_index(build, &index))
+        return false;
+    results[0] = fit_components(build, numbered_stream(build, prefix, index), components);
+    return true;
 }
 
-static ir_ref build_texcoord(const struct call *c)
+static bool build_texcoord(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    return indexed_stream(c, "texcoord_", IR_TYPE_VEC2);
+    (void)user_data;
+    return indexed_stream(build, "texcoord_", 2, results);
 }
 
-static ir_ref build_geomcolor(const struct call *c)
+static bool build_geomcolor(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    return indexed_stream(c, "color_", IR_TYPE_VEC4);
-}
-
-/* The change of a value, or of a part of it, from pixel to pixel. */
-static ir_ref change(const struct call *c, enum ir_op axis, ir_ref value, int part)
-{
-    assert(part < (int)ir_type_info(ir_type_of(c->b->graph, value))->components);
-    ir_ref all = ir_op1(c->b->graph, axis, value);
-    return part < 0 ? all : ir_component(c->b->graph, all, (unsigned)part);
+    (void)user_data;
+    return indexed_stream(build, "color_", 4, results);
 }
 
 /*
@@ -116,253 +128,296 @@ static ir_ref change(const struct call *c, enum ir_op axis, ir_ref value, int pa
  *     B = (dP/dy · du/dx - dP/dx · du/dy) sign D
  *     D = du/dx · dv/dy - du/dy · dv/dx
  */
-static ir_ref tangent_of(const struct call *c, ir_ref point, ir_ref uv, bool along_v)
+static mxg_ref tangent_of(mxg_build *build, mxg_ref point, mxg_ref uv, bool along_v)
 {
-    struct ir_graph *g = c->b->graph;
-    enum ir_op first = along_v ? IR_DFDY : IR_DFDX, second = along_v ? IR_DFDX : IR_DFDY;
-    int across = along_v ? 0 : 1; /* the coordinate that does not change along the tangent */
-    ir_ref sum = ir_op2(
-        g, IR_SUB, ir_op2(g, IR_MUL, change(c, first, point, -1), change(c, second, uv, across)),
-        ir_op2(g, IR_MUL, change(c, second, point, -1), change(c, first, uv, across)));
-    ir_ref area =
-        ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, change(c, IR_DFDX, uv, 0), change(c, IR_DFDY, uv, 1)),
-               ir_op2(g, IR_MUL, change(c, IR_DFDY, uv, 0), change(c, IR_DFDX, uv, 1)));
-    return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_MUL, sum, ir_op1(g, IR_SIGN, area)));
+    const char *first = along_v ? "dFdy" : "dFdx", *second = along_v ? "dFdx" : "dFdy";
+    mxg_ref du_dx = mxg_build_swizzle(build, op1(build, "dFdx", uv), "x"),
+            du_dy = mxg_build_swizzle(build, op1(build, "dFdy", uv), "x"),
+            dv_dx = mxg_build_swizzle(build, op1(build, "dFdx", uv), "y"),
+            dv_dy = mxg_build_swizzle(build, op1(build, "dFdy", uv), "y");
+    mxg_ref sum =
+        op2(build, "sub", op2(build, "mul", op1(build, first, point), along_v ? du_dx : dv_dy),
+            op2(build, "mul", op1(build, second, point), along_v ? du_dy : dv_dx));
+    mxg_ref area =
+        op2(build, "sub", op2(build, "mul", du_dx, dv_dy), op2(build, "mul", du_dy, dv_dx));
+    return op1(build, "normalize", op2(build, "mul", sum, op1(build, "sign", area)));
 }
 
-static ir_ref build_axis(const struct call *c, str_id object, str_id world, bool along_v)
+static bool build_axis(mxg_build *build, const char *object, const char *world, bool along_v,
+                       mxg_ref *results)
 {
-    struct ir_value index = {.type = IR_TYPE_INT}, space;
-    if (c->b->options->indexed_tangents
-        && (!build_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0))
-        return not_constant(c, STR_index);
-    if (!ir_get_const(c->b->graph, arg(c, STR_space), &space))
-        return not_constant(c, STR_space);
-    bool is_world = space.w[0].u == STR_world;
-    if (index.w[0].i == 0)
-        return ir_op1(c->b->graph, IR_NORMALIZE,
-                      shader_stream(c->b->shader, is_world ? world : object, IR_TYPE_VEC3));
-    ir_ref uv = named_stream(c, "texcoord_", 0, (uint32_t)index.w[0].i, IR_TYPE_VEC2);
-    ir_ref point = shader_stream(c->b->shader, is_world ? STR_positionWorld : STR_positionObject,
-                                 IR_TYPE_VEC3);
-    return tangent_of(c, point, uv, along_v);
+    mxg_value space = MXG_INIT(mxg_value);
+    int32_t index = 0;
+    if ((build->b->options->indexed_tangents && !read_index(build, &index))
+        || !mxg_build_constant(build, "space", &space))
+        return false;
+    bool is_world = strcmp(space.text, "world") == 0;
+    if (index == 0) {
+        results[0] =
+            op1(build, "normalize", mxg_build_stream(build, is_world ? world : object, NULL));
+        return true;
+    }
+    mxg_ref uv = numbered_stream(build, "texcoord_", index);
+    mxg_ref point = mxg_build_stream(build, is_world ? "positionWorld" : "positionObject", NULL);
+    results[0] = tangent_of(build, point, uv, along_v);
+    return true;
 }
 
-static ir_ref build_tangent(const struct call *c)
+static bool build_tangent(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    return build_axis(c, STR_tangentObject, STR_tangentWorld, false);
+    (void)user_data;
+    return build_axis(build, "tangentObject", "tangentWorld", false, results);
 }
 
-static ir_ref build_bitangent(const struct call *c)
+static bool build_bitangent(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    return build_axis(c, STR_bitangentObject, STR_bitangentWorld, true);
+    (void)user_data;
+    return build_axis(build, "bitangentObject", "bitangentWorld", true, results);
 }
 
 /* Records the value that hosts bind if the geometry lacks the property. */
-static void record_default(const struct call *c, uint32_t index)
+static void record_default(mxg_build *build, uint32_t index)
 {
-    assert(index < c->b->shader->variables.len);
-    struct shader_variable *variable = &c->b->shader->variables.items[index];
+    struct builder *b = build->b;
+    assert(index < b->shader->variables.len);
+    struct shader_variable *variable = &b->shader->variables.items[index];
     struct ir_value value;
-    if (!variable->has_default && build_initial(c->b, arg(c, STR_default), &value)
+    if (!variable->has_default && build_initial(b, arg(build, STR_default), &value)
         && value.type == variable->type) {
         variable->has_default = true;
         variable->value = value;
     }
 }
 
-static ir_ref geomprop_uniform(const struct call *c, str_id name)
+static ir_ref geomprop_uniform(mxg_build *build, const char *name)
 {
+    struct builder *b = build->b;
     struct text full;
-    text_init(&full, c->b->arena);
-    text_fmt(&full, "u_geomprop_%s", build_text(c->b, name));
-    str_id id = str_intern(c->b->shader->strings, full.data, full.len);
-    uint32_t variable = shader_private_uniform(c->b->shader, id, c->type, 0);
-    if (c->type == IR_TYPE_BOOL)
-        record_default(c, variable);
-    return ir_build(c->b->graph, c->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, c->type,
+    text_init(&full, b->arena);
+    text_fmt(&full, "u_geomprop_%s", name);
+    str_id id = str_intern(b->shader->strings, full.data, full.len);
+    uint32_t variable = shader_private_uniform(b->shader, id, build->type, 0);
+    if (build->type == IR_TYPE_BOOL)
+        record_default(build, variable);
+    return ir_build(b->graph, build->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, build->type,
                     variable, NULL, 0);
+}
+
+static ir_ref geomprop_stream(mxg_build *build, const char *name)
+{
+    struct builder *b = build->b;
+    struct text full;
+    uint32_t attribute;
+    text_init(&full, b->arena);
+    text_fmt(&full, "geomprop_%s", name);
+    ir_ref stream =
+        shader_stream(b->shader, str_intern(b->shader->strings, full.data, full.len), build->type);
+    if (ir_get(b->graph, stream)->op == IR_STREAM) {
+        record_default(build, ir_get(b->graph, stream)->attr);
+        if (shader_attribute(b->shader, ir_get(b->graph, stream)->attr, &attribute))
+            record_default(build, attribute);
+    }
+    return stream;
 }
 
 /*
  * Booleans cannot be interpolated, and strings cannot be streams: hosts set them per object (as in
  * MaterialX 1.39).
  */
-static ir_ref build_geompropvalue(const struct call *c)
+static bool build_geompropvalue(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    struct ir_value name;
-    if (!ir_get_const(c->b->graph, arg(c, STR_geomprop), &name))
-        return not_constant(c, STR_geomprop);
-    if (!name.w[0].u)
-        return arg(c, STR_default); /* the node names no property */
-    if (c->type == IR_TYPE_STRING)
-        return arg(c, STR_default);
-    if (c->type == IR_TYPE_BOOL || c->type == IR_TYPE_SAMPLER)
-        return geomprop_uniform(c, name.w[0].u);
-    ir_ref stream = named_stream(c, "geomprop_", name.w[0].u, 0, c->type);
-    uint32_t attribute;
-    if (ir_get(c->b->graph, stream)->op == IR_STREAM) {
-        record_default(c, ir_get(c->b->graph, stream)->attr);
-        if (shader_attribute(c->b->shader, ir_get(c->b->graph, stream)->attr, &attribute))
-            record_default(c, attribute);
+    mxg_value name = MXG_INIT(mxg_value);
+    (void)user_data;
+    if (!mxg_build_constant(build, "geomprop", &name))
+        return false;
+    if (!name.text[0] || build->type == IR_TYPE_STRING) { /* the node names no property */
+        results[0] = mxg_build_input(build, "default");
+        return true;
     }
-    return stream;
+    bool is_uniform = build->type == IR_TYPE_BOOL || build->type == IR_TYPE_SAMPLER;
+    results[0] = code_issue(build, is_uniform ? geomprop_uniform(build, name.text)
+                                              : geomprop_stream(build, name.text));
+    return true;
 }
 
-static ir_ref blur(const struct call *c)
+static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    return build_blur(c->b, arg(c, STR_in), arg(c, STR_size), arg(c, STR_filtertype),
-                      c->frame->node.element);
+    (void)user_data;
+    results[0] =
+        code_issue(build, build_blur(build->b, arg(build, STR_in), arg(build, STR_size),
+                                     arg(build, STR_filtertype), build->frame->node.element));
+    return true;
 }
 
-/* ---- closures; ref 0 is "no closure", the neutral element of these ops ---- */
+/* ---- closures ---- */
 
-static ir_ref build_layer(const struct call *c)
+static bool build_layer(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[2] = {arg(c, STR_top), arg(c, STR_base)};
-    if (!args[0] || !args[1])
-        return args[0] ? args[0] : args[1];
-    return build_op(c, IR_LAYER, args, 2);
+    (void)user_data;
+    return op_of(build, "layer", (const char *const[]){"top", "base"}, 2, results);
 }
 
-static ir_ref build_mix(const struct call *c)
+static bool build_mix(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[3] = {arg(c, STR_bg), arg(c, STR_fg), arg(c, STR_mix)};
-    if (ir_const_is(c->b->graph, args[2], 0.0f) || args[0] == args[1])
-        return args[0];
-    if (ir_const_is(c->b->graph, args[2], 1.0f))
-        return args[1];
-    return build_op(c, ir_type_is_closure(c->type) ? IR_CLOSURE_MIX : IR_SHADER_MIX, args, 3);
+    (void)user_data;
+    return op_of(build, ir_type_is_closure(build->type) ? "closure_mix" : "shader_mix",
+                 (const char *const[]){"bg", "fg", "mix"}, 3, results);
 }
 
-static ir_ref build_add(const struct call *c)
+static bool build_add(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[2] = {arg(c, STR_in1), arg(c, STR_in2)};
-    if (!args[0] || !args[1])
-        return args[0] ? args[0] : args[1];
-    return build_op(c, IR_CLOSURE_ADD, args, 2);
+    (void)user_data;
+    return op_of(build, "closure_add", (const char *const[]){"in1", "in2"}, 2, results);
 }
 
-static ir_ref build_multiply(const struct call *c)
+static bool build_multiply(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[2] = {arg(c, STR_in1), arg(c, STR_in2)};
-    if (!args[0] || ir_const_is(c->b->graph, args[1], 1.0f))
-        return args[0];
-    return build_op(c, IR_CLOSURE_SCALE, args, 2);
+    (void)user_data;
+    return op_of(build, "closure_scale", (const char *const[]){"in1", "in2"}, 2, results);
 }
 
-static ir_ref thin_film(const struct call *c)
+static bool thin_film(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    return build_film(c->b, arg(c, STR_thickness), arg(c, STR_ior), arg(c, STR_base),
-                      c->frame->node.element);
+    (void)user_data;
+    results[0] =
+        code_issue(build, build_film(build->b, arg(build, STR_thickness), arg(build, STR_ior),
+                                     arg(build, STR_base), build->frame->node.element));
+    return true;
 }
 
-static ir_ref measured_edf(const struct call *c)
+static bool measured_edf(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    return build_measured_edf(c->b, arg(c, STR_color), arg(c, STR_normal), arg(c, STR_file),
-                              c->frame->node.element);
+    (void)user_data;
+    results[0] = code_issue(build, build_measured_edf(build->b, arg(build, STR_color),
+                                                      arg(build, STR_normal), arg(build, STR_file),
+                                                      build->frame->node.element));
+    return true;
 }
 
 /* ---- shaders ---- */
 
-static ir_ref build_surface(const struct call *c)
+static bool build_surface(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[4] = {arg(c, STR_bsdf), arg(c, STR_edf), arg(c, STR_opacity),
-                      arg(c, STR_thin_walled)};
-    return build_op(c, IR_SURFACE_SHADER, args, 4);
+    (void)user_data;
+    return op_of(build, "surface", (const char *const[]){"bsdf", "edf", "opacity", "thin_walled"},
+                 4, results);
 }
 
-static ir_ref build_surface_unlit(const struct call *c)
+static bool build_surface_unlit(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    struct ir_graph *g = c->b->graph;
-    ir_ref args[3] = {ir_op2(g, IR_MUL, arg(c, STR_emission_color), arg(c, STR_emission)),
-                      ir_op2(g, IR_MUL, arg(c, STR_transmission_color), arg(c, STR_transmission)),
-                      arg(c, STR_opacity)};
-    return build_op(c, IR_SURFACE_UNLIT, args, 3);
+    (void)user_data;
+    mxg_ref emission = op2(build, "mul", mxg_build_input(build, "emission_color"),
+                           mxg_build_input(build, "emission"));
+    mxg_ref transmission = op2(build, "mul", mxg_build_input(build, "transmission_color"),
+                               mxg_build_input(build, "transmission"));
+    mxg_ref args[3] = {emission, transmission, mxg_build_input(build, "opacity")};
+    results[0] = mxg_build_op(build, "surface_unlit", NULL, args, 3);
+    return true;
 }
 
-static ir_ref build_volume(const struct call *c)
+static bool build_volume(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[2] = {arg(c, STR_vdf), arg(c, STR_edf)};
-    return build_op(c, IR_VOLUME_SHADER, args, 2);
+    (void)user_data;
+    return op_of(build, "volume", (const char *const[]){"vdf", "edf"}, 2, results);
 }
 
-static ir_ref build_light(const struct call *c)
+static bool build_light(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[3] = {arg(c, STR_edf), arg(c, STR_intensity), arg(c, STR_exposure)};
-    return build_op(c, IR_LIGHT_SHADER, args, 3);
+    (void)user_data;
+    return op_of(build, "light", (const char *const[]){"edf", "intensity", "exposure"}, 3, results);
 }
 
-static ir_ref build_displacement(const struct call *c)
+static bool build_displacement(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[2] = {arg(c, STR_displacement), arg(c, STR_scale)};
-    return build_op(c, IR_DISPLACEMENT_SHADER, args, 2);
+    (void)user_data;
+    return op_of(build, "displacement", (const char *const[]){"displacement", "scale"}, 2, results);
 }
 
-static ir_ref build_surfacematerial(const struct call *c)
+static bool build_surfacematerial(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[4] = {arg(c, STR_surfaceshader), arg(c, STR_backsurfaceshader),
-                      arg(c, STR_displacementshader), 0};
-    return build_op(c, IR_MATERIAL, args, 4);
+    static const char *const inputs[] = {"surfaceshader", "backsurfaceshader", "displacementshader",
+                                         NULL};
+    (void)user_data;
+    return op_of(build, "material", inputs, 4, results);
 }
 
 /* The argument of an input that the node sets; 0: it does not. */
-static ir_ref said(const struct call *c, str_id name)
+static mxg_ref set_input(mxg_build *build, const char *name)
 {
-    for (unsigned i = 0; c->frame->bindings && i < c->def->num_inputs; i++)
-        if (c->ports[i].name == name && c->frame->bindings[i].kind == BIND_DEFAULT)
+    const struct binding *bindings = build->frame->bindings;
+    for (unsigned i = 0; bindings && i < build->def->num_inputs; i++)
+        if (strcmp(mxg_build_port(build, i, NULL), name) == 0 && bindings[i].kind == BIND_DEFAULT)
             return 0;
-    return arg(c, name);
+    return mxg_build_input(build, name);
 }
 
-static int mode(const struct call *c, str_id name)
+/* A mask or cut-out; 0: it is 1. */
+static ir_ref set_share(const mxg_build *build, str_id name)
 {
-    struct ir_value value;
-    if (!build_initial(c->b, arg(c, name), &value))
+    ir_ref value = arg(build, name);
+    return ir_const_is(build->b->graph, value, 1.0f) ? 0 : value;
+}
+
+/* A constant mode, an enum ir_slot_mode; -1 after a report. */
+static int constant_mode(mxg_build *build, const char *input)
+{
+    mxg_value value = MXG_INIT(mxg_value);
+    if (!mxg_build_constant(build, input, &value))
         return -1;
-    return build_mode(build_text(c->b, value.w[0].u));
+    int mode = build_mode(value.text);
+    if (mode < 0)
+        mxg_build_error(build, input, "the modes are add, mix and none");
+    return mode;
 }
 
-static ir_ref build_substance(const struct call *c)
+static bool build_substance(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref material = build_surfacematerial(c),
-           args[4] = {material, said(c, STR_normal), arg(c, STR_mask), arg(c, STR_cutout)};
-    int displacement = mode(c, STR_displacement_mode), normal = mode(c, STR_normal_mode);
-    if (displacement < 0 || normal < 0)
-        return not_constant(c, displacement < 0 ? STR_displacement_mode : STR_normal_mode);
-    for (unsigned i = 2; i < 4; i++)
-        if (ir_const_is(c->b->graph, args[i], 1.0f))
-            args[i] = 0;
-    bool is_plain = !args[1] && !args[2] && !args[3] && displacement == IR_SLOT_MIX;
-    return is_plain ? material
-                    : ir_build(c->b->graph, IR_SUBSTANCE, c->type,
-                               build_modes((unsigned)displacement, (unsigned)normal), args, 4);
+    int displacement = constant_mode(build, "displacement_mode"),
+        normal = constant_mode(build, "normal_mode");
+    if (displacement < 0 || normal < 0 || !build_surfacematerial(user_data, build, results))
+        return false;
+    ir_ref args[4] = {0, 0, set_share(build, STR_mask), set_share(build, STR_cutout)};
+    if (!code_ref(build, results[0], &args[0])
+        || !code_ref(build, set_input(build, "normal"), &args[1]))
+        return false;
+    if (args[1] || args[2] || args[3] || displacement != IR_SLOT_MIX)
+        results[0] = code_issue(
+            build, ir_build(build->b->graph, IR_SUBSTANCE, build->type,
+                            build_modes((unsigned)displacement, (unsigned)normal), args, 4));
+    return true;
 }
 
-static ir_ref build_volumematerial(const struct call *c)
+static bool build_volumematerial(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    ir_ref args[4] = {0, 0, 0, arg(c, STR_volumeshader)};
-    return build_op(c, IR_MATERIAL, args, 4);
+    (void)user_data;
+    return op_of(build, "material", (const char *const[]){NULL, NULL, NULL, "volumeshader"}, 4,
+                 results);
 }
 
 /*
  * The implementation of a choice: the first input is an index, from 0, into the inputs after it.
  * For a material the choice may have any type, because any value can be the root of a shader.
  */
-static ir_ref build_chosen_input(const struct call *c)
+static bool build_chosen_input(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    struct ir_value number = {.type = IR_TYPE_VOID};
-    if (c->def->num_inputs < 2)
-        return misfit(c, "the built-in code needs a number and inputs to choose from");
-    if (!build_initial(c->b, c->frame->args[0], &number) || number.type != IR_TYPE_INT)
-        return not_constant(c, c->ports[0].name);
-    if (number.w[0].u >= c->def->num_inputs - 1u)
-        return misfit(c, "it has no input with this number");
-    ir_ref chosen = c->frame->args[number.w[0].u + 1];
-    bool is_any = c->type == IR_TYPE_MATERIAL,
-         may_be_absent = is_any || ir_type_is_closure(c->type) || ir_type_is_shader(c->type);
-    bool fits = chosen ? is_any || ir_type_of(c->b->graph, chosen) == c->type : may_be_absent;
-    return fits ? chosen : misfit(c, "the chosen input has another type than the output");
+    struct builder *b = build->b;
+    mxg_value number = MXG_INIT(mxg_value);
+    (void)user_data;
+    if (build->def->num_inputs < 2)
+        return misfit(build, "the built-in code needs a number and inputs to choose from");
+    if (library_type_ir(b->lib, build->ports[0].type) != IR_TYPE_INT)
+        return misfit(build, "the built-in code needs an integer as its first input");
+    if (!mxg_build_constant(build, build_text(b, build->ports[0].name), &number))
+        return false;
+    if (number.integer < 0 || number.integer >= build->def->num_inputs - 1)
+        return misfit(build, "it has no input with this number");
+    ir_ref chosen = build->frame->args[number.integer + 1];
+    bool is_any = build->type == IR_TYPE_MATERIAL,
+         may_be_absent =
+             is_any || ir_type_is_closure(build->type) || ir_type_is_shader(build->type);
+    bool fits = chosen ? is_any || ir_type_of(b->graph, chosen) == build->type : may_be_absent;
+    results[0] = code_issue(build, chosen);
+    return fits || misfit(build, "the chosen input has another type than the output");
 }
 
 /* ---- what the code needs of a definition, which may be one of the document ---- */
@@ -379,7 +434,7 @@ enum { MAX_NEEDED = 8 };
 
 static const struct dynamic_node {
     str_id node;
-    ir_ref (*build)(const struct call *call);
+    mxg_build_fn build;
     uint32_t output; /* sets of types */
     struct {
         str_id name;
@@ -468,12 +523,12 @@ static bool is_in(ir_type_id type, uint32_t set)
 }
 
 /* Closures and shaders may be absent; other inputs may not. */
-static bool has_input(const struct call *c, str_id name, uint32_t types)
+static bool has_input(const struct mxg_build *build, str_id name, uint32_t types)
 {
-    for (unsigned i = 0; i < c->def->num_inputs; i++)
-        if (c->ports[i].name == name) {
-            ir_type_id type = library_type_ir(c->b->lib, c->ports[i].type);
-            return types == SAME ? type == c->type : is_in(type, types);
+    for (unsigned i = 0; i < build->def->num_inputs; i++)
+        if (build->ports[i].name == name) {
+            ir_type_id type = library_type_ir(build->b->lib, build->ports[i].type);
+            return types == SAME ? type == build->type : is_in(type, types);
         }
     return (types & ~(CLOSURES | SHADERS)) == 0 && types != SAME;
 }
@@ -483,24 +538,6 @@ static const struct dynamic_node *find_code(str_id name)
     for (size_t i = 0; i < sizeof dynamic_nodes / sizeof *dynamic_nodes; i++)
         if (dynamic_nodes[i].node == name)
             return &dynamic_nodes[i];
-    return NULL;
-}
-
-/* The first difference between the definition and the needs of the code; NULL: none. */
-static const char *find_misfit(const struct call *c, const struct dynamic_node *code)
-{
-    if (c->def->num_outputs != 1 || !is_in(c->type, code->output))
-        return "the built-in code computes one output of another type";
-    for (unsigned i = 0; i < MAX_NEEDED && code->inputs[i].name; i++)
-        if (!has_input(c, code->inputs[i].name, code->inputs[i].types)) {
-            struct text fault;
-            text_init(&fault, c->b->arena);
-            text_fmt(&fault, "the built-in code needs the input '%s' with the type %s",
-                     build_text(c->b, code->inputs[i].name),
-                     code->inputs[i].types == SAME ? "of the output"
-                                                   : "of the built-in definition");
-            return text_cstr(&fault);
-        }
     return NULL;
 }
 
@@ -521,21 +558,42 @@ bool build_is_combined(const struct builder *b, const struct frame *frame)
            && (is_operand || (b->options->closures && !ir_type_is_closure(type)));
 }
 
-bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)
+/* The first difference between the definition and the needs of the code; NULL: none. */
+static const char *find_misfit(const struct mxg_build *build, const struct dynamic_node *code)
+{
+    if (build->def->num_outputs != 1 || !is_in(build->type, code->output))
+        return "the built-in code computes one output of another type";
+    for (unsigned i = 0; i < MAX_NEEDED && code->inputs[i].name; i++)
+        if (!has_input(build, code->inputs[i].name, code->inputs[i].types)) {
+            struct text fault;
+            text_init(&fault, build->b->arena);
+            text_fmt(&fault, "the built-in code needs the input '%s' with the type %s",
+                     build_text(build->b, code->inputs[i].name),
+                     code->inputs[i].types == SAME ? "of the output"
+                                                   : "of the built-in definition");
+            return text_cstr(&fault);
+        }
+    return NULL;
+}
+
+/* mxg_build_fn: the code for the node, if it fits the definition. */
+static bool build_by_code(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    const struct frame *frame = build->frame;
+    bool is_chosen = frame->impl->kind == IMPL_DYNAMIC && frame->impl->ref == STR_chosen_input;
+    const struct dynamic_node *code = find_code(is_chosen ? STR_chosen_input : build->def->node);
+    if (!code) {
+        struct builder *b = build->b;
+        diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, frame->impl->element),
+                 build_text(b, frame->impl->name), build_text(b, build->def->node));
+        return false;
+    }
+    const char *fault = find_misfit(build, code);
+    return fault ? misfit(build, fault) : code->build(user_data, build, results);
+}
+
+void build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     assert(frame->impl->nodedef == frame->node.nodedef);
-    struct call call = {b, frame, library_nodedef(b->lib, frame->node.nodedef),
-                        library_ports(b->lib, frame->node.nodedef, NULL), IR_TYPE_VOID};
-    call.type = library_type_ir(b->lib, call.ports[call.def->num_inputs].type);
-    bool is_chosen = frame->impl->kind == IMPL_DYNAMIC && frame->impl->ref == STR_chosen_input;
-    const struct dynamic_node *code = find_code(is_chosen ? STR_chosen_input : call.def->node);
-    if (!code)
-        diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, frame->impl->element),
-                 build_text(b, frame->impl->name), build_text(b, call.def->node));
-    const char *fault = code ? find_misfit(&call, code) : NULL;
-    if (code && !fault)
-        results[0] = code->build(&call);
-    else if (fault)
-        misfit(&call, fault);
-    return code && !fault;
+    code_run(b, frame, build_by_code, NULL, NULL, results);
 }

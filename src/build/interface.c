@@ -170,3 +170,15 @@ ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, e
     build_compile_in(b, node, port, element);
     return value;
 }
+
+const char *build_uniform_fault(const struct builder *b, str_id name, ir_type_id type)
+{
+    const char *text = build_text(b, name);
+    ir_type_id known = shader_uniform_type(name);
+    if (known != IR_TYPE_VOID && known != type)
+        return "which is a uniform of mxgen with another type";
+    bool is_reserved = strncmp(text, "gl_", 3) == 0 || strcmp(text, "main") == 0
+                       || strstr(text, "__")
+                       || lang_syntax_is_reserved(b->options->syntax, text, strlen(text));
+    return is_reserved ? "which is a word of the target" : NULL;
+}

@@ -52,8 +52,8 @@ static uint32_t layer_of(const struct recorder *r, uint32_t variable)
 /* ---- Inputs that are compiled into the layer's shader ---- */
 
 /*
- * True for strings, which choose code, for nodes with dynamic implementations, which read streams
- * by index, and for profiles.
+ * True for strings, which choose code; for nodes with dynamic implementations, which read streams
+ * by index; for profiles; and for the uniform inputs of nodes in C, which may read their values.
  */
 static bool is_settled(const struct builder *b, const struct implementation *impl,
                        const struct port *port)
@@ -61,7 +61,9 @@ static bool is_settled(const struct builder *b, const struct implementation *imp
     ir_type_id type = library_type_ir(b->lib, port->type);
     bool is_read_by_code =
         impl->kind == IMPL_DYNAMIC && (port->name == STR_index || type == IR_TYPE_SAMPLER);
-    return type == IR_TYPE_STRING || is_read_by_code;
+    bool is_uniform =
+        impl->kind == IMPL_CODE && port->flags & PORT_UNIFORM && build_is_number(type);
+    return type == IR_TYPE_STRING || is_read_by_code || is_uniform;
 }
 
 /*
@@ -120,6 +122,27 @@ static void add_word(struct text *name, const char *word)
         text_fmt(name, "x%u", (unsigned)hash_stable(0, word, strlen(word)));
 }
 
+static bool is_same_value(const struct ir_value *a, const struct ir_value *b)
+{
+    bool is_number = build_is_number(a->type);
+    return a->type == b->type && (is_number ? ir_value_equal(a, b) : a->w[0].u == b->w[0].u);
+}
+
+/* The value in a name: the number of an integer, a word, or a hash. */
+static void add_value(struct builder *b, struct text *name, const struct ir_value *value)
+{
+    struct text text;
+    text_init(&text, b->arena);
+    if (value->type == IR_TYPE_INT)
+        text_fmt(&text, "%d", value->w[0].i);
+    else if (build_is_number(value->type))
+        text_fmt(&text, "%u",
+                 (unsigned)hash_stable(0, value->w, ir_type_info(value->type)->components * 4u));
+    else
+        text_str(&text, build_text(b, value->w[0].u));
+    add_word(name, text_cstr(&text));
+}
+
 /*
  * The name of a layer's shader: the definition's name, and the mode if it is not the default:
  * "ND_dielectric_bsdf_scatter_mode_T" for "ND_dielectric_bsdf".
@@ -132,14 +155,10 @@ static str_id node_name(struct builder *b, const struct nodedef *def, const stru
     text_str(&name, build_text(b, def->name));
     for (unsigned i = 0; i < def->num_inputs; i++) {
         struct ir_value usual = build_network_default(b, &ports[i]);
-        if (fixed[i].type == IR_TYPE_VOID || fixed[i].w[0].u == usual.w[0].u)
+        if (fixed[i].type == IR_TYPE_VOID || is_same_value(&fixed[i], &usual))
             continue;
-        struct text number;
-        text_init(&number, b->arena);
         text_fmt(&name, "_%s", build_text(b, ports[i].name));
-        text_fmt(&number, "%d", fixed[i].w[0].i);
-        add_word(&name, fixed[i].type == IR_TYPE_INT ? text_cstr(&number)
-                                                     : build_text(b, fixed[i].w[0].u));
+        add_value(b, &name, &fixed[i]);
     }
     size_t len;
     const char *identifier = identifier_from(text_cstr(&name), name.len, b->arena, &len);
@@ -163,8 +182,7 @@ static uint32_t node_of(struct builder *b, const struct frame *frame)
         const struct network_node *node = &network->nodes.items[n];
         bool is_same = node->definition == frame->node.nodedef;
         for (unsigned i = 0; i < def->num_inputs && is_same; i++)
-            is_same =
-                fixed[i].type == node->fixed[i].type && fixed[i].w[0].u == node->fixed[i].w[0].u;
+            is_same = is_same_value(&fixed[i], &node->fixed[i]);
         if (is_same)
             return n;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From the arguments of a node to its results, by the implementation for the target. */
-#include "build/build_priv.h"
+#include "build/code.h"
 #include "lower/lower.h"
 
 static void call_expressions(struct builder *b, const struct implementation *impl,
@@ -145,19 +145,16 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
         if (build_is_combined(b, frame)) {
             diag_add(b->diags, DIAG_ID_builtin_operator, doc_place(&b->lib->doc, impl->element),
                      build_text(b, def->node), build_text(b, impl->name));
-            if (build_dynamic(b, frame, results))
-                return;
-            break;
+            build_dynamic(b, frame, results);
+        } else {
+            call(b, frame, results);
         }
-        call(b, frame, results);
         return;
     case IMPL_EXPRESSION:
     case IMPL_FUNCTION: call(b, frame, results); return;
     case IMPL_FAMILY: build_leaf(b, impl, frame->args, results); return;
-    case IMPL_DYNAMIC:
-        if (build_dynamic(b, frame, results))
-            return;
-        break;
+    case IMPL_DYNAMIC: build_dynamic(b, frame, results); return;
+    case IMPL_CODE: code_build(b, frame, results); return;
     case IMPL_GRAPH:
     case IMPL_FOREIGN:
     case IMPL_BROKEN: break;

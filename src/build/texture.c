@@ -222,6 +222,17 @@ static ir_ref gradient_at(struct builder *b, enum ir_op derivative, const ir_ref
     return op == IR_TEX ? ir_op1(b->graph, derivative, args[1]) : args[index];
 }
 
+/* With `texture-origin=top` coordinates come with v downwards, but tiles count upwards. */
+static ir_ref upwards(struct builder *b, ir_ref uv)
+{
+    struct ir_graph *g = b->graph;
+    if (!b->options->texture_origin)
+        return uv;
+    ir_ref parts[2] = {ir_component(g, uv, 0),
+                       ir_op2(g, IR_SUB, ir_const_float(g, 1.0f), ir_component(g, uv, 1))};
+    return ir_construct(g, IR_TYPE_VEC2, parts, 2);
+}
+
 ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
 {
     struct builder *b = user_data;
@@ -232,9 +243,9 @@ ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
     const struct shader_variable *texture = &b->shader->variables.items[ir_get(g, args[0])->attr];
     if (op == IR_TEX_FETCH)
         return ir_poison(g, IR_TYPE_VEC4); /* build_check_tiles reports it */
-    ir_ref inside, layer = build_tile_layer(b, texture, args[1], &inside);
-    ir_ref at = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){ir_op1(g, IR_FRACT, args[1]), layer}, 2),
-           texel;
+    ir_ref inside, uv = upwards(b, args[1]), layer = build_tile_layer(b, texture, uv, &inside);
+    ir_ref place = upwards(b, ir_op1(g, IR_FRACT, uv));
+    ir_ref at = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){place, layer}, 2), texel;
     if (op == IR_TEX_LOD)
         texel = ir_build(g, IR_TEX_LOD, IR_TYPE_VEC4, 0, (ir_ref[]){args[0], at, args[2]}, 3);
     else

@@ -43,6 +43,8 @@ struct closure_host {
      */
     enum source_context context;
     const ir_ref *light;
+    /* the option `transparency` is opaque or mask: opacity does not scale the colour of surfaces */
+    bool keeps_color;
     /* The functions of the leaf family of a LEAF node, which is no leaf in source. */
     const uint32_t *(*leaf_functions)(void *user_data, uint32_t callee);
     /* The input name of operand `index` + 1 of a LEAF node; NULL after the last. */
@@ -78,11 +80,25 @@ struct closure_list {
 void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,
                      struct closure_list *out);
 
+/* The option `transparency`. */
+enum closure_transparency {
+    TRANSPARENCY_AUTO,
+    TRANSPARENCY_OPAQUE,
+    TRANSPARENCY_MASK,
+    TRANSPARENCY_BLEND,
+};
+
 /* The lighting of the shaded point, from the options of the caller. */
 struct closure_lighting {
     bool lights;      /* light shaders are bound */
     bool environment; /* `--environment` is not none */
     bool two_sided;   /* layers also attenuate the incoming light */
+    /* transmitted light lowers the alpha, instead of being that of the environment */
+    bool transmits_alpha;
+    uint8_t transparency;   /* enum closure_transparency */
+    bool occlusion, shadow; /* by maps of the host: occlusion.c */
+    bool flips_v;           /* textures of the host have v = 0 at their top */
+    bool encodes;           /* colours of the output have the transfer function of sRGB */
 };
 
 /*

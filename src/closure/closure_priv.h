@@ -8,6 +8,19 @@
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 
+/* output.c: a linear colour by the transfer function of sRGB (IEC 61966-2-1, section 5.2). */
+ir_ref closure_encoded(struct ir_graph *graph, ir_ref color);
+/*
+ * The part of the light from behind that passes a leaf straight on, by throughput and tint; 0: the
+ * leaf transmits none.
+ */
+ir_ref closure_through(struct shader *shader, const struct closure_host *host, ir_ref leaf);
+
+/* occlusion.c: the part of the environment's light that reaches the point, by the host's map. */
+ir_ref closure_occlusion(struct shader *shader, bool flips_v);
+/* The part of the first light that reaches the shaded point, by the host's shadow map. */
+ir_ref closure_shadow(struct shader *shader, const struct closure_host *host);
+
 /* describe.c: writes the weight of a leaf as an expression, with the names of inputs and nodes. */
 void closure_describe_weight(const struct shader *shader, const struct closure_leaf *leaf,
                              struct text *out);

@@ -55,20 +55,23 @@ static struct closure_surface premultiplied(struct ir_graph *g, struct closure_s
     return s;
 }
 
-static struct closure_surface mixed(struct ir_graph *g, struct closure_surface bg,
+static struct closure_surface mixed(const struct surfaces *s, struct closure_surface bg,
                                     struct closure_surface fg, ir_ref mix)
 {
-    bg = premultiplied(g, bg);
-    fg = premultiplied(g, fg);
+    struct ir_graph *g = s->graph;
+    if (!s->host->keeps_color) {
+        bg = premultiplied(g, bg);
+        fg = premultiplied(g, fg);
+    }
     ir_ref one = ir_const_float(g, 1.0f), black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-    struct closure_surface s = {.bsdf = closure_mixed(g, bg.bsdf, fg.bsdf, mix),
-                                .edf = closure_mixed(g, bg.edf, fg.edf, mix),
-                                .premultiplied = true};
+    struct closure_surface out = {.bsdf = closure_mixed(g, bg.bsdf, fg.bsdf, mix),
+                                  .edf = closure_mixed(g, bg.edf, fg.edf, mix),
+                                  .premultiplied = true};
     if (bg.unlit || fg.unlit)
-        s.unlit = ir_op3(g, IR_MIX, bg.unlit ? color_of(g, bg.unlit) : black,
-                         fg.unlit ? color_of(g, fg.unlit) : black, mix);
-    s.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
-    return s;
+        out.unlit = ir_op3(g, IR_MIX, bg.unlit ? color_of(g, bg.unlit) : black,
+                           fg.unlit ? color_of(g, fg.unlit) : black, mix);
+    out.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
+    return out;
 }
 
 /*

@@ -21,7 +21,8 @@ struct emitter {
     const struct closure_host *host;
     const struct closure_lighting *lighting;
     struct closure_lit lit;
-    uint32_t loop; /* number of the layer that is lit, if one is picked */
+    uint32_t loop;  /* number of the layer that is lit, if one is picked */
+    ir_ref through; /* vec3: the transmitted part, with transmits_alpha; 0: none */
 };
 
 static void effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
@@ -233,11 +234,21 @@ static bool add_surrounding_part(struct emitter *e, const struct closure_leaf *l
     return value != 0;
 }
 
+/* Adds the part of the light from behind that passes a leaf straight on. */
+static bool add_through(struct emitter *e, const struct closure_leaf *leaf)
+{
+    ir_ref value = closure_through(e->shader, e->host, leaf->leaf);
+    value = value ? weighted(e, leaf, closure_mul(e->graph, value, leaf->medium)) : 0;
+    e->through = add(e, e->through, value ? vec3_of(e, value) : 0);
+    return value != 0;
+}
+
 /* Finds the values of whole functions, and the values per environment sample. */
 static void find_surrounding_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list,
                                    bool *emitted)
 {
-    if (!e->lighting->environment)
+    bool shows = e->lighting->environment, transmits_alpha = e->lighting->transmits_alpha;
+    if (!shows && !transmits_alpha)
         return;
     struct closure_list through;
     const struct closure_list *behind =
@@ -246,12 +257,37 @@ static void find_surrounding_parts(struct emitter *e, ir_ref bsdf, const struct 
             : list;
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i], *other = &behind->leaves.items[i];
-        ir_ref refracted = closure_call(e->shader, e->host, other->leaf, LEAF_TRANSMISSION, NULL);
-        ir_ref reflected = closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL);
-        refracted = refracted ? closure_mul(e->graph, refracted, other->medium) : 0;
+        ir_ref refracted = 0, reflected = 0;
+        if (!transmits_alpha)
+            refracted = closure_call(e->shader, e->host, other->leaf, LEAF_TRANSMISSION, NULL);
+        if (shows)
+            reflected = closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL);
         emitted[i] |= add_surrounding_part(e, leaf, reflected);
-        emitted[i] |= add_surrounding_part(e, other, refracted);
+        if (transmits_alpha)
+            emitted[i] |= add_through(e, other);
+        else if (refracted)
+            emitted[i] |=
+                add_surrounding_part(e, other, closure_mul(e->graph, refracted, other->medium));
     }
+}
+
+/* Only the first light has a shadow map: its factor is 1 in the later rounds of the loop. */
+static void loop_lights(struct emitter *e)
+{
+    ir_ref factor = e->lit.light.intensity;
+    uint32_t local = 0;
+    if (e->lighting->shadow) {
+        local = shader_add_local(e->shader, STR_occlusion, IR_TYPE_FLOAT);
+        effect(e, EFFECT_VAR, local, closure_shadow(e->shader, e->host));
+        factor = ir_op2(e->graph, IR_MUL, factor,
+                        ir_build(e->graph, IR_LOCAL, IR_TYPE_FLOAT, local, NULL, 0));
+    }
+    comment(e, STR_lights);
+    effect(e, EFFECT_LIGHTS, 0, 0);
+    accumulate_all(e, PLACE_LIGHT, factor);
+    if (e->lighting->shadow)
+        effect(e, EFFECT_ASSIGN, local, ir_const_float(e->graph, 1.0f));
+    effect(e, EFFECT_END, 0, 0);
 }
 
 /* Emits the parts as effects. */
@@ -262,18 +298,18 @@ static void emit_lit(struct emitter *e)
     if (!has_lights && !has_samples && !e->lit.at[PLACE_WHOLE].parts.len)
         return;
     declare_color(e);
-    if (has_lights) {
-        comment(e, STR_lights);
-        effect(e, EFFECT_LIGHTS, 0, 0);
-        accumulate_all(e, PLACE_LIGHT, e->lit.light.intensity);
-        effect(e, EFFECT_END, 0, 0);
-    }
-    if (has_samples || e->lit.at[PLACE_WHOLE].parts.len)
+    if (has_lights)
+        loop_lights(e);
+    bool has_environment = has_samples || e->lit.at[PLACE_WHOLE].parts.len;
+    ir_ref open = has_environment && e->lighting->occlusion
+                      ? closure_occlusion(e->shader, e->lighting->flips_v)
+                      : 0;
+    if (has_environment)
         comment(e, STR_environment);
-    accumulate_all(e, PLACE_WHOLE, 0);
+    accumulate_all(e, PLACE_WHOLE, open);
     if (has_samples) {
         effect(e, EFFECT_SAMPLES, 0, 0);
-        accumulate_all(e, PLACE_SAMPLE, 0);
+        accumulate_all(e, PLACE_SAMPLE, open);
         effect(e, EFFECT_END, 0, 0);
     }
     e->shader->lit = true;
@@ -297,9 +333,15 @@ static ir_ref emission(struct emitter *e, ir_ref edf)
 
 /* ---- outputs ---- */
 
+static ir_ref encoded(struct emitter *e, ir_ref color)
+{
+    return e->lighting->encodes ? closure_encoded(e->graph, color) : color;
+}
+
 static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
 {
     struct ir_graph *g = e->graph;
+    color = encoded(e, color);
     ir_suggest_name(g, alpha, STR_opacity, IR_NAME_ROLE);
     uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, STR_out1);
     if (out == UINT32_MAX)
@@ -317,7 +359,10 @@ static void alpha_test(struct emitter *e, ir_ref alpha)
     uint32_t threshold = shader_private_uniform(e->shader, STR_u_alphaThreshold, IR_TYPE_FLOAT, 0);
     effect(e, EFFECT_DISCARD, 0, ir_op2(e->graph, IR_LT, alpha, shader_read(e->shader, threshold)));
     e->shader->transparent = true;
-    e->shader->alpha = (uint8_t)closure_alpha(e->shader, alpha);
+    e->shader->alpha = e->lighting->transparency == TRANSPARENCY_AUTO
+                           ? (uint8_t)closure_alpha(e->shader, alpha)
+                       : e->lighting->transparency == TRANSPARENCY_MASK ? ALPHA_MASK
+                                                                        : ALPHA_BLEND;
 }
 
 static ir_ref final_color(struct emitter *e)
@@ -329,17 +374,34 @@ static ir_ref final_color(struct emitter *e)
 
 /* ---- surfaces ---- */
 
+/* The alpha of the output: the opacity without the transmitted part. 0 = 1. */
+static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
+{
+    struct ir_graph *g = e->graph;
+    if (!e->through)
+        return s->alpha;
+    ir_ref mean = ir_op2(g, IR_DOT, e->through, ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
+    ir_ref rest = closure_one_minus(
+        g, ir_op3(g, IR_CLAMP, mean, ir_const_float(g, 0.0f), ir_const_float(g, 1.0f)));
+    return s->alpha ? ir_op2(g, IR_MUL, s->alpha, rest) : rest;
+}
+
 static void finish_surface(struct emitter *e, const struct closure_surface *s)
 {
-    ir_ref alpha = s->alpha;
-    if (closure_is_opaque(e->graph, alpha)) {
-        write_output(e, final_color(e), ir_const_float(e->graph, 1.0f));
+    ir_ref alpha = output_alpha(e, s), one = ir_const_float(e->graph, 1.0f);
+    bool blends = e->lighting->transparency == TRANSPARENCY_BLEND;
+    if (e->lighting->transparency == TRANSPARENCY_OPAQUE
+        || (closure_is_opaque(e->graph, alpha) && !blends)) {
+        write_output(e, final_color(e), one);
         return;
     }
+    alpha = alpha ? alpha : one;
     comment(e, STR_opacity);
     alpha_test(e, alpha);
     ir_ref color = final_color(e);
-    write_output(e, s->premultiplied ? color : ir_op2(e->graph, IR_MUL, color, alpha), alpha);
+    if (s->alpha && !s->premultiplied && !e->host->keeps_color)
+        color = ir_op2(e->graph, IR_MUL, color, s->alpha);
+    write_output(e, color, e->host->keeps_color ? one : alpha);
 }
 
 /* Finds the parts under lights and environment. Returns which leaves contribute there. */
@@ -502,6 +564,8 @@ static bool emit_value(struct emitter *e, ir_ref root)
         root = ir_convert(g, IR_TYPE_FLOAT, root);
         type = IR_TYPE_FLOAT;
     }
+    if (type == IR_TYPE_VEC3 && e->shader->value_type == STR_color3)
+        root = encoded(e, root);
     ir_ref parts[3] = {root, zero, one};
     uint32_t out = shader_add_variable(
         e->shader,
@@ -517,7 +581,13 @@ static bool emit_value(struct emitter *e, ir_ref root)
         parts[1] = one;
         root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
         break;
-    case IR_TYPE_VEC4: break;
+    case IR_TYPE_VEC4:
+        if (e->lighting->encodes && e->shader->value_type == STR_color4) {
+            parts[0] = encoded(e, ir_swizzle(g, root, (uint8_t[]){0, 1, 2}, 3));
+            parts[1] = ir_component(g, root, 3);
+            root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
+        }
+        break;
     default: return false;
     }
     effect(e, EFFECT_OUTPUT, out, root);

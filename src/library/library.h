@@ -56,6 +56,7 @@ enum impl_kind {
     IMPL_FOREIGN,  /* for a target that mxgen does not have: its source is unread */
     /* its diagnostics are deferred: [ref, ref + count) of the layer's deferred list */
     IMPL_BROKEN,
+    IMPL_CODE, /* C code of a host; ref: its index. No library has this kind */
 };
 
 struct implementation {

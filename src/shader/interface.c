@@ -70,7 +70,7 @@ static struct name_set *names_of(struct shader *shader, uint32_t scope)
     struct name_set *names = &shader->taken[scope];
     if (!names->arena) {
         names_init(names, shader->arena, shader->style ? shader->style->syntax : NULL);
-        names_take_frame(names);
+        names_take_frame(names, shader);
     }
     return names;
 }
@@ -477,6 +477,54 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
                       (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
     }
     return as_wanted(shader->graph, shader_read(shader, index), type);
+}
+
+/* The variable that carries this value already; UINT32_MAX: there is none. */
+static uint32_t find_computed(const struct shader *shader, ir_ref value)
+{
+    const struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
+    for (uint32_t i = 0; i < effects->len; i++)
+        if (effects->items[i].kind == EFFECT_OUTPUT && effects->items[i].value == value
+            && shader->variables.items[effects->items[i].index].is_computed)
+            return effects->items[i].index;
+    return UINT32_MAX;
+}
+
+/*
+ * The value with the vertex data that it reads computed anew, so that the pixel stage, which does
+ * not need these, does not get them.
+ */
+static ir_ref at_vertices(struct shader *shader, ir_ref value)
+{
+    const struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
+    for (uint32_t i = effects->len; i-- > 0;) { /* vertex data may read earlier ones */
+        const struct effect *effect = &effects->items[i];
+        if (effect->kind == EFFECT_OUTPUT)
+            value = ir_replace(shader->graph, value, shader_read(shader, effect->index),
+                               effect->value, shader->arena);
+    }
+    return value;
+}
+
+ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value)
+{
+    ir_type_id type = ir_type_of(shader->graph, value);
+    value = at_vertices(shader, value);
+    uint32_t index = find_computed(shader, value);
+    assert(type >= IR_TYPE_INT && type <= IR_TYPE_VEC4);
+    if (index == UINT32_MAX) {
+        struct shader_variable variable = {.name = name,
+                                           .block = BLOCK_VERTEX_DATA,
+                                           .type = type,
+                                           .flat = ir_type_info(type)->scalar != IR_TYPE_FLOAT,
+                                           .is_computed = true,
+                                           .rank = UINT16_MAX,
+                                           .semantic = name};
+        index = shader_add_variable(shader, &variable);
+        shader_effect(shader, STAGE_VERTEX,
+                      (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
+    }
+    return shader_read(shader, index);
 }
 
 void shader_effect(struct shader *shader, enum shader_stage_id stage, struct effect effect)

@@ -137,13 +137,14 @@ void shader_layout(struct shader *shader)
     order_interface(shader);
     memset(shader->buffers, 0, sizeof shader->buffers);
     if (rules->bindings) {
+        const uint32_t first = rules->first_binding;
         for (int block = 0; block < NUM_BLOCKS; block++)
             shader->buffers[block].set = rules->set;
-        shader->buffers[BLOCK_PRIVATE_UNIFORMS].binding = BINDING_PRIVATE;
-        shader->buffers[BLOCK_PUBLIC_UNIFORMS].binding = BINDING_PUBLIC;
-        shader->buffers[BLOCK_LIGHT_DATA].binding = BINDING_LIGHTS;
+        shader->buffers[BLOCK_PRIVATE_UNIFORMS].binding = first + BINDING_PRIVATE;
+        shader->buffers[BLOCK_PUBLIC_UNIFORMS].binding = first + BINDING_PUBLIC;
+        shader->buffers[BLOCK_LIGHT_DATA].binding = first + BINDING_LIGHTS;
     }
-    uint32_t texture = BINDING_FIRST_TEXTURE, location[NUM_BLOCKS] = {0};
+    uint32_t texture = rules->first_binding + BINDING_FIRST_TEXTURE, location[NUM_BLOCKS] = {0};
     for (uint32_t i = 0; i < shader->interface.len; i++) {
         struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
         switch ((enum shader_block)variable->block) {

@@ -11,13 +11,15 @@ void names_init(struct name_set *names, struct arena *arena, const struct lang_s
     *names = (struct name_set){.arena = arena, .syntax = syntax};
 }
 
-void names_take_frame(struct name_set *names)
+void names_take_frame(struct name_set *names, const struct shader *shader)
 {
     static const char *const frame[] = {"main",           "scatter",         "vd",
                                         "u_lightData",    "LightData",       "LightData_block",
                                         "PublicUniforms", "PrivateUniforms", "VertexData"};
     for (size_t i = 0; i < sizeof frame / sizeof *frame; i++)
         names_take(names, frame[i], strlen(frame[i]));
+    for (uint32_t i = 0; i < shader->num_reserved; i++)
+        names_take(names, shader->reserved[i], strlen(shader->reserved[i]));
 }
 
 void names_open_scope(struct name_set *names)

@@ -33,8 +33,9 @@ struct name_set {
 };
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax);
-/* Takes the names in the frame of every shader: "main", "vd", … */
-void names_take_frame(struct name_set *names);
+struct shader;
+/* Takes the names in the frame of every shader ("main", "vd", …), and those that its host keeps. */
+void names_take_frame(struct name_set *names, const struct shader *shader);
 /* Opens the scope of a new function, which frees the names of the previous one. */
 void names_open_scope(struct name_set *names);
 /* The texts for the next two functions must live as long as the set. */

@@ -60,9 +60,10 @@ struct shader_variable {
     uint8_t stages;
     uint8_t update; /* enum shader_update */
     bool has_default;
-    bool has_reader; /* for textures: `sampling` and the default belong to a node */
-    bool flat;       /* not interpolated (integer streams) */
-    uint16_t rank;   /* order within the block: the row of streams.def; equal ranks by index */
+    bool has_reader;  /* for textures: `sampling` and the default belong to a node */
+    bool flat;        /* not interpolated (integer streams) */
+    bool is_computed; /* vertex data with a value of the document: shader_interpolate */
+    uint16_t rank;    /* order within the block: the row of streams.def; equal ranks by index */
     ir_type_id type;
     uint16_t array_length; /* 0: not an array */
     str_id doc_type;       /* "color3"; 0 for variables without a document type */
@@ -208,12 +209,13 @@ enum shader_packing {
 struct shader_layout_rules {
     bool blocks; /* uniforms stand in blocks */
     enum shader_packing packing;
-    bool bindings;       /* sets and bindings are numbered, locations given */
-    bool neutral_names;  /* public variables are numbered: equal topology, equal names */
-    bool one_stage;      /* there is no vertex stage */
-    bool typed_textures; /* texture() gives one or three channels where no more are wanted */
-    bool names_wholes;   /* parts are taken of variables only: v.x, but not (a + b).x */
-    uint32_t set;        /* descriptor set of everything */
+    bool bindings;          /* sets and bindings are numbered, locations given */
+    bool neutral_names;     /* public variables are numbered: equal topology, equal names */
+    bool one_stage;         /* there is no vertex stage */
+    bool typed_textures;    /* texture() gives one or three channels where no more are wanted */
+    bool names_wholes;      /* parts are taken of variables only: v.x, but not (a + b).x */
+    uint32_t set;           /* descriptor set of everything */
+    uint32_t first_binding; /* of the private uniforms; the other bindings follow */
 };
 
 struct source_language;
@@ -227,6 +229,8 @@ struct shader {
     struct ir_graph *graph;
     /* the unit of the generation, above the units of the library: contains the specialisations */
     struct lang_unit *unit;
+    const char *const *reserved; /* names that the host keeps for itself */
+    uint32_t num_reserved;
     struct lang_style *style; /* its reserved words are not valid for variables; NULL: none */
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;
@@ -263,6 +267,7 @@ struct shader {
     uint8_t kind;           /* enum shader_kind */
     /* document type of a shader for a plain value */
     str_id value_type;
+    uint64_t codes;   /* a hash of the nodes in C and their versions; part of the topology */
     bool transparent; /* by analysis: the alpha output may be below 1 */
     uint8_t alpha;    /* enum shader_alpha */
     bool lit;         /* reads lights or environment */
@@ -318,6 +323,12 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
  * VEC3, color_N FLOAT or VEC3, and geomprop_* any type. 0: there is no such stream.
  */
 ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type);
+/*
+ * The IR node, in the pixel stage, of a value that the vertex stage computes instead. `name` is for
+ * its variable. The type is an int, a float or a vector of these. No function that the value calls
+ * reads a stream.
+ */
+ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value);
 /* The vertex attribute that a stream copies; false: the vertex stage computes the stream. */
 bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index);
 /* The expression of the stream in the vertex stage, for displacement. */

@@ -210,6 +210,8 @@ uint64_t shader_topology(const struct shader *shader, struct arena *scratch)
     h.variable_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->variables.len + 1);
     h.function_numbers = ARENA_ARRAY(h.arena, uint32_t, num_functions + 1);
     h.graph_function_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->graph->functions.len + 1);
+    if (shader->codes)
+        add(&h, shader->codes);
     add_variables(&h);
     for (uint32_t i = 0; i < shader->lights.len; i++)
         add(&h, (uint64_t)(uint32_t)shader->lights.items[i].type);

@@ -34,7 +34,7 @@ bool spell_uses(const struct spell *spell, const struct shader_variable *variabl
 
 void spell_name_interface(struct spell *spell)
 {
-    names_take_frame(&spell->names);
+    names_take_frame(&spell->names, spell->shader);
     bool io_block = spell_can(spell, CAP_BLOCK_STAGE_IO);
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = spell_interface_variable(spell, i);

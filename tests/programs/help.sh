@@ -48,7 +48,7 @@ completes() { # WORD... : prints what the last word may become
     bash -c '. "$1"; shift; COMP_WORDS=(mxgen "$@"); COMP_CWORD=$#; _mxgen; printf "%s\n" "${COMPREPLY[@]}"' - "$files/mxgen" "$@"
 }
 check 'commands' test 'render' = "$(completes ren)"
-check 'options of a command' test '--shard' = "$(completes check --sha)"
+check 'options of a command' test '--shard' = "$(completes check --shar)"
 check 'of this command only' test '' = "$(completes validate --sha)"
 check 'options without a command' test '--stdout' = "$(completes --std)"
 check 'options of generation' test '--interface' = "$(completes check --interf)"

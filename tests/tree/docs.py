@@ -123,12 +123,17 @@ def check_program():
 
 
 def check_embedding():
-    """The code of docs/embedding.md is that of examples/embedding.c."""
-    program = text_of(ROOT / "examples/embedding.c")
-    excerpts = re.findall(r"^```c\n(.*?)^```", text_of(ROOT / "docs/embedding.md"), re.MULTILINE | re.DOTALL)
-    check(len(excerpts) >= 10, f"docs/embedding.md has {len(excerpts)} excerpts only")
+    """The code of docs/embedding.md and docs/nodes.md is that of programs, which the tests run."""
+    check_excerpts("docs/embedding.md", "examples/embedding.c", 10)
+    check_excerpts("docs/nodes.md", "examples/nodes/studio.c", 5)
+
+
+def check_excerpts(page, source, least):
+    program = text_of(ROOT / source)
+    excerpts = re.findall(r"^```c\n(.*?)^```", text_of(ROOT / page), re.MULTILINE | re.DOTALL)
+    check(len(excerpts) >= least, f"{page} has {len(excerpts)} excerpts only")
     for excerpt in excerpts:
-        check(excerpt in program, f"docs/embedding.md: examples/embedding.c does not have\n{excerpt}")
+        check(excerpt in program, f"{page}: {source} does not have\n{excerpt}")
 
 
 SEMANTIC = re.compile(r'^SEMANTIC\((\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)$', re.MULTILINE)

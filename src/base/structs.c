@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * Structs that begin with their size, so that later versions can add members: the struct of an
- * older caller is shorter than this version's, the struct of a newer caller is longer.
- */
-#include "api/api.h"
+#include "base/structs.h"
 
 #include <assert.h>
+#include <string.h>
 
 static size_t size_of(const void *with_size)
 {

@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The options that fit shaders to the conventions of hosts (docs/hosts.md). Arguments: mxgen, mxgen-compile ('' to compile nothing).
+mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")}
+here=$(cd "$(dirname "$0")" && pwd)
+tiles=$here/../../examples/tiles.mtlx
+. "$here/common.sh"
+cat >glass.mtlx <<'XML'
+<materialx version="1.39">
+  <standard_surface name="S" type="surfaceshader">
+    <input name="transmission" type="float" value="0.8"/>
+    <input name="opacity" type="color3" value="0.9, 0.9, 0.9"/>
+  </standard_surface>
+  <surfacematerial name="Glass" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  <dielectric_bsdf name="mirror" type="BSDF"/>
+  <dielectric_bsdf name="pane" type="BSDF"><input name="scatter_mode" type="string" value="T"/></dielectric_bsdf>
+  <surface name="Mirror" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="mirror"/></surface>
+  <surface name="Pane" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="pane"/></surface>
+  <image name="wood" type="color3"><input name="file" type="filename" value="wood.png"/></image>
+  <image name="bumps" type="vector3"><input name="file" type="filename" value="bumps.png"/></image>
+  <output name="Picture" type="color3" nodename="wood"/>
+  <output name="Vectors" type="vector3" nodename="bumps"/>
+</materialx>
+XML
+
+# make ELEMENT OPTION...: generates for vulkan to the folder out.d
+make() {
+    rm -rf out.d
+    exits 0 "$mxgen" glass.mtlx --element "$1" --target vulkan -o out.d --reflect "${@:2}"
+}
+says() { grep -qE -- "$1" "out.d/$2"; }
+
+check 'binding numbers' make Glass --binding-set 2 --first-binding 5
+check 'of the private uniforms' says 'layout\(set = 2, binding = 5, std140\) uniform PrivateUniforms' Glass.frag
+check 'of the public uniforms' says 'layout\(set = 2, binding = 6, std140\) uniform PublicUniforms' Glass.frag
+check 'of the lights' says 'layout\(set = 2, binding = 7, std140\) uniform LightData_block' Glass.frag
+check 'of the first texture' says 'layout\(set = 2, binding = 8\) uniform sampler2D' Glass.frag
+check 'in the vertex stage' says 'layout\(set = 2, binding = 5, std140\) uniform PrivateUniforms' Glass.vert
+check 'in the reflection' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"set\":2,\"binding\":6"'
+check 'not without sets' exits 2 "$mxgen" glass.mtlx --target glsl --binding-set 1 --stdout
+
+check 'refraction' make Glass
+check 'shows the environment' says 'refract' Glass.frag
+check 'transmission as opacity' make Glass --transmission opacity
+check 'shows no environment behind' eval '! says "ggx_refraction" Glass.frag'
+check 'but lowers alpha' says 'out1 = vec4\(opacity_grey \* color, opacity\);' Glass.frag
+check 'by the transmitted part' says 'float opacity = opacity_grey \* \(1.0 - clamp\(dot\(S_transmission_color' Glass.frag
+check 'also without an environment' make Glass --transmission opacity --environment none
+check 'it lowers alpha' says 'out1 = vec4\(opacity_grey \* color, opacity\);' Glass.frag
+check 'a mirror' make Mirror --transmission opacity
+check 'transmits nothing' says 'out1 = vec4\(Mirror_opacity \* color, Mirror_opacity\);' Mirror.frag
+check 'a clear pane' make Pane --transmission opacity --interface reduced
+check 'is invisible' says 'out1 = vec4\(.*0.0\);' Pane.frag
+
+check 'opaque' make Glass --transparency opaque
+check 'keeps the colour' says 'out1 = vec4\(color, 1.0\);' Glass.frag
+check 'and discards nothing' eval '! says discard Glass.frag'
+check 'reflection says so' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"transparent\":false"'
+check 'a cut-out' make Glass --transparency mask
+check 'discards' says discard Glass.frag
+check 'and keeps the colour' says 'out1 = vec4\(color, 1.0\);' Glass.frag
+check 'reflection says mask' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"alpha\":\"mask\""'
+check 'always blended' make Mirror --transparency blend
+check 'reflection says blend' eval 'tr -d " \n" <out.d/Mirror.json | grep -q "\"alpha\":\"blend\""'
+
+check 'an encoded colour' make Picture --encode srgb
+check 'has both parts of the curve' eval 'says "12.92" Picture.frag && says "1.055 - vec3\(0.055\)" Picture.frag && says "0.0031308" Picture.frag'
+check 'an encoded surface' make Glass --encode srgb
+check 'has the curve, too' says '12.92' Glass.frag
+check 'vectors' make Vectors --encode srgb
+check 'are no colours' eval '! says 12.92 Vectors.frag'
+
+check 'textures from the top' make Picture --texture-origin top
+check 'have v flipped' says 'texture\(wood_file, vec2\(vd.texcoord_0.x, 1.0 - vd.texcoord_0.y\)\)' Picture.frag
+check 'tiles from the top' exits 0 "$mxgen" "$tiles" --target vulkan --texture-origin top -o out.d
+check 'count upwards all the same' eval 'says "floor\(" "$(cd out.d && ls *.frag | head -1)"'
+
+check 'reserved names' make Glass --reserved S_transmission,out1,opacity_grey
+check 'get numbers' eval 'says "float S_transmission_2;" Glass.frag && says "out vec4 out1_2;" Glass.frag && ! says " opacity_grey " Glass.frag'
+
+check 'a shadow map' make Glass --shadow-map
+check 'is bound by its name' eval 'says "mat4 u_shadowMatrix;" Glass.frag && says "uniform sampler2D u_shadowMap;" Glass.frag'
+check 'serves the first light' eval 'says "occlusion = 1.0;" Glass.frag && says "float occlusion = " Glass.frag'
+check 'ambient occlusion' make Glass --occlusion-map
+check 'is bound by its name, too' eval 'says "float u_ambOccGain;" Glass.frag && says "texture\(u_ambOccMap, vd.texcoord_0\).x" Glass.frag'
+check 'not without lighting' exits 2 "$mxgen" glass.mtlx --target osl --shadow-map --stdout
+
+if [ -n "$compile" ]; then
+    for options in '--binding-set 2 --first-binding 5' '--transmission opacity --transparency blend' '--transparency mask --encode srgb' \
+        '--texture-origin top --occlusion-map' '--shadow-map --reserved main,mx_square,color' '--transparency opaque'; do
+        case $options in --binding*) targets=vulkan,hlsl ;; *) targets=glsl,vulkan,essl,essl310,hlsl ;; esac
+        # shellcheck disable=SC2086
+        check "compiles with $options" exits 0 "$compile" glass.mtlx "$tiles" --targets $targets --interfaces complete,reduced $options
+    done
+else
+    skip 'without glslang no shader is compiled'
+fi
+finish hosts
