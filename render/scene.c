@@ -145,6 +145,7 @@ unsigned scene_uniform(const struct scene *scene, const char *name, float out[16
         {"u_envLightIntensity", 1},
         {"u_alphaThreshold", 0.001},
         {"u_volumeDepth", 2},
+        {"u_slabThickness", 0.1},
     };
     if (strncmp(name, "u_", 2) != 0)
         return 0;

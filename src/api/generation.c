@@ -232,7 +232,7 @@ bool generation_build(struct generation *g)
 static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 {
     _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR
-                       && (int)LEAF_PDF == FAMILY_PDF,
+                       && (int)LEAF_WAY == FAMILY_WAY,
                    "leaf functions are the first members of a family");
     return build_leaf_family(user_data, callee)->functions;
 }
@@ -249,6 +249,19 @@ struct closure_host generation_closure_host(struct builder *builder, struct clos
                                  .leaf_functions = leaf_functions,
                                  .leaf_input = leaf_input,
                                  .lang = build_lang_host(builder)};
+}
+
+static ir_ref slab_lobes(void *user_data, const ir_ref *inputs, const struct slab_place *place)
+{
+    return build_slab_lobes(user_data, inputs, place);
+}
+
+void generation_walk_slabs(struct generation *g)
+{
+    struct slabs_host host = {
+        .user_data = g->builder, .lobes = slab_lobes, .closures = &g->closure_host};
+    g->root = slabs_walk(&g->result->shader, &host, g->root);
+    ir_assert_valid(&g->result->graph, "after the walk of slabs");
 }
 
 void generation_start_closures(struct generation *g)
@@ -311,6 +324,7 @@ bool generation_emit(struct generation *g)
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
+    generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
     if (!is_emitted)

@@ -84,6 +84,8 @@ bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
 /* prepares the closure room; generation_emit calls it itself */
 void generation_start_closures(struct generation *g);
+/* Replaces the slabs below the root by their lobes; needs the closures' host. */
+void generation_walk_slabs(struct generation *g);
 /* makes the effects of the stages; later steps cannot fail */
 bool generation_emit(struct generation *g);
 bool generation_finish(struct generation *g); /* scheduling and layout */

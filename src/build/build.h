@@ -12,6 +12,7 @@
 #include "base/names.h"
 #include "library/library.h"
 #include "shader/network.h"
+#include "slabs/slabs.h"
 
 /* The inputs that become uniforms: the option `interface`. */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
@@ -98,6 +99,10 @@ const struct lang_host *build_lang_host(struct builder *builder);
 const struct family *build_leaf_family(struct builder *builder, uint32_t callee);
 /* The input name of operand `index` + 1 of a LEAF node; NULL after the last. */
 const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned index);
+
+/* slab.c: the lobes of a slab at a place, by the definition ND_slab_lobes of the library. */
+ir_ref build_slab_lobes(struct builder *builder, const ir_ref *inputs,
+                        const struct slab_place *place);
 
 /* Matches a path: '*' is any run without '/', '**' any run, '?' one character except '/'. */
 bool build_glob_matches(const char *glob, const char *path);

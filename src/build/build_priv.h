@@ -268,6 +268,9 @@ uint32_t build_light_source(struct builder *b, const struct implementation *impl
 /* film.c: a thin film on a BSDF, as inputs of its microfacet leaves. `node` is the film node. */
 ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, elem_id node);
 
+/* slab.c: the definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
+uint32_t build_slab_definition(const struct builder *b);
+
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
 

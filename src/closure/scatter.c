@@ -41,6 +41,8 @@ struct scatter {
     ir_ref *shares;
     uint32_t pick, direction, is_inside, weight, density, medium; /* locals */
     ir_ref total;
+    /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
+    ir_ref scale;
 };
 
 static void effect(struct scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
@@ -82,10 +84,17 @@ static ir_ref mean_of(struct scatter *s, ir_ref color)
     return op2(s, IR_DOT, color, grey(s, 1.0f / 3.0f));
 }
 
-static ir_ref weight_of(struct scatter *s, const struct closure_leaf *leaf)
+/* The weight for light on a way through the media above. */
+static ir_ref weight_along(struct scatter *s, const struct closure_leaf *leaf, ir_ref way)
 {
-    ir_ref weight = closure_mul(s->graph, leaf->color, leaf->scalar);
+    ir_ref weight = closure_mul(s->graph, closure_weight(s->shader, leaf, way), s->scale);
     return ir_convert(s->graph, IR_TYPE_VEC3, weight);
+}
+
+/* The weight for light from a direction. */
+static ir_ref weight_from(struct scatter *s, const struct closure_leaf *leaf, ir_ref direction)
+{
+    return weight_along(s, leaf, leaf->decay ? closure_way(s->shader, s->host, direction) : 0);
 }
 
 static bool has(const struct scatter *s, const struct closure_leaf *leaf, enum leaf_function which)
@@ -111,7 +120,7 @@ static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
 {
     struct ir_graph *g = s->graph;
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
-           light = weight_of(s, leaf);
+           light = weight_along(s, leaf, number(s, CLOSURE_MEAN_WAY));
     if (albedo && !refracts(s, leaf)) {
         albedo = op2(s, IR_MUL, grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
         light = op2(s, IR_MUL, light, op2(s, IR_ADD, grey(s, 0.1f), albedo));
@@ -135,7 +144,7 @@ static void sample(struct scatter *s, const struct closure_leaf *leaf, ir_ref sh
     ir_ref is_it = op2(s, IR_LAND, op2(s, IR_GE, pick, nothing), op2(s, IR_LT, pick, share));
     ir_ref results[3]; /* direction, f cos / pdf, pdf */
     closure_call_all(s->shader, s->host, leaf->leaf, LEAF_SAMPLE, NULL, results);
-    ir_ref weight = op2(s, IR_MUL, op2(s, IR_MUL, weight_of(s, leaf), results[1]),
+    ir_ref weight = op2(s, IR_MUL, op2(s, IR_MUL, weight_from(s, leaf, results[0]), results[1]),
                         op2(s, IR_DIV, s->total, share));
     ir_ref density = op2(s, IR_MUL, results[2], op2(s, IR_DIV, share, s->total));
     effect(s, EFFECT_IF, 0, is_it);
@@ -195,7 +204,7 @@ static ir_ref response(struct scatter *s, ir_ref direction, ir_ref solid_angle)
         ir_ref value = closure_call(s->shader, s->host, leaf->leaf, LEAF_EVAL, &direction);
         if (!value || !s->shares[i])
             continue;
-        value = op2(s, IR_MUL, ir_convert(g, IR_TYPE_VEC3, value), weight_of(s, leaf));
+        value = op2(s, IR_MUL, ir_convert(g, IR_TYPE_VEC3, value), weight_from(s, leaf, direction));
         if (solid_angle) {
             ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
             density = op2(s, IR_MUL, density, op2(s, IR_DIV, s->shares[i], s->total));
@@ -265,11 +274,15 @@ static void light_up(struct scatter *s)
 
 void closure_scatter(struct shader *shader, const struct closure_host *host,
                      const struct closure_list *list, const struct closure_lighting *lighting,
-                     ir_ref emission, ir_ref alpha)
+                     ir_ref emission, ir_ref alpha, bool premultiplied)
 {
     struct scatter s = {.shader = shader, .graph = shader->graph, .host = host, .list = list};
     ir_ref one = number(&s, 1.0f), nothing = number(&s, 0.0f);
     assert(!alpha || ir_type_of(s.graph, alpha) == IR_TYPE_FLOAT);
+    if (premultiplied && alpha && !ir_const_is(s.graph, alpha, 1.0f)) {
+        s.scale = op2(&s, IR_DIV, one, op2(&s, IR_MAX, alpha, number(&s, 1e-6f)));
+        emission = closure_mul(s.graph, emission, emission ? s.scale : 0);
+    }
     find_shares(&s);
     sample_leaves(&s);
     write_output(&s, STR_out1,

@@ -41,15 +41,24 @@ static ir_ref vec3_of(struct emitter *e, ir_ref value)
     return ir_convert(e->graph, IR_TYPE_VEC3, value);
 }
 
-/* value · weight; 0 if the product vanishes. */
-static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
+/* The factor of light on a way through the media above; 0 = 1. */
+static ir_ref weight_along(struct emitter *e, const struct closure_leaf *leaf, ir_ref way)
+{
+    if (leaf->decay)
+        return closure_weight(e->shader, leaf, way);
+    return ir_const_is(e->graph, leaf->scalar, 1.0f)
+               ? leaf->color
+               : closure_mul(e->graph, leaf->color, leaf->scalar);
+}
+
+/* value · weight; 0 if the product vanishes. way: of the light, if media lie above. */
+static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value, ir_ref way)
 {
     struct ir_graph *g = e->graph;
     if (!value || ir_const_is(g, value, 0.0f))
         return 0;
     ir_push_origin_of(g, leaf->leaf);
-    ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color
-                                                       : closure_mul(g, leaf->color, leaf->scalar);
+    ir_ref weight = weight_along(e, leaf, way);
     closure_name(e->shader, weight, leaf->leaf, "weight");
     value = closure_product(g, value, weight);
     closure_name(e->shader, value, leaf->leaf, "response");
@@ -215,9 +224,10 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
     list = in_context(e, bsdf, SOURCE_REFLECTION, &e->lit.light.direction, list, &lit);
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
+        ir_ref way = leaf->decay ? closure_way(e->shader, e->host, e->lit.light.direction) : 0;
         ir_ref value = weighted(
             e, leaf,
-            closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction));
+            closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction), way);
         add_part(e, PLACE_LIGHT, leaf, value);
         emitted[i] |= value != 0;
     }
@@ -225,7 +235,8 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
 
 static bool add_surrounding_part(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
 {
-    value = weighted(e, leaf, value);
+    ir_ref way = value && leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
+    value = weighted(e, leaf, value, way);
     bool is_sampled = value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
     add_part(e, is_sampled ? PLACE_SAMPLE : PLACE_WHOLE, leaf, value);
     return value != 0;
@@ -277,20 +288,26 @@ static void emit_lit(struct emitter *e)
     e->shader->lit = true;
 }
 
+/* Light starts at the leaf, so its way in is 0. */
+static ir_ref emission_of(struct emitter *e, const struct closure_list *list)
+{
+    ir_ref sum = 0, at_rest = ir_const_float(e->graph, 0.0f);
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        ir_ref value =
+            closure_call(e->shader, e->host, list->leaves.items[i].leaf, LEAF_EMISSION, NULL);
+        value = weighted(e, &list->leaves.items[i], value, at_rest);
+        if (value)
+            shader_add_closure(e->shader, list->leaves.items[i].leaf);
+        sum = add(e, sum, value);
+    }
+    return sum;
+}
+
 static ir_ref emission(struct emitter *e, ir_ref edf)
 {
     struct closure_list list;
     closure_flatten(e->shader, e->host, edf, &list);
-    ir_ref sum = 0;
-    for (uint32_t i = 0; i < list.leaves.len; i++) {
-        ir_ref value =
-            closure_call(e->shader, e->host, list.leaves.items[i].leaf, LEAF_EMISSION, NULL);
-        value = weighted(e, &list.leaves.items[i], value);
-        if (value)
-            shader_add_closure(e->shader, list.leaves.items[i].leaf);
-        sum = add(e, sum, value);
-    }
-    return sum;
+    return emission_of(e, &list);
 }
 
 /* ---- outputs ---- */
@@ -407,8 +424,10 @@ static struct surface surface_of(struct emitter *e, ir_ref root)
     assert(ir_type_of(e->graph, root) == IR_TYPE_SURFACE);
     struct ir_graph *g = e->graph;
     if (ir_get(g, root)->op == IR_SURFACE_SHADER)
-        return (struct surface){
-            .bsdf = ir_arg(g, root, 0), .edf = ir_arg(g, root, 1), .alpha = ir_arg(g, root, 2)};
+        return (struct surface){.bsdf = ir_arg(g, root, 0),
+                                .edf = ir_arg(g, root, 1),
+                                .alpha = ir_arg(g, root, 2),
+                                .premultiplied = ir_get(g, root)->attr != 0};
     struct surface *known = ARENA_ARRAY(e->shader->arena, struct surface, root + 1);
     uint8_t *needed = ir_mark(g, &root, 1, e->shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++) {
@@ -418,7 +437,10 @@ static struct surface surface_of(struct emitter *e, ir_ref root)
         const struct ir_node *node = ir_get(g, ref);
         memcpy(args, ir_args(g, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *args);
         if (node->op == IR_SURFACE_SHADER)
-            known[ref] = (struct surface){.bsdf = args[0], .edf = args[1], .alpha = args[2]};
+            known[ref] = (struct surface){.bsdf = args[0],
+                                          .edf = args[1],
+                                          .alpha = args[2],
+                                          .premultiplied = node->attr != 0};
         else if (node->op == IR_SURFACE_UNLIT)
             known[ref] = unlit_surface(e, args[0], args[1], args[2]);
         else if (node->op == IR_SHADER_MIX && node->type == IR_TYPE_SURFACE)
@@ -447,8 +469,10 @@ static bool light_surface(struct emitter *e, const struct surface *s)
     host.context = SOURCE_INDIRECT;
     closure_flatten(e->shader, &host, s->bsdf, &list);
     e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
+    e->lit.base = add(e, e->lit.base, emission_of(e, &list));
     if (e->shader->scatters) {
-        closure_scatter(e->shader, e->host, &list, e->lighting, e->lit.base, s->alpha);
+        closure_scatter(e->shader, e->host, &list, e->lighting, e->lit.base, s->alpha,
+                        s->premultiplied);
         return false;
     }
     const bool *emitted = find_parts(e, s->bsdf, &list);

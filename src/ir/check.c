@@ -20,7 +20,8 @@ static const struct operands {
     {IR_LAYER, "cc"},         {IR_CLOSURE_MIX, "ccn"},        {IR_CLOSURE_ADD, "cc"},
     {IR_CLOSURE_SCALE, "cn"}, {IR_SURFACE_SHADER, "ccnb"},    {IR_SURFACE_UNLIT, "nnn"},
     {IR_VOLUME_SHADER, "cc"}, {IR_DISPLACEMENT_SHADER, "nn"}, {IR_LIGHT_SHADER, "cnn"},
-    {IR_SHADER_MIX, "ssn"},   {IR_MATERIAL, "ssss"},
+    {IR_SHADER_MIX, "ssn"},   {IR_MATERIAL, "ssss"},          {IR_SLAB_LAYER, "ccn"},
+    {IR_SLAB_SURFACE, "cbn"},
 };
 
 static bool is_of_class(ir_type_id type, char class)
