@@ -7,6 +7,7 @@
 #include "check/sink.h"
 #include "check/spool.h"
 #include "cli/cli.h"
+#include "cli/groups.h"
 #include "cli/markup.h"
 
 #include <errno.h>
@@ -233,11 +234,38 @@ static void write_message(FILE *out, const struct check_message *message)
     fputs(in_source ? "</pre></div>" : "</div>", out);
 }
 
+static bool key_of_warning(const void *messages, uint32_t index, struct group_key *out_key)
+{
+    const struct card *card = messages;
+    const struct check_message *message = &card->document->messages[index];
+    *out_key = (struct group_key){message->id, message->file, message->text, message->state};
+    return message->severity == MXG_SEVERITY_WARNING && is_about(message->element, card);
+}
+
+static void write_rest(FILE *out, const struct card *card, const struct groups *groups,
+                       uint32_t first)
+{
+    struct group_rest rest = {0};
+    for (uint32_t i = groups->next[first]; i; i = groups->next[i])
+        group_rest_add(&rest, card->document->messages[i].line);
+    if (!rest.count)
+        return;
+    fputs("<p class=\"rest\">", out);
+    group_rest_print(&rest, out);
+    fputs("</p>", out);
+}
+
 static void write_messages(FILE *out, const struct card *card)
 {
-    for (size_t i = 0; i < card->document->num_messages && !card->is_gone; ++i)
-        if (is_about(card->document->messages[i].element, card))
-            write_message(out, &card->document->messages[i]);
+    uint32_t count = card->is_gone ? 0 : (uint32_t)card->document->num_messages;
+    struct groups groups = groups_make(card, count, key_of_warning);
+    for (uint32_t i = 0; i < count; ++i) {
+        if (groups.first[i] != i || !is_about(card->document->messages[i].element, card))
+            continue;
+        write_message(out, &card->document->messages[i]);
+        write_rest(out, card, &groups, i);
+    }
+    groups_finish(&groups);
 }
 
 /* The elements that a document had. */

@@ -6,6 +6,8 @@
  */
 #include "check/sink.h"
 #include "check/spool.h"
+#include "cli/groups.h"
+#include "cli/memory.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -94,6 +96,72 @@ static bool has_warning(const struct check_document *document)
     return false;
 }
 
+static struct group_key key_of_message(const struct check_message *message)
+{
+    return (struct group_key){.id = message->id, .file = message->file, .text = message->text};
+}
+
+static bool key_of_warning(const void *messages, uint32_t index, struct group_key *out_key)
+{
+    const struct check_message *message = (const struct check_message *)messages + index;
+    *out_key = key_of_message(message);
+    return message->severity == MXG_SEVERITY_WARNING;
+}
+
+/* Per message the targets whose shaders have it, as bits in their order. The caller frees them. */
+static uint32_t *find_targets(const struct check_run *run, const struct check_document *document)
+{
+    _Static_assert(MAX_TARGETS <= 32, "a target is a bit");
+    uint32_t *targets = memory_alloc(document->num_messages * sizeof *targets);
+    for (size_t i = 0; i < document->num_elements; ++i)
+        for (size_t k = 0; k < document->elements[i].num_shaders; ++k) {
+            const struct check_shader *shader = &document->elements[i].shaders[k];
+            unsigned bit = 0;
+            while (bit < run->num_targets && strcmp(run->targets[bit], shader->target) != 0)
+                ++bit;
+            for (size_t m = 0; bit < run->num_targets && m < shader->num_messages; ++m)
+                targets[shader->messages[m]] |= UINT32_C(1) << bit;
+        }
+    return targets;
+}
+
+/* "note: for the targets glsl, osl", if these are some of the targets of the run. */
+static void note_targets(FILE *out, const struct check_run *run, uint32_t targets)
+{
+    unsigned count = 0;
+    for (size_t bit = 0; bit < run->num_targets; ++bit)
+        count += targets >> bit & 1u;
+    if (!count || count == run->num_targets)
+        return;
+    const char *before = count == 1 ? "note: for the target " : "note: for the targets ";
+    for (size_t bit = 0; bit < run->num_targets; ++bit)
+        if (targets >> bit & 1u) {
+            fprintf(out, "%s%s", before, run->targets[bit]);
+            before = ", ";
+        }
+    fputc('\n', out);
+}
+
+static void print_messages(FILE *out, const struct check_run *run,
+                           const struct check_document *document, bool with_warnings)
+{
+    const struct check_message *messages = document->messages;
+    uint32_t *targets = find_targets(run, document);
+    struct groups groups = groups_make(messages, (uint32_t)document->num_messages, key_of_warning);
+    for (uint32_t i = 0; i < document->num_messages; ++i) {
+        if (groups.first[i] != i || (messages[i].severity != MXG_SEVERITY_ERROR && !with_warnings))
+            continue;
+        fputs(messages[i].rendered, out);
+        struct group_rest rest = {0};
+        for (uint32_t k = groups.next[i]; k; k = groups.next[k])
+            group_rest_add(&rest, messages[k].line);
+        group_rest_print(&rest, out);
+        note_targets(out, run, targets[i]);
+    }
+    groups_finish(&groups);
+    free(targets);
+}
+
 static void print_verdict(struct sink *sink, const char *verdict,
                           const struct check_document *document, bool with_warnings)
 {
@@ -101,9 +169,7 @@ static void print_verdict(struct sink *sink, const char *verdict,
     progress_clear(sink->run->progress);
     fprintf(out, "%s %s", verdict, document->file);
     fprintf(out, document->failed ? " (%s)\n" : "\n", check_stage_names[document->failed]);
-    for (size_t i = 0; i < document->num_messages; ++i)
-        if (document->messages[i].severity == MXG_SEVERITY_ERROR || with_warnings)
-            fputs(document->messages[i].rendered, out);
+    print_messages(out, sink->run, document, with_warnings);
 }
 
 /*
@@ -122,19 +188,38 @@ static void print_change(FILE *out, const struct check_document *document,
     fputs(rest ? rest + 1 : "", out);
 }
 
-/* The changes that fail the run go to the report, the others after them. */
+static bool key_of_change(const void *changes, uint32_t index, struct group_key *out_key)
+{
+    const struct check_change *change = (const struct check_change *)changes + index;
+    if (change->message)
+        *out_key = key_of_message(change->message);
+    return change->message && change->message->severity == MXG_SEVERITY_WARNING;
+}
+
+/*
+ * The changes that fail the run go to the report, the others after them. Equal new warnings are one
+ * change.
+ */
 static void print_changes(struct sink *sink, const struct check_document *document)
 {
     struct text_state *state = sink->state;
     FILE *others = state && state->others ? state->others : sink->out;
-    for (size_t i = 0; i < document->num_changes; ++i) {
-        const struct check_change *change = &document->changes[i];
-        bool fails = sink->run->fail_on >> change->kind & 1u;
+    const struct check_change *changes = document->changes;
+    struct groups groups = groups_make(changes, (uint32_t)document->num_changes, key_of_change);
+    for (uint32_t i = 0; i < document->num_changes; ++i) {
+        bool fails = sink->run->fail_on >> changes[i].kind & 1u;
+        if (groups.first[i] != i || (!fails && sink->run->quiet))
+            continue;
         if (fails)
             progress_clear(sink->run->progress);
-        if (fails || !sink->run->quiet)
-            print_change(fails ? sink->out : others, document, change, fails);
+        FILE *out = fails ? sink->out : others;
+        print_change(out, document, &changes[i], fails);
+        struct group_rest rest = {0};
+        for (uint32_t k = groups.next[i]; k; k = groups.next[k])
+            group_rest_add(&rest, changes[k].message->line);
+        group_rest_print(&rest, out);
     }
+    groups_finish(&groups);
 }
 
 static void print_document(struct sink *sink, const struct check_document *document)

@@ -3,6 +3,7 @@
 #include "cli/report.h"
 
 #include "cli/files.h"
+#include "cli/groups.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -140,13 +141,6 @@ static bool is_shown(const struct report *report, const mxg_diagnostic *diagnost
     return diagnostic->severity == MXG_SEVERITY_ERROR || !report->quiet;
 }
 
-static uint64_t hash_text(uint64_t hash, const char *text)
-{
-    for (; text && *text; ++text)
-        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
-    return (hash ^ 0xff) * 0x100000001b3u;
-}
-
 /* The entry for a hash, or the free entry for it. */
 static uint64_t *find_printed(uint64_t *table, size_t capacity, uint64_t hash)
 {
@@ -177,15 +171,16 @@ static bool grow_printed(struct report *report)
  */
 static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 {
-    uint64_t hash = 0xcbf29ce484222325u ^ ((uint64_t)diagnostic->line << 32 | diagnostic->column);
-    hash = hash_text(hash_text(hash_text(hash, diagnostic->id), diagnostic->file),
-                     diagnostic->message);
+    uint64_t place = (uint64_t)diagnostic->line << 32 | diagnostic->column;
+    uint64_t hash = group_key_hash(&(struct group_key){
+        .id = diagnostic->id, .file = diagnostic->file, .text = diagnostic->message});
+    hash ^= place * 0x9e3779b97f4a7c15u;
     hash = hash ? hash : 1;
     if (report->num_printed * 2 >= report->capacity_printed && !grow_printed(report))
         return true;
-    uint64_t *place = find_printed(report->printed, report->capacity_printed, hash);
-    bool is_new = *place == 0;
-    *place = hash;
+    uint64_t *entry = find_printed(report->printed, report->capacity_printed, hash);
+    bool is_new = *entry == 0;
+    *entry = hash;
     report->num_printed += is_new;
     return is_new;
 }
@@ -230,127 +225,47 @@ static bool is_about_cause(struct report *report, const mxg_diagnostic *diagnost
     return is_note && !is_told;
 }
 
-/* ---- Repeated warnings ---- */
+/* ---- Lists ---- */
 
-/*
- * Exporters repeat a fault throughout a document. The first of equal warnings appears in full, the
- * others as lines in a note.
- */
-struct groups {
-    uint32_t *first; /* per message: the index of the first one that is equal; NULL: no memory */
-    uint32_t *next;  /* per message: the next equal one; 0: none */
-    uint32_t *last;  /* per first message: the last equal one */
-};
-
-static uint64_t hash_of_group(const mxg_diagnostic *diagnostic)
+static bool key_of_warning(const void *messages, uint32_t index, struct group_key *out_key)
 {
-    uint64_t hash = hash_text(0xcbf29ce484222325u, diagnostic->id);
-    hash = hash_text(hash_text(hash, diagnostic->file), diagnostic->message);
-    return hash ? hash : 1;
+    mxg_diagnostic diagnostic = {sizeof diagnostic};
+    mxg_diagnostics_get(messages, index, &diagnostic);
+    *out_key = (struct group_key){
+        .id = diagnostic.id, .file = diagnostic.file, .text = diagnostic.message};
+    return diagnostic.severity == MXG_SEVERITY_WARNING && diagnostic.parent == index;
 }
 
-static bool may_group(const mxg_diagnostic *diagnostic, uint32_t index)
-{
-    return diagnostic->severity == MXG_SEVERITY_WARNING && diagnostic->parent == index;
-}
-
-/* Looks the group of a message up; the first message makes it. */
-static uint32_t find_group(uint64_t *hashes, uint32_t *firsts, size_t capacity, uint64_t hash,
-                           uint32_t index)
-{
-    size_t at = hash & (capacity - 1);
-    while (hashes[at] && hashes[at] != hash)
-        at = (at + 1) & (capacity - 1);
-    if (!hashes[at]) {
-        hashes[at] = hash;
-        firsts[at] = index;
-    }
-    return firsts[at];
-}
-
-static void free_groups(struct groups *groups)
-{
-    free(groups->first);
-    free(groups->next);
-    free(groups->last);
-    *groups = (struct groups){0};
-}
-
-static struct groups make_groups(const mxg_diagnostics *list, uint32_t count)
-{
-    size_t capacity = 64;
-    while (capacity < (size_t)count * 2)
-        capacity *= 2;
-    struct groups groups = {calloc(count + 1u, sizeof *groups.first),
-                            calloc(count + 1u, sizeof *groups.next),
-                            calloc(count + 1u, sizeof *groups.last)};
-    uint64_t *hashes = calloc(capacity, sizeof *hashes);
-    uint32_t *firsts = calloc(capacity, sizeof *firsts);
-    bool has_memory = groups.first && groups.next && groups.last && hashes && firsts;
-    for (uint32_t i = 0; has_memory && i < count; ++i) {
-        mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_get(list, i, &diagnostic);
-        groups.first[i] = groups.last[i] = i;
-        if (!may_group(&diagnostic, i))
-            continue;
-        uint32_t first = find_group(hashes, firsts, capacity, hash_of_group(&diagnostic), i);
-        groups.first[i] = first;
-        if (first != i)
-            groups.next[groups.last[first]] = i;
-        groups.last[first] = i;
-    }
-    free(hashes);
-    free(firsts);
-    if (!has_memory)
-        free_groups(&groups);
-    return groups;
-}
-
-/* "note: and 14 more, in the lines 7, 9, …" for the messages that equal the one at `first`. */
+/* Notes the further messages of the group of `told`, except those that were printed before. */
 static void print_rest(struct report *report, const struct groups *groups,
-                       const mxg_diagnostics *list, uint32_t first)
+                       const mxg_diagnostics *list, uint32_t told)
 {
-    enum { MAX_LINES = 8 };
-    uint32_t count = 0, lines = 0, previous = 0;
-    char text[MAX_LINES * 12] = "";
-    for (uint32_t i = groups->next[first]; i; i = groups->next[i]) {
+    struct group_rest rest = {0};
+    for (uint32_t i = groups->next[told]; i; i = groups->next[i]) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
-        if (!is_new(report, &diagnostic))
-            continue;
-        ++count;
-        bool is_shown = diagnostic.line && diagnostic.line != previous && lines < MAX_LINES;
-        previous = diagnostic.line;
-        if (is_shown) {
-            size_t len = strlen(text);
-            snprintf(text + len, sizeof text - len, "%s%u", lines ? ", " : "",
-                     (unsigned)diagnostic.line);
-        }
-        lines += is_shown;
+        if (is_new(report, &diagnostic))
+            group_rest_add(&rest, diagnostic.line);
     }
-    if (count)
-        fprintf(stderr, "note: and %u more%s%s%s\n", (unsigned)count,
-                lines > 1 ? ", in the lines "
-                : lines   ? ", in line "
-                          : "",
-                text, lines == MAX_LINES && count > lines ? ", …" : "");
+    group_rest_print(&rest, stderr);
 }
 
 static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)
 {
     uint32_t count = mxg_diagnostics_count(list), open = count;
     bool shown = false; /* the message of the notes was printed */
-    struct groups groups = make_groups(list, count);
+    struct groups groups = groups_make(list, count, key_of_warning);
     for (uint32_t i = 0; i < count; ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
         if (diagnostic.parent == i) {
             if (open < count)
                 print_rest(report, &groups, list, open);
-            bool is_first = !groups.first || groups.first[i] == i;
-            shown = is_first && (!only_errors || diagnostic.severity == MXG_SEVERITY_ERROR)
+            bool *is_told = &groups.is_told[groups.first[i]];
+            shown = !*is_told && (!only_errors || diagnostic.severity == MXG_SEVERITY_ERROR)
                     && admit(report, &diagnostic, i);
-            open = shown && groups.first ? i : count;
+            *is_told = *is_told || shown;
+            open = shown ? i : count;
         }
         bool is_cause = is_about_cause(report, &diagnostic);
         if ((!shown && !is_cause) || !is_shown(report, &diagnostic, i)
@@ -362,7 +277,7 @@ static void print_list(struct report *report, const mxg_diagnostics *list, bool 
     }
     if (open < count)
         print_rest(report, &groups, list, open);
-    free_groups(&groups);
+    groups_finish(&groups);
     report->errors += mxg_diagnostics_errors(list);
 }
 

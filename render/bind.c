@@ -371,7 +371,8 @@ static bool bind_textures(struct bind *bind)
         if (variable.block == MXG_BLOCK_TEXTURES && !bind_texture(bind, i, &variable))
             return false;
     }
-    return true;
+    return bind->checker || !bind->num_faults
+           || fail_as(bind, "missing-texture", "%s", bind->faults[0].reason);
 }
 
 /* ---- Attributes ---- */
@@ -488,4 +489,5 @@ void bind_finish(struct bind *bind)
     for (uint32_t i = 0; i < bind->num_images; ++i)
         image_finish(&bind->images[i]);
     free(bind->order);
+    free(bind->faults);
 }

@@ -19,6 +19,12 @@ struct bind_value {
     const char *path, *text;
 };
 
+/* A file of a texture that cannot be read. */
+struct bind_fault {
+    const char *file; /* as the document names it; NULL: the user does, see the reason */
+    char reason[512];
+};
+
 struct bind {
     const mxg_result *result;
     const struct scene *scene;
@@ -28,6 +34,8 @@ struct bind {
     size_t num_values;
     bool is_opaque; /* replaces the background, also for transparent materials */
     bool checker;   /* a checker replaces an unreadable texture; otherwise it is an error */
+    struct bind_fault *faults; /* the files that cannot be read, also where that is an error */
+    size_t num_faults;
 
     struct draw draw;                       /* the result */
     struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */
@@ -46,7 +54,8 @@ bool bind_shader(struct bind *bind);
 bool bind_scene(struct bind *bind);
 /*
  * texture_files.c: the image of a texture; the caller frees it. `file` is the user's file; NULL:
- * the document's. *out_checker: a checker replaces a missing file. false: see bind->reason.
+ * the document's. *out_checker: a checker replaces a file that cannot be read, which bind->faults
+ * lists. false: see bind->reason.
  */
 bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
                        const char *file, struct image *out, bool *out_checker);

@@ -663,6 +663,7 @@ int main(int argc, char **argv)
     }
     cli_finish(&job.cli);
     args_free(&job.found);
+    names_finish(&job.painter.told_textures);
     outputs_finish(&job.files);
     free_values(job.values, job.options.settings.len);
     free(job.options.settings.items);

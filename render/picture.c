@@ -36,37 +36,97 @@ static bool choose_mesh(struct painting *painting)
     return true;
 }
 
-/*
- * Prints the textures that the document names and that do not exist, each once, with its place.
- * Returns their number.
- */
-static uint32_t tell_textures(struct painter *painter, const struct subject *subject)
+/* ---- Textures that cannot be read ---- */
+
+/* True for a text that was not printed about this document. */
+static bool is_new(struct painter *painter, const mxg_document *document, const char *text)
 {
-    struct report *report = &painter->cli->report;
-    mxg_result *result = NULL;
-    if (mxg_document_validate(painter->cli->context, subject->document, &result) != MXG_OK
-        && !result)
-        return 0;
-    const mxg_diagnostics *list = mxg_result_diagnostics(result);
-    struct arg_list told = {0};
+    bool is_new;
+    if (painter->told_document != document)
+        names_finish(&painter->told_textures);
+    painter->told_document = document;
+    names_add(&painter->told_textures, text, &is_new);
+    return is_new;
+}
+
+/* The document's messages about files that do not exist, by the names of the files. */
+struct missing {
+    mxg_result *result;      /* NULL: not asked for yet */
+    struct name_table files; /* indices of diagnostics */
+};
+
+static void find_missing(struct missing *missing, mxg_context *context,
+                         const mxg_document *document)
+{
+    mxg_document_validate(context, document, &missing->result);
+    const mxg_diagnostics *list = mxg_result_diagnostics(missing->result);
     for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
-        bool is_new = strcmp(diagnostic.id, "missing-texture") == 0;
-        for (size_t t = 0; is_new && t < told.len; ++t)
-            is_new = strcmp(told.items[t], diagnostic.message) != 0;
-        if (!is_new)
+        const char *begin = strchr(diagnostic.message, '\''),
+                   *end = strrchr(diagnostic.message, '\'');
+        if (strcmp(diagnostic.id, "missing-texture") != 0 || !begin || end == begin)
             continue;
-        args_append(&told, diagnostic.message);
-        if (painter->told_textures != subject->document)
-            fputs(report_render(report, list, i), stderr);
+        char *file = cli_copy(begin + 1, (size_t)(end - begin - 1));
+        bool is_first;
+        struct name_entry *entry = names_add(&missing->files, file, &is_first);
+        entry->value = is_first ? i : entry->value;
+        free(file);
     }
-    painter->told_textures = subject->document;
-    uint32_t count = (uint32_t)told.len;
-    free(told.items);
-    mxg_result_destroy(result);
+}
+
+/* Prints the textures of the shader that cannot be read, each once, with its place if it has one.
+ */
+static void tell_textures(const struct painting *painting, const struct subject *subject)
+{
+    struct painter *painter = painting->painter;
+    const struct bind *bind = painting->bind;
+    struct report *report = &painter->cli->report;
+    struct missing missing = {0};
+    for (size_t i = 0; i < bind->num_faults && !(painter->checker && report->quiet); ++i) {
+        const struct bind_fault *fault = &bind->faults[i];
+        if (!is_new(painter, subject->document, fault->reason))
+            continue;
+        if (fault->file && !missing.result)
+            find_missing(&missing, painter->cli->context, subject->document);
+        const struct name_entry *place =
+            fault->file ? names_find(&missing.files, fault->file) : NULL;
+        if (place)
+            fputs(report_render(report, mxg_result_diagnostics(missing.result),
+                                (uint32_t)place->value),
+                  stderr);
+        else if (painter->checker)
+            report_warning(report, "missing-texture", "%s", fault->reason);
+        else
+            report_error(report, "missing-texture", "%s", fault->reason);
+    }
+    names_finish(&missing.files);
+    mxg_result_destroy(missing.result);
+}
+
+static size_t count_files(const struct bind *bind)
+{
+    struct name_table files = {0};
+    bool is_new;
+    for (size_t i = 0; i < bind->num_faults; ++i)
+        names_add(&files, bind->faults[i].reason, &is_new);
+    size_t count = files.num_entries;
+    names_finish(&files);
     return count;
 }
+
+static bool fail_for_textures(const struct painting *painting, const struct subject *subject)
+{
+    size_t count = count_files(painting->bind);
+    tell_textures(painting, subject);
+    report_error(&painting->painter->cli->report, painting->bind->id,
+                 "%s: %zu texture file%s cannot be read; '--missing-texture checker' draws %s",
+                 subject->element ? subject->element : subject->path, count, count == 1 ? "" : "s",
+                 count == 1 ? "a checker in its place" : "checkers in their place");
+    return false;
+}
+
+/* ---- Values that no input has ---- */
 
 static const char *name_of_path(const char *path)
 {
@@ -114,24 +174,14 @@ static bool fail_for_value(const struct painting *painting, const char *name)
     return false;
 }
 
-static bool is_about_texture(const struct bind *bind)
-{
-    return bind && bind->id && strcmp(bind->id, "missing-texture") == 0;
-}
-
 static bool fail(struct painting *painting, const struct subject *subject)
 {
     const struct bind *bind = painting->bind;
     if (bind && bind->id && strcmp(bind->id, "output-clash") == 0)
         painting->painter->has_clash = true;
     const char *name = subject->element ? subject->element : subject->path;
-    if (is_about_texture(bind)) {
-        tell_textures(painting->painter, subject);
-        report_error(&painting->painter->cli->report, bind->id,
-                     "%s: %s; '--missing-texture checker' draws a checker in its place", name,
-                     bind->reason);
-        return false;
-    }
+    if (bind && bind->id && strcmp(bind->id, "missing-texture") == 0)
+        return fail_for_textures(painting, subject);
     if (bind && bind->id && strcmp(bind->id, "no-uniform") == 0)
         return fail_for_value(painting, name);
     report_error(&painting->painter->cli->report, bind && bind->id ? bind->id : "render-failed",
@@ -154,9 +204,8 @@ static struct bind bind_of(const struct painting *painting, const struct subject
 static void tell_warning(const struct painting *painting, const struct subject *subject)
 {
     const struct bind *bind = painting->bind;
-    if (is_about_texture(bind) && bind->reason[0] && tell_textures(painting->painter, subject))
-        return;
-    if (bind->reason[0]) /* a checker replaces a texture, or a texture has bad pixels */
+    tell_textures(painting, subject); /* checkers replace them */
+    if (bind->reason[0])              /* a texture has bad pixels */
         report_warning(&painting->painter->cli->report, bind->id, "%s", bind->reason);
 }
 

@@ -7,6 +7,7 @@
 #define MXG_RENDER_PICTURE_H
 
 #include "cli/cli.h"
+#include "cli/names.h"
 #include "cli/outputs.h"
 #include "render/render.h"
 #include "render/studio.h"
@@ -27,7 +28,8 @@ struct painter {
     const struct bind_value *values;
     size_t num_values;
     bool checker;                      /* replaces missing textures by a checker */
-    const mxg_document *told_textures; /* the last document whose missing textures were printed */
+    const mxg_document *told_document; /* the last document with textures that cannot be read */
+    struct name_table told_textures;   /* what was printed of them; names_finish frees it */
     enum background background;
     double exposure;
     uint32_t width, height;

@@ -6,6 +6,7 @@
 #include "render/bind.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Makes an image of the node's default colour, otherwise black. */
@@ -34,12 +35,39 @@ static bool make_checker(struct image *out)
     return out->pixels != NULL;
 }
 
-static bool fail(struct bind *bind, const char *path, const char *why)
+static bool fail(struct bind *bind, const char *reason)
 {
-    bind->id = "missing-texture";
-    snprintf(bind->reason, sizeof bind->reason, "cannot read the texture '%.250s': %.200s", path,
-             why);
+    bind->id = "render-failed";
+    snprintf(bind->reason, sizeof bind->reason, "%s", reason);
     return false;
+}
+
+/* A texture of the shader: its variable, and the file that the user names in its place. */
+struct texture {
+    const mxg_variable *variable;
+    const char *users; /* NULL: the document's file */
+};
+
+/* false: out of memory. */
+static bool add_fault(struct bind *bind, const struct texture *texture, const char *path,
+                      const char *why)
+{
+    struct bind_fault fault = {texture->users ? NULL : texture->variable->file, ""};
+    if (texture->users)
+        snprintf(fault.reason, sizeof fault.reason, "cannot read '%.200s' for '%.100s': %.180s",
+                 path, texture->variable->path, why);
+    else
+        snprintf(fault.reason, sizeof fault.reason, "cannot read the texture '%.250s': %.200s",
+                 path, why);
+    bool is_full = (bind->num_faults & (bind->num_faults + 1)) == 0; /* 0, 1, 3, 7, … */
+    struct bind_fault *faults = bind->faults;
+    if (is_full)
+        faults = realloc(faults, (2 * bind->num_faults + 1) * sizeof *faults);
+    if (!faults)
+        return fail(bind, "out of memory");
+    bind->faults = faults;
+    bind->faults[bind->num_faults++] = fault;
+    return true;
 }
 
 /* The texture is usable; the caller prints the reason as a warning. */
@@ -52,8 +80,8 @@ static void warn_bad_pixels(struct bind *bind, const char *path, const struct im
 }
 
 /* Files are relative to the document. */
-static bool read_file(struct bind *bind, const char *file, const char *layer, struct image *out,
-                      bool *out_checker)
+static bool read_file(struct bind *bind, const struct texture *texture, const char *file,
+                      struct image *out, bool *out_checker)
 {
     const char *slash = strrchr(bind->document, '/');
     int folder = slash && file[0] != '/' ? (int)(slash - bind->document) + 1 : 0;
@@ -65,39 +93,40 @@ static bool read_file(struct bind *bind, const char *file, const char *layer, st
                  "the picture would overwrite the texture '%.250s'; choose another name", path);
         return false;
     }
-    if (image_read(path, layer, out, reason, sizeof reason)) {
+    if (image_read(path, texture->variable->layer, out, reason, sizeof reason)) {
         if (out->num_bad)
             warn_bad_pixels(bind, path, out);
         return true;
     }
-    fail(bind, path, reason);
-    *out_checker = bind->checker && make_checker(out);
-    return *out_checker;
+    *out_checker = true;
+    return add_fault(bind, texture, path, reason)
+           && (make_checker(out) || fail(bind, "out of memory"));
 }
 
-static bool read_tile(struct bind *bind, uint32_t index, const mxg_variable *variable,
+static bool read_tile(struct bind *bind, uint32_t index, const struct texture *texture,
                       uint32_t tile, struct image *out, bool *out_checker)
 {
     char file[4096];
     if (mxg_result_texture_file(bind->result, index, tile, bind->scene->frame, file, sizeof file))
-        return read_file(bind, file, variable->layer, out, out_checker);
-    return make_default(variable, out) || fail(bind, variable->file, "out of memory");
+        return read_file(bind, texture, file, out, out_checker);
+    return make_default(texture->variable, out) || fail(bind, "out of memory");
 }
 
 bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
                        const char *file, struct image *out, bool *out_checker)
 {
+    const struct texture texture = {variable, file};
     if (file)
-        return *file ? read_file(bind, file, variable->layer, out, out_checker)
-                     : make_default(variable, out) || fail(bind, file, "out of memory");
+        return *file ? read_file(bind, &texture, file, out, out_checker)
+                     : make_default(variable, out) || fail(bind, "out of memory");
     if (!variable->num_tiles)
-        return read_tile(bind, index, variable, 0, out, out_checker);
+        return read_tile(bind, index, &texture, 0, out, out_checker);
     struct image *tiles = calloc(variable->num_tiles, sizeof *tiles);
     bool good = tiles != NULL;
     for (uint32_t i = 0; good && i < variable->num_tiles; ++i)
-        good = read_tile(bind, index, variable, i, &tiles[i], out_checker);
+        good = read_tile(bind, index, &texture, i, &tiles[i], out_checker);
     if (good && !image_stack(tiles, variable->num_tiles, out))
-        good = fail(bind, variable->file, "out of memory");
+        good = fail(bind, "out of memory");
     for (uint32_t i = 0; tiles && i < variable->num_tiles; ++i)
         image_finish(&tiles[i]);
     free(tiles);

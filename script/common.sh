@@ -7,7 +7,8 @@ install_missing_packages() { # [FURTHER_LIST...]
     local missing=() package
     command -v dpkg >/dev/null || return 0 # not Debian: the user installs the packages
     while read -r package; do
-        dpkg -s "$package" >/dev/null 2>&1 || missing+=("$package")
+        # npm comes with some builds of Node instead of its own package
+        dpkg -s "$package" >/dev/null 2>&1 || command -v "$package" >/dev/null || missing+=("$package")
     done < <(sed 's/#.*//; /^[[:space:]]*$/d' script/packages.txt "$@")
     [ ${#missing[@]} -gt 0 ] || return 0
     echo "installing ${missing[*]}" >&2

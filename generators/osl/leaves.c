@@ -206,8 +206,10 @@ static ir_ref bent_edge(const struct leaf *leaf, ir_ref color90)
     if (ir_const_is(g, color82, 1.0f))
         return color90;
     ir_ref q = ir_op2(g, IR_POW, ir_const_float(g, 6.0f / 7.0f), leaf->inputs[INPUT_exponent]);
-    ir_ref at82 =
-        ir_op2(g, IR_MUL, closure_one_minus(g, color82), ir_op3(g, IR_MIX, color0, color90, q));
+    /* a statement of its own: C leaves the order of arguments open, and operands follow this order
+     */
+    ir_ref curve = ir_op3(g, IR_MIX, color0, color90, q);
+    ir_ref at82 = ir_op2(g, IR_MUL, closure_one_minus(g, color82), curve);
     ir_ref edge = ir_op2(g, IR_SUB, color90, ir_op2(g, IR_DIV, at82, q));
     return ir_op2(g, IR_MAX, edge, ir_const_float(g, 0.0f));
 }

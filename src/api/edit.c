@@ -144,23 +144,31 @@ struct change {
 
 struct error_job {
     struct text *out;
-    const char *text, *what;
+    const char *format;
+    va_list *args;
 };
 
 static void write_error(void *arg)
 {
     struct error_job *job = arg;
     job->out->len = 0;
-    text_fmt(job->out, job->text, job->what ? job->what : "");
+    text_vfmt(job->out, job->format, *job->args);
     text_cstr(job->out);
 }
 
-/* `text` has one %s for `what`. Without memory the error has no text. */
-static void fail(struct change *change, const char *text, const char *what)
+/* Without memory the error has no text. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+fail(struct change *change, const char *format, ...)
 {
-    struct error_job job = {&change->edit->error, text, what};
+    va_list args;
+    struct error_job job = {&change->edit->error, format, &args};
     change->failed = true;
+    va_start(args, format);
     object_run(&change->edit->object, write_error, &job);
+    va_end(args);
 }
 
 static mxg_status run(struct change *change, void (*work)(void *arg))
@@ -184,16 +192,18 @@ static bool is_text(const char *text)
 }
 
 /* Checks a text that goes into the document; NULL counts as empty. */
-static bool check_text(struct change *change, const char *text)
+static bool check_text(struct change *change, const char *what, const char *text)
 {
     if (text && (!is_text(text) || !text_is_utf8(text, strlen(text))))
-        fail(change, "'%s' has bytes that XML cannot hold; texts are UTF-8", text);
+        fail(change, "the %s has bytes that XML cannot hold; texts are UTF-8", what);
     return !change->failed;
 }
 
-static bool check_xml_name(struct change *change, const char *name)
+static bool check_xml_name(struct change *change, const char *what, const char *name)
 {
-    if (!name || !doc_is_name(name))
+    if (!name || !*name)
+        fail(change, "the %s is missing", what);
+    else if (check_text(change, what, name) && !doc_is_name(name))
         fail(change, "'%s' is no name; a name has letters, digits and '_', and no digit first",
              name);
     return !change->failed;
@@ -202,9 +212,16 @@ static bool check_xml_name(struct change *change, const char *name)
 /* A new name below a parent. */
 static bool check_new_name(struct change *change, elem_id parent, const char *name)
 {
-    if (check_xml_name(change, name) && child_of(change->edit, parent, name))
+    if (check_xml_name(change, "name", name) && child_of(change->edit, parent, name))
         fail(change, "there is an element '%s' already", name);
     return !change->failed;
+}
+
+/* The name of an element, or its category if it has no name. */
+static const char *label(const struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element);
+    return str_text(doc->strings, e->name ? e->name : e->category);
 }
 
 /* The element of a number; for 0 the root, if that is allowed. */
@@ -214,14 +231,14 @@ static bool find_element(struct change *change, elem_id *element, bool may_be_ro
     if (!*element && may_be_root)
         *element = doc->root;
     if (!in_tree(change->edit, *element) || (*element == doc->root && !may_be_root))
-        fail(change, "there is no such element%s", "");
+        fail(change, "there is no such element");
     return !change->failed;
 }
 
 static bool check_room(struct change *change)
 {
     if (doc_is_full(tree_of(change->edit)))
-        fail(change, "the document has as many elements as the context allows%s", "");
+        fail(change, "the document has as many elements as the context allows");
     return !change->failed;
 }
 
@@ -241,8 +258,8 @@ static void add(void *arg)
 {
     struct change *c = arg;
     bool is_named = c->name && *c->name;
-    if (find_element(c, &c->element, true) && check_xml_name(c, c->category)
-        && (!is_named || check_new_name(c, c->element, c->name)) && check_text(c, c->type)
+    if (find_element(c, &c->element, true) && check_xml_name(c, "category", c->category)
+        && (!is_named || check_new_name(c, c->element, c->name)) && check_text(c, "type", c->type)
         && check_room(c))
         c->result = add_element(c, c->element, c->category, c->name, c->type);
 }
@@ -277,8 +294,8 @@ mxg_status mxg_edit_rename(mxg_edit *edit, mxg_element element, const char *name
 static void set(void *arg)
 {
     struct change *c = arg;
-    if (!find_element(c, &c->element, true) || !check_xml_name(c, c->name)
-        || !check_text(c, c->text))
+    if (!find_element(c, &c->element, true) || !check_xml_name(c, "attribute", c->name)
+        || !check_text(c, "value", c->text))
         return;
     if (c->text)
         doc_set_attr(tree_of(c->edit), c->element, word(c, c->name), word(c, c->text));
@@ -300,7 +317,7 @@ mxg_status mxg_edit_set(mxg_edit *edit, mxg_element element, const char *attribu
 /* Checks that `name` is an input of the node, or may become one. */
 static bool check_input(struct change *c)
 {
-    if (!find_element(c, &c->element, false) || !check_xml_name(c, c->name))
+    if (!find_element(c, &c->element, false) || !check_xml_name(c, "input", c->name))
         return false;
     elem_id input = child_of(c->edit, c->element, c->name);
     if (input && doc_element(tree_of(c->edit), input)->kind != KIND_INPUT)
@@ -330,7 +347,8 @@ static void remove_attrs(struct document *doc, elem_id element, const str_id *at
 static const str_id sources[] = {STR_nodename, STR_nodegraph, STR_interfacename, STR_output,
                                  STR_value};
 
-static bool check_value(struct change *c)
+/* The type of the input after the change. Fails if the input is new and has no type. */
+static doc_type input_type(struct change *c)
 {
     const struct document *doc = tree_of(c->edit);
     elem_id input = child_of(c->edit, c->element, c->name);
@@ -338,17 +356,21 @@ static bool check_value(struct change *c)
     const char *type = c->type ? c->type : str_text(doc->strings, name);
     if (!*type)
         fail(c, "the input '%s' is new; give its type", c->name);
-    else if (!doc_value_is_valid(doc_type_of(str_find(doc->strings, type, strlen(type))), c->text,
-                                 strlen(c->text)))
-        fail(c, "'%s' is no value of the type of the input", c->text);
-    return !c->failed;
+    return doc_type_of(str_find(doc->strings, type, strlen(type)));
 }
 
 static void set_value(void *arg)
 {
     struct change *c = arg;
     struct document *doc = tree_of(c->edit);
-    if (!check_input(c) || !check_text(c, c->type) || !check_text(c, c->text) || !check_value(c))
+    if (!check_input(c) || !check_text(c, "type", c->type) || !check_text(c, "value", c->text))
+        return;
+    doc_type type = input_type(c);
+    if (!c->text)
+        fail(c, "the value of '%s' is missing", c->name);
+    if (!c->failed && !doc_value_is_valid(type, c->text, strlen(c->text)))
+        fail(c, "'%s' is no value of the type of the input", c->text);
+    if (c->failed)
         return;
     elem_id input = make_input(c, c->type);
     remove_attrs(doc, input, sources, sizeof sources / sizeof *sources - 1);
@@ -360,7 +382,7 @@ mxg_status mxg_edit_value(mxg_edit *edit, mxg_element node, const char *input, c
 {
     struct change change = {
         .edit = edit, .element = node, .name = input, .type = type, .text = value};
-    return edit && value ? run(&change, set_value) : MXG_ERROR_ARGUMENT;
+    return edit ? run(&change, set_value) : MXG_ERROR_ARGUMENT;
 }
 
 /* The shortest text that reads as the same numbers. */
@@ -380,14 +402,16 @@ static void write_numbers(const struct change *c, doc_type type, struct text *ou
 static void set_numbers(void *arg)
 {
     struct change *c = arg;
-    const struct document *doc = tree_of(c->edit);
-    doc_type type = doc_type_of(c->type ? str_find(doc->strings, c->type, strlen(c->type)) : 0);
-    uint32_t num = type == DOC_TYPE_boolean ? 1 : doc_type_components(type);
-    if (!num || num != c->num_numbers) {
-        fail(c, "'%s' is no type with this number of components", c->type);
+    if (!check_input(c) || !check_text(c, "type", c->type))
         return;
-    }
-    for (uint32_t i = 0; i < num; i++)
+    doc_type type = input_type(c);
+    uint32_t num = type == DOC_TYPE_boolean ? 1 : doc_type_components(type);
+    if (!c->numbers)
+        fail(c, "the numbers of '%s' are missing", c->name);
+    if (!c->failed && (!num || num != c->num_numbers))
+        fail(c, "the type of '%s' does not have %u component%s", c->name, (unsigned)c->num_numbers,
+             c->num_numbers == 1 ? "" : "s");
+    for (uint32_t i = 0; !c->failed && i < num; i++)
         if (!isfinite(c->numbers[i]))
             fail(c, "a value of '%s' is infinite or not a number", c->name);
     if (c->failed)
@@ -408,7 +432,7 @@ mxg_status mxg_edit_numbers(mxg_edit *edit, mxg_element node, const char *input,
                             .type = type,
                             .numbers = values,
                             .num_numbers = num_values};
-    return edit && values ? run(&change, set_numbers) : MXG_ERROR_ARGUMENT;
+    return edit ? run(&change, set_numbers) : MXG_ERROR_ARGUMENT;
 }
 
 /* ---- Connections ---- */
@@ -427,7 +451,7 @@ static str_id connecting_attr(struct change *c, elem_id scope)
         && doc_element(doc, scope)->kind == KIND_NODEGRAPH)
         return STR_interfacename;
     fail(c, "'%s' is no node or nodegraph beside the port, and no input of the graph around it",
-         str_text(doc->strings, from->name));
+         label(doc, c->other));
     return 0;
 }
 
@@ -470,10 +494,10 @@ static void connect(void *arg)
     struct change *c = arg;
     struct document *doc = tree_of(c->edit);
     if (!find_element(c, &c->element, false) || !find_element(c, &c->other, false)
-        || !check_text(c, c->text) || (c->name && !check_input(c)))
+        || !check_text(c, "output", c->text) || (c->name && !check_input(c)))
         return;
     if (!c->name && doc_element(doc, c->element)->kind != KIND_OUTPUT) {
-        fail(c, "without an input the element to connect is an <output>%s", "");
+        fail(c, "without an input the element to connect is an <output>");
         return;
     }
     str_id attr = connecting_attr(c, doc_element(doc, c->element)->parent);
@@ -481,8 +505,10 @@ static void connect(void *arg)
     if (!attr)
         return;
     if (!*type) {
-        fail(c, "the type of output '%s' is unknown; name an output of the element",
-             c->text ? c->text : "");
+        if (c->text)
+            fail(c, "the type of output '%s' of '%s' is unknown", c->text, label(doc, c->other));
+        else
+            fail(c, "the type of '%s' is unknown; name one of its outputs", label(doc, c->other));
         return;
     }
     elem_id port = c->name ? make_input(c, type) : c->element;
@@ -524,9 +550,10 @@ static void move(void *arg)
         return;
     const char *name = str_text(doc->strings, doc_element(doc, c->element)->name);
     if (doc_is_within(doc, c->other, c->element) || c->before == c->element)
-        fail(c, "'%s' cannot move below or before itself", name);
+        fail(c, "'%s' cannot move below or before itself", label(doc, c->element));
     else if (c->before && doc_element(doc, c->before)->parent != c->other)
-        fail(c, "the element to move '%s' before is not below the parent", name);
+        fail(c, "'%s' is not below the parent, so '%s' cannot move before it",
+             label(doc, c->before), label(doc, c->element));
     else if (*name && doc_element(doc, c->element)->parent != c->other
              && child_of(c->edit, c->other, name))
         fail(c, "there is an element '%s' already", name);
@@ -549,11 +576,13 @@ mxg_status mxg_edit_move(mxg_edit *edit, mxg_element element, mxg_element parent
 static void copy(void *arg)
 {
     struct change *c = arg;
-    const struct document *from = &c->source->layer.doc;
+    if (!c->source)
+        fail(c, "the document to copy from is missing");
     if (!find_element(c, &c->element, true))
         return;
+    const struct document *from = &c->source->layer.doc;
     if (!doc_has_element(from, c->other) || c->other == from->root) {
-        fail(c, "the document to copy from has no such element%s", "");
+        fail(c, "the document to copy from has no such element");
         return;
     }
     const char *name =
@@ -562,7 +591,7 @@ static void copy(void *arg)
         return;
     c->result = doc_copy_element(tree_of(c->edit), c->element, from, c->other, word(c, name));
     if (!c->result)
-        fail(c, "the document would have more elements than the context allows%s", "");
+        fail(c, "the document would have more elements than the context allows");
 }
 
 mxg_element mxg_edit_copy(mxg_edit *edit, mxg_element parent, const mxg_document *document,
@@ -570,7 +599,7 @@ mxg_element mxg_edit_copy(mxg_edit *edit, mxg_element parent, const mxg_document
 {
     struct change change = {
         .edit = edit, .element = parent, .source = document, .other = element, .name = name};
-    return edit && document && run(&change, copy) == MXG_OK ? change.result : 0;
+    return edit && run(&change, copy) == MXG_OK ? change.result : 0;
 }
 
 /* ---- End ---- */

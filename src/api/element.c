@@ -254,6 +254,18 @@ static elem_id find_asked(const struct search *s, const char *path, str_id *out_
     return found ? find_meant(s, found) : 0;
 }
 
+/* A document of an earlier version than it declares may have materials that are none now. */
+static void report_nothing(const struct search *s)
+{
+    for (elem_id e = doc_element(s->doc, s->doc->root)->first_child; e;
+         e = doc_element(s->doc, e)->next)
+        if (doc_is_outdated(s->doc, e)) {
+            doc_report_outdated(s->doc, e, s->diags);
+            return;
+        }
+    diag_add(s->diags, DIAG_ID_nothing_to_render, doc_place(s->doc, s->doc->root));
+}
+
 elem_id document_find_element(const struct mxg_document *document, const char *path,
                               struct diag_list *diags, str_id *out_output, unsigned *out_index)
 {
@@ -266,7 +278,7 @@ elem_id document_find_element(const struct mxg_document *document, const char *p
     else if (document->renderables.len)
         element = document->renderables.items[0];
     else
-        diag_add(diags, DIAG_ID_nothing_to_render, doc_place(s.doc, s.doc->root));
+        report_nothing(&s);
     if (element && doc_element(s.doc, element)->kind == KIND_NODE
         && !find_output(&s, element, *out_output, out_index))
         return 0;

@@ -33,26 +33,6 @@ void mem_init(struct mem *mem, mem_realloc_fn *fn, void *user_data)
     *mem = (struct mem){.realloc = fn ? fn : default_realloc, .user_data = user_data};
 }
 
-void mem_fail(struct mem *mem)
-{
-    if (!mem->trap)
-        abort(); /* a call outside all public entry points: a bug in mxgen, not in the caller */
-    longjmp(*mem->trap, 1);
-}
-
-bool mem_try(struct mem *mem, void (*work)(void *arg), void *arg)
-{
-    jmp_buf here, *outer = mem->trap;
-    mem->trap = &here;
-    if (setjmp(here)) {
-        mem->trap = outer;
-        return false;
-    }
-    work(arg);
-    mem->trap = outer;
-    return true;
-}
-
 void *mem_realloc(struct mem *mem, void *block, size_t old_size, size_t new_size)
 {
     if (mem->limit && new_size > old_size && new_size - old_size > mem->limit - mem->used) {

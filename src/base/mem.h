@@ -4,7 +4,8 @@
  *
  * Each piece of work (a library, a document, a generation) owns one arena, which one call frees.
  * Out of memory, or above a limit, is the only error that unwinds: the public entry point sets a
- * trap (setjmp) before its first allocation, and `mem_fail` jumps there. This is safe because
+ * trap before its first allocation, and `mem_fail` jumps there. trap.c does this with setjmp, and
+ * js/native/trap.c in WebAssembly, which has no setjmp. This is safe because
  *   1. the trap precedes the first allocation;
  *   2. the skipped frames own only arena memory, and the entry point reaches the arena;
  *   3. no jump crosses a foreign frame: a callback from libxml2 or from the host sets its own trap.
@@ -13,7 +14,6 @@
 #ifndef MXG_BASE_MEM_H
 #define MXG_BASE_MEM_H
 
-#include <setjmp.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -25,13 +25,15 @@
  */
 typedef void *mem_realloc_fn(void *user_data, void *block, size_t old_size, size_t new_size);
 
+struct trap; /* a place to jump to */
+
 struct mem {
     mem_realloc_fn *realloc; /* never NULL after mem_init */
     void *user_data;
-    jmp_buf *trap;   /* target of a failure; NULL only outside public calls */
-    size_t used;     /* bytes in use */
-    size_t limit;    /* maximum of `used`; 0 = unlimited */
-    bool over_limit; /* the last failure was due to the limit, not to the allocator */
+    struct trap *trap; /* target of a failure; NULL only outside public calls */
+    size_t used;       /* bytes in use */
+    size_t limit;      /* maximum of `used`; 0 = unlimited */
+    bool over_limit;   /* the last failure was due to the limit, not to the allocator */
 };
 
 /* fn NULL: the allocator of the C library. */

@@ -55,10 +55,9 @@ void text_float(struct text *text, float value)
     text->len += num_print_float(text->data + text->len, value);
 }
 
-void text_fmt(struct text *text, const char *format, ...)
+void text_vfmt(struct text *text, const char *format, va_list args)
 {
-    va_list args, again;
-    va_start(args, format);
+    va_list again;
     va_copy(again, args);
     size_t room = text->cap - text->len;
     int len = vsnprintf(room ? text->data + text->len : NULL, room, format, args);
@@ -68,6 +67,13 @@ void text_fmt(struct text *text, const char *format, ...)
     }
     text->len += len > 0 ? (size_t)len : 0;
     va_end(again);
+}
+
+void text_fmt(struct text *text, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    text_vfmt(text, format, args);
     va_end(args);
 }
 

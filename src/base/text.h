@@ -8,6 +8,8 @@
 
 #include "base/mem.h"
 
+#include <stdarg.h>
+
 struct text {
     struct arena *arena;
     char *data; /* not NUL-terminated until text_cstr */
@@ -66,6 +68,7 @@ void text_float(struct text *text, float value);
 __attribute__((format(printf, 2, 3)))
 #endif
 void text_fmt(struct text *text, const char *format, ...);
+void text_vfmt(struct text *text, const char *format, va_list args);
 
 /*
  * Copies a text to the buffer of a caller as far as it fits, with a NUL; returns `len`. The buffer

@@ -66,7 +66,16 @@ static void add_target(const struct builder *b, const struct implementation *imp
         text_fmt(targets, "%s%s", targets->len ? ", " : "", build_text(b, impl->target));
 }
 
-/* The message names the target only if other targets have an implementation. */
+/* Names the target in a note, so that the message is one message for all targets. */
+static void note_targets(struct builder *b, elem_id node)
+{
+    struct text names;
+    text_init(&names, b->arena);
+    for (size_t i = 0; i < b->options->num_targets; ++i)
+        text_fmt(&names, "%s%s", i ? ", " : "", build_text(b, b->options->targets[i]));
+    diag_add(b->diags, DIAG_ID_accepted_targets, doc_place(&b->lib->doc, node), text_cstr(&names));
+}
+
 static void report_missing(struct builder *b, uint32_t nodedef, elem_id node)
 {
     const struct nodedef *def = library_nodedef(b->lib, nodedef);
@@ -82,13 +91,15 @@ static void report_missing(struct builder *b, uint32_t nodedef, elem_id node)
         add_target(b, impl, &targets);
         i = impl->next;
     }
-    if (targets.len && b->options->num_targets)
-        text_fmt(&end, " for target '%s'; it has implementations for: %s",
-                 build_text(b, b->options->targets[0]), text_cstr(&targets));
+    bool is_for_others = targets.len && b->options->num_targets;
+    if (is_for_others)
+        text_fmt(&end, " for this target; it has implementations for: %s", text_cstr(&targets));
     else
         text_str(&end, "; add a <nodegraph> or <implementation> with this 'nodedef'");
     diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node),
              build_text(b, def->name), text_cstr(&end));
+    if (is_for_others)
+        note_targets(b, node);
     diag_add(b->diags, DIAG_ID_defined_here, doc_name_place(&b->lib->doc, def->element),
              build_text(b, def->name));
 }

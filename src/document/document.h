@@ -374,6 +374,13 @@ void doc_validate(const struct document *doc, struct diag_list *diags);
  */
 void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags);
 
+/*
+ * True for an element of an earlier version that the version of the document does not have, such as
+ * the <material> of 1.37.
+ */
+bool doc_is_outdated(const struct document *doc, elem_id element);
+void doc_report_outdated(const struct document *doc, elem_id element, struct diag_list *diags);
+
 /* value.c: reports excess numbers in a value; `suggestion` is the end of the message. */
 void doc_report_excess(const struct document *doc, elem_id element, doc_type type,
                        const char *suggestion, struct diag_list *diags);

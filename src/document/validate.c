@@ -76,20 +76,53 @@ static const struct outdated {
     {"bindparam", "1.37", OF_MATERIALS},
     {"bindtoken", "1.37", OF_MATERIALS},
     {"materialinherit", "1.37", OF_MATERIALS},
+    {"material", "1.37", OF_MATERIALS},
 #undef OF_MATERIALS
     {"collectionadd", "1.35", "; write includegeom and includecollection on the <collection>"},
     {"collectionremove", "1.35", "; write excludegeom on the <collection>"},
 };
 
 /* NULL: the element is none of them. */
-static const struct outdated *outdated(const struct validation *v, elem_id element)
+static const struct outdated *outdated(const struct document *doc, elem_id element)
 {
-    const struct element *e = doc_element(v->doc, element);
-    const char *category = e->kind == KIND_NODE ? text_of(v, e->category) : "";
+    const struct element *e = doc_element(doc, element);
+    const char *category = e->kind == KIND_NODE ? str_text(doc->strings, e->category) : "";
     for (size_t i = 0; i < sizeof outdated_elements / sizeof *outdated_elements; i++)
         if (strcmp(outdated_elements[i].name, category) == 0)
             return &outdated_elements[i];
     return NULL;
+}
+
+/* A library may define a node <material>, which has a type and no <shaderref>. */
+static bool may_be_node(const struct document *doc, elem_id element)
+{
+    bool has_outdated = false;
+    for (elem_id e = doc_element(doc, element)->first_child; e && !has_outdated;
+         e = doc_element(doc, e)->next)
+        has_outdated = outdated(doc, e) != NULL;
+    return doc_attr(doc, element, STR_type) && !has_outdated;
+}
+
+bool doc_is_outdated(const struct document *doc, elem_id element)
+{
+    return outdated(doc, element)
+           && (doc_element(doc, element)->category != STR_material || !may_be_node(doc, element));
+}
+
+void doc_report_outdated(const struct document *doc, elem_id element, struct diag_list *diags)
+{
+    const struct outdated *old = outdated(doc, element);
+    assert(old);
+    diag_add(diags, DIAG_ID_outdated_element, doc_place(doc, element), old->name, old->version,
+             old->advice);
+}
+
+/* Reports the first one of a document. */
+static void check_age(struct validation *v, elem_id element)
+{
+    if (!v->has_age_note)
+        doc_report_outdated(v->doc, element, v->diags);
+    v->has_age_note = true;
 }
 
 /* false after reporting that the element is not allowed here. */
@@ -98,16 +131,12 @@ static bool check_place(struct validation *v, elem_id element)
     const struct element *e = doc_element(v->doc, element);
     const struct element *parent = doc_element(v->doc, e->parent);
     assert(parent->kind < NUM_ELEMENT_KINDS && parent->kind < 64);
-    if (rules[e->kind].parents >> parent->kind & 1)
-        return true;
-    const struct outdated *old = outdated(v, element);
-    if (old) {
-        if (!v->has_age_note)
-            diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element), old->name,
-                     old->version, old->advice);
-        v->has_age_note = true;
+    if (doc_is_outdated(v->doc, element)) {
+        check_age(v, element);
         return false;
     }
+    if (rules[e->kind].parents >> parent->kind & 1)
+        return true;
     diag_add(v->diags, is_foreign(v, element) ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element,
              doc_place(v->doc, element), text_of(v, e->category), text_of(v, parent->category));
     return false;
@@ -270,7 +299,7 @@ static void check_element(struct validation *v, elem_id element)
     check_name(v, element);
     check_type_and_values(v, element);
     /* the attributes of other elements have no effect */
-    if (!is_foreign(v, element) && !outdated(v, element))
+    if (!is_foreign(v, element) && !doc_is_outdated(v->doc, element))
         validate_attributes(v, element);
     validate_geometry(v, element);
     if (doc_element(v->doc, element)->kind == KIND_NODEDEF)

@@ -233,6 +233,10 @@ static const char *advice(const char *suggestion)
 
 static void report_unknown_node(const struct library *lib, elem_id node, struct diag_list *diags)
 {
+    if (doc_is_outdated(&lib->doc, node)) {
+        doc_report_outdated(&lib->doc, node, diags);
+        return;
+    }
     const char *name = text_of(lib, doc_element(&lib->doc, node)->category);
     const char *removed = advice_on_removed(name, diags->arena);
     struct diag_guess guess;

@@ -86,6 +86,8 @@ static void check_element(struct validate *v, elem_id element)
     enum element_kind parent =
         e->parent ? (enum element_kind)doc_element(v->doc, e->parent)->kind : KIND_NODE;
     bool is_in_graph = parent == KIND_MATERIALX || parent == KIND_NODEGRAPH;
+    if (is_in_graph && kind == KIND_NODE && doc_is_outdated(v->doc, element))
+        return; /* doc_validate reports it */
     if (is_in_graph && kind == KIND_NODE)
         check_node(v, element);
     else if (is_in_graph

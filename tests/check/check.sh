@@ -76,11 +76,42 @@ check 'tells 20' is "$(grep -c 'error:' out)" 20
 check 'and that there are more' grep -q '^note: more than 20 errors; the rest is not shown' out
 check 'which every shader refers to' says many.json 'all(s["messages"] for e in d[0]["elements"] for s in e["shaders"])' True
 check 'or all of them' eval 'exits 1 "$mxgen" check many.mtlx "${quick[@]}" --max-errors 0; is "$(grep -c "error:" out)" 30'
-check 'a generation, too' exits 1 "$mxgen" many.mtlx -o many
+check 'a generation, too' exits 1 "$mxgen" many.mtlx -o many_out
 check 'tells 20 of a document' is "$(grep -c 'error:' err)" 20
 check 'and that there are more' is "$(grep -c '^note: more than 20 errors' err)" 1
+mkdir repeats && for i in $(seq 15); do echo "<constant name='c$i' type='float' nodeid='$i'/><output name='o$i' type='float' nodename='c$i'/>"; done |
+    { echo '<materialx version="1.39">'; cat; echo '<constant name="c16" type="float" uid="1"/></materialx>'; } >repeats/a.mtlx
+sed 's/ nodeid=.[0-9]*.//' repeats/a.mtlx >clean.mtlx
+check 'a warning fifteen times' exits 0 "$mxgen" check repeats "${quick[@]}" --json repeats.json --html repeats.html
+check 'is told once' is "$(grep -c "'nodeid'" out)" 1
+check 'with the places of the others' eval 'grep -A3 "nodeid" out | grep -q "^note: and 14 more, in the lines 3, 4, 5, 6, 7, 8, 9, 10, …$"'
+check 'and another warning by itself' is "$(grep -c "'uid'" out)" 1
+check 'the page tells it once on each of 15 cards' is "$(grep -o "attribute 'nodeid'" repeats.html | wc -l)" 15
+check 'with the number of the others' is "$(grep -o 'and 14 more' repeats.html | wc -l)" 15
+check 'reports for programs have them all' says repeats.json 'sum("nodeid" in m["message"] for m in d[0]["messages"])' 15
+check 'a baseline without it' exits 0 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline repeats.base --update-baseline
+cp clean.mtlx repeats/a.mtlx
+check 'and one with it' eval 'exits 0 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline clean.base --update-baseline'
+sed "s/'float'\/><output/'float' nodeid='1'\/><output/" clean.mtlx >repeats/a.mtlx
+check 'fifteen new warnings' exits 1 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline clean.base --fail-on new-warnings
+check 'are one change' is "$(grep -c '^FAILED .*(new-warnings)' out)" 1
+check 'with the places of the others' grep -q '^note: and 14 more, in the lines 3' out
 check 'every element for every target' exits 0 "$mxgen" check tree/a.mtlx -t glsl,essl -t vulkan "${quick[@]}" --json targets.json
 check 'is in the report' says targets.json '[s["target"] for s in d[0]["elements"][0]["shaders"]]' "['glsl', 'essl', 'vulkan']"
+cat >foreign.mtlx <<'X'
+<materialx version="1.39">
+  <nodedef name="ND_glow" node="glow"><output name="out" type="float"/></nodedef>
+  <implementation name="IM_glow" nodedef="ND_glow" target="genosl" sourcecode="u"/>
+  <glow name="g" type="float"/><output name="o" type="float" nodename="g"/>
+</materialx>
+X
+check 'a node for one target only' exits 1 "$mxgen" check foreign.mtlx -t glsl,osl,vulkan,hlsl --trust "${quick[@]}" --json foreign.json
+check 'is one error' is "$(grep -c 'error:' out)" 1
+check 'which says what there is' grep -q "'ND_glow' has no implementation for this target; it has implementations for: genosl \[missing-implementation\]" out
+check 'and for which targets it is' grep -q '^note: for the targets glsl, vulkan, hlsl$' out
+check 'in reports for programs, too' says foreign.json '[s.get("messages", []) for s in d[0]["elements"][0]["shaders"]]' '[[0], [], [0], [0]]'
+check 'for all targets of a run' exits 1 "$mxgen" check foreign.mtlx -t glsl,vulkan --trust "${quick[@]}"
+check 'nothing is noted' eval '! grep -q "note: for the target" out'
 check 'options of generation are passed on' exits 0 "$mxgen" check tree/a.mtlx --interface reduced "${quick[@]}" --json reduced.json
 check 'and make smaller shaders' eval \
     '[ "$(json reduced.json "$uniforms")" -lt "$(json targets.json "$uniforms")" ]' # in materials.sh

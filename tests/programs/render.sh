@@ -1,22 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Pictures, and the effect of uniforms on them. Arguments: mxgen-render, mean_ratio, the module lost_device.
-render=$(realpath "$1") mean_ratio=$(realpath "$2") lost_device=$(realpath "$3")
-here=$(cd "$(dirname "$0")" && pwd)
-. "$here/common.sh"
+lost_device=$(realpath "$3")
+. "$(dirname "$0")/pictures.sh"
 
-# The driver would write its cache to the home folder.
-export MESA_SHADER_CACHE_DISABLE=true
-
-cat >plain.mtlx <<'X'
-<?xml version="1.0"?>
-<materialx version="1.39">
-  <standard_surface name="SR" type="surfaceshader">
-    <input name="base_color" type="color3" value="0.8, 0.8, 0.8"/>
-  </standard_surface>
-  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
-</materialx>
-X
 cat >textured.mtlx <<'X'
 <?xml version="1.0"?>
 <materialx version="1.39">
@@ -112,9 +99,36 @@ check 'the same bytes again' eval '"$render" plain.mtlx -o again.png --size 48x3
 check 'a missing texture' exits 1 "$render" textured.mtlx -o lost.png
 check 'names the file' grep -q "none.png.*\[missing-texture\]" err
 check 'its place, and a way out' eval 'grep -Eq "^textured.mtlx:[0-9]+:[0-9]+: warning: .*none.png" err && grep -q -- "--missing-texture checker" err'
-sed '/<nodegraph/a <image name="x" type="float"><input name="file" type="filename" value="gone.png"/></image><image name="y" type="float"><input name="file" type="filename" value="gone.png"/></image>' textured.mtlx >several.mtlx
-check 'several missing textures' exits 1 "$render" several.mtlx -o lost.png
-check 'are told together, each once' eval 'test "$(grep -c "there is no file" err)" -eq 2 && test "$(grep -c "no file .gone.png" err)" -eq 1'
+cat >several.mtlx <<'X'
+<materialx version="1.39">
+  <image name="x" type="color3"><input name="file" type="filename" value="gone.png"/></image>
+  <image name="y" type="color3"><input name="file" type="filename" value="gone.png"/></image>
+  <image name="z" type="color3"><input name="file" type="filename" value="away.png"/></image>
+  <image name="other" type="color3"><input name="file" type="filename" value="unread.png"/></image>
+  <standard_surface name="SR" type="surfaceshader">
+    <input name="base_color" type="color3" nodename="x"/>
+    <input name="specular_color" type="color3" nodename="y"/>
+    <input name="coat_color" type="color3" nodename="z"/>
+    <input name="coat" type="float" value="0.5"/>
+  </standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
+  <output name="o" type="color3" nodename="other"/>
+</materialx>
+X
+echo 'no picture' >broken.png
+check 'several missing textures' exits 1 "$render" several.mtlx -e M -o lost.png
+check 'are told together, each once' eval 'test "$(grep -c "there is no file" err)" -eq 2 && test "$(grep -c "gone.png. \[" err)" -eq 1'
+check 'with the way out at the end' eval "tail -n 1 err | grep -q \"M: 2 texture files cannot be read; '--missing-texture checker' draws checkers in their place\""
+check 'those of other materials are not' eval '! grep -q unread.png err'
+check "a user's file in the place of one" exits 1 "$render" several.mtlx -e M -o lost.png --set z/file=broken.png
+check 'is told with its input' grep -q "error: cannot read 'broken.png' for 'z/file': .*\[missing-texture\]" err
+check 'and not the file that it replaces' eval '! grep -q "lost.png. \[" err && grep -q "gone.png. \[" err'
+check 'users'"'"' files in the place of all' exits 1 "$render" several.mtlx -e M -o lost.png --set x/file=broken.png --set y/file=broken.png --set z/file=broken.png
+check 'are told, and no others' eval 'test "$(grep -c "cannot read .broken.png" err)" -eq 3 && grep -q "3 texture files" err && ! grep -q "there is no file" err'
+check 'checkers for all of them' exits 0 "$render" several.mtlx -e M -o lost.png --size 8 --missing-texture checker --set z/file=broken.png
+check 'are warnings' eval 'test "$(grep -c "warning: " err)" -eq 2 && ! grep -q "error: " err'
+check 'which --quiet drops' eval 'exits 0 "$render" several.mtlx -e M -o lost.png --size 8 --missing-texture checker --quiet && test ! -s err'
+rm -f lost.png
 check 'a misspelt input' exits 1 "$render" plain.mtlx --set SR/base_colr=1,0,0 -o lost.png
 check 'is compared' grep -q "did you mean 'SR/base_color'" err
 check 'leaves no picture' test ! -e lost.png
@@ -164,7 +178,6 @@ pixels() { tail -c "+$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -tu1 -v -
 check 'a checker for a missing texture' exits 0 "$render" textured.mtlx -m plane --missing-texture checker -o checker.ppm --size 24
 check 'is told' grep -q 'warning: .*none.png.*\[missing-texture\]' err
 check 'is magenta and black' test "$(pixels checker.ppm | awk '!$2 && $1 == $3 { if ($1 > 150) m++; if ($1 < 100) b++ } END { print (m > 9 && b > 9) }')" = 1
-echo 'no picture' >broken.png
 check 'a texture that is no picture' exits 1 "$render" textured.mtlx --set NG/image/file=broken.png -o x.png
 check 'is missing-texture, too' grep -q 'broken.png.*\[missing-texture\]' err
 check 'a picture beyond the device' exits 1 "$render" plain.mtlx -o x.png --size 16384

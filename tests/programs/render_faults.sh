@@ -1,20 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Pictures that cannot be: hostile images and meshes, values and options that are none. Arguments: mxgen-render, mean_ratio.
-render=$(realpath "$1") mean_ratio=$(realpath "$2")
-here=$(cd "$(dirname "$0")" && pwd)
-. "$here/common.sh"
+. "$(dirname "$0")/pictures.sh"
 
-# The driver would write its cache to the home folder.
-export MESA_SHADER_CACHE_DISABLE=true
-
-cat >plain.mtlx <<'X'
-<?xml version="1.0"?>
-<materialx version="1.39">
-  <standard_surface name="SR" type="surfaceshader"/>
-  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
-</materialx>
-X
 cp "$here/parts/huge_window.exr" "$here/parts/huge_window.mtlx" .
 printf 'PF\n2 1\n-1.0\n' >red.pfm
 for i in 1 2; do printf '\000\000\200\077\000\000\000\000\000\000\000\000' >>red.pfm; done
@@ -127,7 +115,15 @@ for value in nan inf; do
     check 'a texture, too' exits 0 "$render" huge_window.mtlx --set i/file=$value.pfm -o x.png --size 8
     check 'is told' grep -q "warning: the texture '$value.pfm' has pixels that are NaN.*\[bad-pixels\]" err
 done
-sed 's|<standard_surface name="SR" type="surfaceshader"/>|<surface_unlit name="SR" type="surfaceshader"><input name="emission" type="float" value="3e38"/><input name="emission_color" type="color3" value="100, 100, 100"/></surface_unlit>|' plain.mtlx >hot.mtlx
+cat >hot.mtlx <<'X'
+<materialx version="1.39">
+  <surface_unlit name="SR" type="surfaceshader">
+    <input name="emission" type="float" value="3e38"/>
+    <input name="emission_color" type="color3" value="100, 100, 100"/>
+  </surface_unlit>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
+</materialx>
+X
 for how in '' '--path-trace --paths 2'; do
     # shellcheck disable=SC2086
     check "a picture of infinite light $how" exits 1 "$render" hot.mtlx -o hot.png --size 8 $how

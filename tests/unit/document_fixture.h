@@ -6,6 +6,7 @@
 #ifndef MXG_TESTS_DOCUMENT_FIXTURE_H
 #define MXG_TESTS_DOCUMENT_FIXTURE_H
 
+#include "base/trap.h"
 #include "xml/reader.h"
 
 #include "test.h"
@@ -22,7 +23,7 @@ struct fixture {
     unsigned num_open;
     const struct fixture_file *files; /* ends with a NULL name */
     struct mem mem;
-    jmp_buf trap;
+    struct trap trap;
     struct arena arena;
     struct strpool strings;
     struct document doc;

@@ -6,6 +6,7 @@
 #ifndef MXG_TESTS_LAYERS_FIXTURE_H
 #define MXG_TESTS_LAYERS_FIXTURE_H
 
+#include "base/trap.h"
 #include "library/library.h"
 #include "xml/reader.h"
 
@@ -20,7 +21,7 @@ struct layer_file {
 struct layers {
     struct mem mem;
     unsigned char dirt; /* new memory is filled with it */
-    jmp_buf trap;
+    struct trap trap;
     struct arena arena;
     struct diag_list diags;         /* of both layers */
     const struct layer_file *files; /* ends with a NULL name */

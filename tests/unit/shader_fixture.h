@@ -3,6 +3,7 @@
 #ifndef MXG_TESTS_SHADER_FIXTURE_H
 #define MXG_TESTS_SHADER_FIXTURE_H
 
+#include "base/trap.h"
 #include "one_file.h"
 #include "spell/target.h"
 
@@ -11,7 +12,7 @@
 
 struct fixture {
     struct mem mem;
-    jmp_buf trap;
+    struct trap trap;
     struct arena arena;
     struct strpool strings;
     struct ir_graph graph;

@@ -10,6 +10,7 @@
 #include "base/num.h"
 #include "base/strpool.h"
 #include "base/text.h"
+#include "base/trap.h"
 
 #include "test.h"
 
@@ -112,10 +113,10 @@ static void busy(struct arena *arena)
 static bool try_busy(struct mem *mem)
 {
     struct arena arena;
-    jmp_buf trap;
+    struct trap trap;
     arena_init(&arena, mem);
     mem->trap = &trap;
-    if (setjmp(trap)) {
+    if (setjmp(trap.place)) {
         arena_finish(&arena);
         return false;
     }
@@ -152,11 +153,11 @@ static volatile bool size_failed;
 static void test_overflow(void)
 {
     struct mem mem;
-    jmp_buf trap;
+    struct trap trap;
     mem_init(&mem, NULL, NULL);
     mem.trap = &trap;
     size_failed = false;
-    if (setjmp(trap))
+    if (setjmp(trap.place))
         size_failed = true;
     else
         mem_array_size(&mem, SIZE_MAX / 4, 8);

@@ -467,7 +467,7 @@ static void test_targets(void)
         {{"gen"}, own_gen, "9", ""},
         {{"sub", "gen"}, own_gen, "3", ""},
         {{"gen"}, only, "4", ""},
-        {{"new"}, only, "nothing", "missing-implementation, defined-here"},
+        {{"new"}, only, "nothing", "missing-implementation, accepted-targets, defined-here"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct work w;

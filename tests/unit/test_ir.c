@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The IR: builder, simplification, text form, marks, checker, evaluation, long chains. */
+#include "base/trap.h"
 #include "ir/ir.h"
 
 #include "test.h"
@@ -720,11 +721,11 @@ static void *failing_realloc(void *user_data, void *block, size_t old_size, size
 
 static bool try_work(struct fixture *f, size_t left)
 {
-    jmp_buf trap;
+    struct trap trap;
     mem_init(&f->mem, failing_realloc, &left);
     arena_init(&f->arena, &f->mem);
     f->mem.trap = &trap;
-    if (setjmp(trap))
+    if (setjmp(trap.place))
         return false;
     strpool_init(&f->strings, &f->arena, NULL);
     ir_graph_init(&f->graph, &f->arena, &f->strings);

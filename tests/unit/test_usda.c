@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Text layers of USD: what parses, and where the faults are. */
+#include "base/trap.h"
 #include "usda/usda.h"
 #include "test.h"
 
@@ -60,7 +61,7 @@ struct fixture {
     struct mem mem;
     struct arena arena;
     struct diag_list diags;
-    jmp_buf trap;
+    struct trap trap;
 };
 
 static void start(struct fixture *f)
@@ -86,7 +87,7 @@ static void test_layers(void)
     for (size_t i = 0; i < sizeof layers / sizeof *layers; i++) {
         struct fixture f;
         struct usda_layer layer;
-        if (setjmp(f.trap))
+        if (setjmp(f.trap.place))
             return;
         start(&f);
         bool good = read_copy(&f, &layer, layers[i].text, strlen(layers[i].text));
@@ -110,7 +111,7 @@ static bool damage(const char *text, size_t len, size_t at)
     struct fixture f;
     struct usda_layer layer;
     char damaged[1024];
-    if (setjmp(f.trap))
+    if (setjmp(f.trap.place))
         return false;
     start(&f);
     read_copy(&f, &layer, text, at);
@@ -138,7 +139,7 @@ static void test_nesting(void)
     struct fixture f;
     struct usda_layer layer;
     struct text text;
-    if (setjmp(f.trap))
+    if (setjmp(f.trap.place))
         return;
     start(&f);
     text_init(&text, &f.arena);
@@ -167,7 +168,7 @@ static void test_queries(void)
     struct fixture f;
     struct usda_layer layer;
     struct text_word rest, item;
-    if (setjmp(f.trap))
+    if (setjmp(f.trap.place))
         return;
     start(&f);
     REQUIRE(usda_read(&layer, "q.usda", text, strlen(text), &f.arena, &f.diags));

@@ -260,7 +260,7 @@ static bool read_with_little_memory(size_t used_before, size_t allocations)
     fixture_init(&f);
     f.files = files;
     volatile bool done = false;
-    if (setjmp(f.trap) == 0) {
+    if (setjmp(f.trap.place) == 0) {
         for (size_t used = 0; used < used_before; used += 64)
             arena_alloc(&f.arena, 64);
         f.allocations_left = allocations;

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef HOST_VULKAN_SPIRV_H
+#define HOST_VULKAN_SPIRV_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Compiles a stage of Vulkan's GLSL. The caller frees the words. NULL: an error, which is printed.
+ */
+uint32_t *compile_spirv(const char *source, bool is_vertex, size_t *out_bytes);
+
+#endif

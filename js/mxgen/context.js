@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contexts: where files come from, the limits, and the start of every other object.
+
+import { Diagnostics } from "./diagnostics.js";
+import { Document } from "./document.js";
+import { Edit } from "./edit.js";
+import { ArgumentError, DocumentError, MxgenError, OutOfMemoryError } from "./errors.js";
+import { Library } from "./library.js";
+import { expect, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
+import { Shader } from "./shader.js";
+
+const LIMITS = ["maxMemory", "maxFileMib", "maxElements", "maxNodes", "maxOutputMib", "maxErrors", "maxDepth", "maxIncludeDepth", "maxIncludes"];
+const OPTIONS = [...LIMITS, "resolver", "listFolder", "cancel", "warnings", "trust", "sourcePaths"];
+
+function bytesOf(data, what) {
+    if (typeof data === "string")
+        return new TextEncoder().encode(data);
+    if (data instanceof ArrayBuffer)
+        return new Uint8Array(data);
+    if (ArrayBuffer.isView(data))
+        return new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
+    throw new TypeError(`${what} must be a string, ArrayBuffer or a view of one, not ${kindOf(data)}`);
+}
+
+/** The callbacks of a context, as C calls them. An exception in a callback waits until the call of C returns. */
+class Host {
+    #native;
+    #lent = new Map(); // addresses to free, by the handle of a blob
+    #next = 1;
+
+    constructor(native, { resolver = null, listFolder = null, cancel = null }) {
+        for (const [name, callback] of Object.entries({ resolver, listFolder, cancel }))
+            if (callback !== null)
+                expect(callback, "function", name);
+        this.#native = native;
+        this.resolver = resolver;
+        this.lister = listFolder;
+        this.canceller = cancel;
+        this.raised = null; // { error } of a callback
+    }
+
+    #guard(fault, work) {
+        if (this.raised)
+            return fault;
+        try {
+            return work();
+        } catch (error) {
+            this.raised = { error };
+            return fault;
+        }
+    }
+
+    open(from, ref, blob) {
+        return this.#guard(0, () => {
+            const native = this.#native, found = this.resolver?.(native.text(from), native.text(ref)) ?? null;
+            if (found === null)
+                return 0;
+            const isFile = typeof found === "object" && "data" in found;
+            const bytes = bytesOf(isFile ? found.data : found, "the answer of the resolver");
+            const name = isFile && found.name !== undefined ? new TextEncoder().encode(expect(found.name, "string", "the name of a file") + "\0") : null;
+            const size = bytes.length, data = native.allocate(size + (name?.length ?? 0));
+            native.bytes(data, size).set(bytes);
+            if (name)
+                native.bytes(data + size, name.length).set(name);
+            this.#lent.set(this.#next, data);
+            native.setMembers("mxg_blob", blob, { data, size, name: name ? data + size : 0, handle: this.#next++ });
+            return 1;
+        });
+    }
+
+    release(blob) {
+        const { handle } = this.#native.members("mxg_blob", blob);
+        this.#native.lib.free(this.#lent.get(handle));
+        this.#lent.delete(handle);
+    }
+
+    listFolder(from, folder, names, capacity) {
+        return this.#guard(0, () => {
+            const listed = this.lister(this.#native.text(from), this.#native.text(folder)) ?? [];
+            if (typeof listed === "string" || typeof listed[Symbol.iterator] !== "function")
+                throw new TypeError(`listFolder must return names, not ${kindOf(listed)}`);
+            const bytes = new TextEncoder().encode(Array.from(listed, name => expect(name, "string", "a name of listFolder") + "\0").join(""));
+            if (bytes.length <= capacity)
+                this.#native.bytes(names, bytes.length).set(bytes);
+            return bytes.length;
+        });
+    }
+
+    cancel() {
+        return this.#guard(1, () => this.canceller() ? 1 : 0);
+    }
+}
+
+/**
+ * Loads documents and libraries. An exception in a callback ends the call and leaves it unchanged. A callback cannot use its own context.
+ * index.d.ts describes the options.
+ */
+export class Context extends Owner {
+    #host;
+    #busy = false;
+    #library = null;
+
+    constructor(native, options, defaults) {
+        for (const name of Object.keys(options))
+            if (!OPTIONS.includes(name))
+                throw new ArgumentError(`there is no option '${name}'; known are ${OPTIONS.join(", ")}`);
+        const used = options.resolver ? options : { ...options, ...defaults };
+        if (used.listFolder && !used.resolver)
+            throw new ArgumentError("listFolder needs a resolver");
+        const host = new Host(native, used), number = native.addHost(host);
+        try {
+            super(native, makeContext(native, used, number), "context");
+        } catch (error) {
+            native.removeHost(number);
+            throw error;
+        }
+        this.#host = host;
+    }
+
+    // ---- Calls ----
+
+    /** Calls C with the context's address. Afterwards throws the exception of a callback. */
+    _turn(work) {
+        const pointer = this._pointer;
+        if (this.#busy)
+            throw new MxgenError("a callback cannot use its own context; make another context");
+        this.#busy = true;
+        let result;
+        try {
+            result = work(pointer);
+        } finally {
+            this.#busy = false;
+        }
+        const { raised } = this.#host;
+        this.#host.raised = null;
+        if (raised)
+            throw raised.error;
+        return result;
+    }
+
+    /** Calls a function that makes an object: with the context and the arguments, which get a place for the object. */
+    _make(name, destroy, parents, argumentsWith) {
+        const native = this._native, { lib } = native;
+        return native.using(() => {
+            const out = native.space(4);
+            let handle = null, status;
+            try {
+                status = this._turn(pointer => lib[name](pointer, ...argumentsWith(out)));
+            } finally {
+                if (native.pointer(out))
+                    handle = new Handle(native.pointer(out), lib[destroy], [this._handle, ...parents]);
+                if (status === undefined)
+                    handle?.release();
+            }
+            if (status !== STATUS.ok && status !== STATUS.errorDocument) {
+                handle?.release();
+                throw native.errorOf(status);
+            }
+            if (!handle)
+                throw new OutOfMemoryError("there is no memory for the result");
+            return { handle, status };
+        });
+    }
+
+    // ---- Libraries ----
+
+    /** The library that is built in. */
+    get library() {
+        if (!this.#library) {
+            const { lib } = this._native, made = this._turn(pointer => lib.mxg_library_builtin(pointer));
+            if (!made)
+                throw new OutOfMemoryError("there is no memory for the library");
+            this.#library = new Library(this._native, new Handle(made, lib.mxg_library_unref, [this._handle]));
+        }
+        return this.#library;
+    }
+
+    /**
+     * Makes a library of files or an image (.mxlib), on top of `base` (null: the built-in library). `standalone`: on top of nothing; an
+     * image needs it. Throws DocumentError.
+     */
+    loadLibrary(paths, { base = null, standalone = false } = {}) {
+        if (base && standalone)
+            throw new ArgumentError("a standalone library has no base");
+        if (!Array.isArray(paths))
+            throw new TypeError(`paths must be an array, not ${kindOf(paths)}`);
+        const native = this._native, below = standalone ? null : this.#libraryFor(base);
+        const { handle, status } = native.using(() => {
+            const names = native.newTexts(paths, "a path");
+            return this._make("mxg_library_load", "mxg_library_unref", below ? [below._handle] : [],
+                              out => [below ? below._pointer : 0, names, paths.length, out]);
+        });
+        const library = new Library(native, handle);
+        if (status !== STATUS.ok)
+            throw new DocumentError(library.diagnostics);
+        return library;
+    }
+
+    #libraryFor(library) {
+        return library === null ? this.library : expect(library, Library, "library");
+    }
+
+    // ---- Documents ----
+
+    #document(library, name, argumentsWith) {
+        const used = this.#libraryFor(library);
+        const { handle, status } = this._make(name, "mxg_document_destroy", [used._handle], out => [used._pointer, ...argumentsWith(out)]);
+        const document = new Document(this, used, handle);
+        if (status !== STATUS.ok)
+            throw new DocumentError(document.diagnostics, document);
+        return document;
+    }
+
+    /** Reads a file by the resolver. Throws DocumentError; its `document` has the parts without errors. */
+    load(path, { library = null } = {}) {
+        const native = this._native;
+        return native.using(() => {
+            const name = native.newText(path, "path");
+            return this.#document(library, "mxg_document_load", out => [name, out]);
+        });
+    }
+
+    /** Reads a document from its text. `name` appears in messages and is the base of includes. Throws DocumentError. */
+    parse(text, { name = "<text>", library = null } = {}) {
+        const native = this._native;
+        return native.using(() => {
+            const bytes = bytesOf(text, "text"), data = native.newBytes(bytes), called = native.newText(name, "name");
+            return this.#document(library, "mxg_document_parse", out => [called, data, bytes.length, out]);
+        });
+    }
+
+    /**
+     * Reads a file whose includes a server or a database has: `open(from, ref)` is like the resolver, and returns a promise. Files that
+     * `open` does not have come from the resolver.
+     */
+    async loadAsync(path, open, { library = null } = {}) {
+        const files = new Map(), host = this.#host, { resolver } = host;
+        for (;;) {
+            const missing = new Map();
+            host.resolver = (from, ref) => {
+                const key = JSON.stringify([from, ref]), found = files.get(key);
+                if (found === undefined)
+                    missing.set(key, [from, ref]);
+                return found ?? resolver?.(from, ref) ?? null;
+            };
+            let document = null, fault = null;
+            try {
+                document = this.load(path, { library });
+            } catch (error) {
+                fault = error;
+            } finally {
+                host.resolver = resolver;
+            }
+            if (!missing.size) {
+                if (fault)
+                    throw fault;
+                return document;
+            }
+            document?.destroy();
+            await Promise.all(Array.from(missing, async ([key, reference]) => files.set(key, await open(...reference) ?? null)));
+        }
+    }
+
+    /** Begins a new document, or a changed copy of one. `library` is for a new one; a copy keeps its own. */
+    edit(document = null, { name = "<edit>", library = null } = {}) {
+        if (document !== null && expect(document, Document, "document") && library !== null && library !== document.library)
+            throw new ArgumentError("a changed document keeps its library");
+        const native = this._native, used = document ? document.library : this.#libraryFor(library);
+        return native.using(() => {
+            const called = native.newText(name, "name");
+            const { handle } = this._make("mxg_edit_begin", "mxg_edit_cancel", document ? [used._handle, document._handle] : [used._handle],
+                                          out => [used._pointer, document ? document._pointer : 0, called, out]);
+            return new Edit(this, used, document, handle);
+        });
+    }
+
+    /** Reads a document and writes it again: "format", or "upgrade" to version 1.39. `text` null: reads the file `name`. */
+    rewrite(rewriting, name, text = null) {
+        const native = this._native, number = numberOf("mxg_rewriting", rewriting, "rewriting");
+        return native.using(() => {
+            const bytes = text === null ? null : bytesOf(text, "text"), data = bytes ? native.newBytes(bytes) : 0;
+            const called = native.newText(name, "name");
+            const { handle, status } = this._make("mxg_rewrite", "mxg_result_destroy", [], out => [number, called, data, bytes?.length ?? 0, out]);
+            const result = new Shader(native, handle), diagnostics = result.diagnostics;
+            if (status !== STATUS.ok)
+                throw new DocumentError(diagnostics);
+            return { text: result._text(), diagnostics };
+        });
+    }
+
+    /** The text of a document in one layout; comments stay. */
+    format(text, { name = "<text>" } = {}) {
+        return this.rewrite("format", name, text).text;
+    }
+
+    /** A document of an older version as version 1.39. */
+    upgrade(text, { name = "<text>" } = {}) {
+        return this.rewrite("upgrade", name, text);
+    }
+}
+
+function makeContext(native, options, number) {
+    return native.using(() => {
+        const values = {}, { warnings = null, trust = false, sourcePaths = [] } = options;
+        for (const name of LIMITS) {
+            const limit = options[name] ?? 0;
+            if (!Number.isInteger(limit) || limit < 0 || limit > 0xffffffff)
+                throw new ArgumentError(`${name} must be an integer from 0 to 4294967295, not ${String(limit)}`);
+            values[name] = limit;
+        }
+        const desc = native.newStruct("mxg_context_desc", {
+            ...values, trust: expect(trust, "boolean", "trust"), warnings: native.newOptionalText(warnings, "warnings"),
+            sourcePaths: native.newTexts(sourcePaths, "a source path"), numSourcePaths: sourcePaths.length });
+        const out = native.space(4), status = native.lib.mxgen_js_context(desc, number, Boolean(options.listFolder), Boolean(options.cancel), out);
+        native.check(status, status === STATUS.errorArgument && warnings ? `warnings has an unknown word, or a limit is out of range: '${warnings}'` : "");
+        return new Handle(native.pointer(out), pointer => {
+            native.lib.mxg_context_destroy(pointer);
+            native.removeHost(number);
+        });
+    });
+}

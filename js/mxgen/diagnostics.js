@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Diagnostics: the errors, warnings and notes of a document, library or call.
+
+/** The diagnostics of a document, library or call, in order of discovery. Notes follow the diagnostic that they explain. */
+export class Diagnostics {
+    #owner;
+    #list;
+
+    /** `list` is the native list, which lives as long as `owner`. */
+    constructor(owner, list) {
+        this.#owner = owner;
+        this.#list = list;
+        const native = owner._native;
+        this.items = Object.freeze(native.records("mxg_diagnostic", native.lib.mxg_diagnostics_count(list),
+                                                  (index, out) => native.lib.mxg_diagnostics_get(list, index, out)));
+        this.errors = native.lib.mxg_diagnostics_errors(list);
+        this.warnings = native.lib.mxg_diagnostics_warnings(list);
+    }
+
+    get length() {
+        return this.items.length;
+    }
+
+    [Symbol.iterator]() {
+        return this.items[Symbol.iterator]();
+    }
+
+    /** Diagnostic `index` as compilers write it. With `source`, the text of the file, the output shows the line with a caret. */
+    formatOne(index, { source = null, colour = false } = {}) {
+        const native = this.#owner._native;
+        this.#owner._handle; // throws after `destroy`
+        return native.using(() => {
+            const bytes = source === null ? null : new TextEncoder().encode(source), text = bytes ? native.newBytes(bytes) : 0;
+            return native.sizedText((out, capacity) => native.lib.mxg_diagnostics_format(this.#list, index, text, bytes?.length ?? 0, colour, out,
+                                                                                        capacity));
+        });
+    }
+
+    /** All diagnostics. */
+    format(options) {
+        return this.items.map((_, index) => this.formatOne(index, options)).join("");
+    }
+
+    toString() {
+        return this.format().trimEnd();
+    }
+}

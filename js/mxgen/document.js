@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Documents and their elements.
+
+import { Diagnostics } from "./diagnostics.js";
+import { ArgumentError, DocumentError, OutOfMemoryError } from "./errors.js";
+import { readNodeDef } from "./library.js";
+import { expect, numberOf, Owner, STATUS } from "./native.js";
+import { Shader, withOptions } from "./shader.js";
+
+/** An element of a document. */
+export class Element {
+    /** `number` is that of the C interface: a document that an edit makes keeps it. */
+    constructor(document, number) {
+        this.document = expect(document, Document, "document");
+        this.number = expect(number, "number", "number");
+        this.#info();
+    }
+
+    get #lib() {
+        return this.document._native.lib;
+    }
+
+    #info() {
+        const info = this.document._native.record("mxg_element_info",
+                                                  out => this.#lib.mxg_document_element(this.document._pointer, this.number, out));
+        if (!info)
+            throw new ArgumentError(`the document has no element ${this.number}`);
+        return info;
+    }
+
+    #element(number) {
+        return number ? new Element(this.document, number) : null;
+    }
+
+    /** "nodegraph", "input", "standard_surface" … */
+    get category() {
+        return this.#info().category;
+    }
+
+    /** The name; "" if it has none. */
+    get name() {
+        return this.#info().name;
+    }
+
+    /** The attribute `type`; "" if absent. */
+    get type() {
+        return this.#info().type;
+    }
+
+    /** "NG_marble1/out"; "" for the root. */
+    get path() {
+        const pointer = this.document._pointer;
+        return this.document._native.sizedText((out, capacity) => this.#lib.mxg_document_path(pointer, this.number, out, capacity));
+    }
+
+    /** Where the element begins: line and column from 1; null after an edit. */
+    get place() {
+        const { file, line, column } = this.#info();
+        return line ? { file, line, column } : null;
+    }
+
+    // ---- The tree ----
+
+    /** The element around it; null for the root. */
+    get parent() {
+        return this.#element(this.#info().parent);
+    }
+
+    /** The elements directly below. */
+    get children() {
+        const found = [];
+        for (let child = this.#element(this.#info().firstChild); child; child = this.#element(child.#info().next))
+            found.push(child);
+        return found;
+    }
+
+    /** The element of a name directly below; null: there is none. */
+    child(name) {
+        const native = this.document._native;
+        return native.using(() => this.#element(this.#lib.mxg_document_child(this.document._pointer, this.number, native.newText(name, "name"))));
+    }
+
+    /** The element and all elements below, in the order of the document. */
+    *walk() {
+        yield this;
+        for (const child of this.children)
+            yield* child.walk();
+    }
+
+    // ---- Attributes ----
+
+    /** The text of an attribute ("name" included); null if it is absent. */
+    get(attribute) {
+        const native = this.document._native;
+        return native.using(() => native.text(this.#lib.mxg_document_attribute_value(this.document._pointer, this.number,
+                                                                                    native.newText(attribute, "attribute"))));
+    }
+
+    /** The attributes without the name, in the order of the document. */
+    get attributes() {
+        const items = this.document._native.records("mxg_attribute", this.#info().numAttributes,
+            (index, out) => this.#lib.mxg_document_attribute(this.document._pointer, this.number, index, out));
+        return new Map(items.map(({ name, value }) => [name, value]));
+    }
+
+    /**
+     * The value of an input, output or token by its type: an array for a colour, vector or matrix; the text for other types and for a text
+     * that is not a value of the type; null if it has none.
+     */
+    get value() {
+        const value = this.document._native.record("mxg_value", out => this.#lib.mxg_document_value(this.document._pointer, this.number, out));
+        if (!value)
+            return null;
+        const numbers = value.values.slice(0, value.numValues);
+        if (!numbers.length)
+            return value.text;
+        if (value.type === "boolean")
+            return numbers[0] !== 0;
+        if (value.type === "integer")
+            return value.integer;
+        return numbers.length === 1 ? numbers[0] : numbers;
+    }
+
+    // ---- The graph ----
+
+    /**
+     * The connection of an input or output; null if it has none. `source` is a node or nodegraph, or the input of the nodegraph; null: the
+     * document has no such element, or a definition declares the input.
+     */
+    get connection() {
+        const native = this.document._native;
+        return native.using(() => {
+            const out = native.newStruct("mxg_connection"), status = this.#lib.mxg_document_connection(this.document._pointer, this.number, out);
+            if (status === STATUS.errorArgument)
+                return null;
+            if (status !== STATUS.errorDocument) // then the source does not exist
+                native.check(status);
+            const { source, ...names } = native.members("mxg_connection", out);
+            return { source: this.#element(source), ...names };
+        });
+    }
+
+    /** The definition of a node, or of the nodegraph that implements it; null: there is none, or it does not fit. */
+    get definition() {
+        const native = this.document._native;
+        const index = native.using(() => {
+            const out = native.space(4);
+            return this.#lib.mxg_document_definition(this.document._pointer, this.number, out) ? native.pointer(out) : null;
+        });
+        return index === null ? null : readNodeDef(this.document, index, this.#lib.mxg_document_nodedef, this.#lib.mxg_document_port);
+    }
+
+    /** Whether both are the same element of the same document. */
+    equals(other) {
+        return other instanceof Element && other.document === this.document && other.number === this.number;
+    }
+}
+
+/** A document; immutable. `Context.load`, `Context.parse` and edits give documents. */
+export class Document extends Owner {
+    constructor(context, library, handle) {
+        super(context._native, handle, "document");
+        this.context = context;
+        this.library = library;
+    }
+
+    // ---- Contents ----
+
+    /** The diagnostics of reading it. */
+    get diagnostics() {
+        return new Diagnostics(this, this._native.lib.mxg_document_diagnostics(this._pointer));
+    }
+
+    /** The files of the document, itself first. */
+    get files() {
+        const { lib } = this._native;
+        return Array.from({ length: lib.mxg_document_num_files(this._pointer) },
+                          (_, index) => this._native.text(lib.mxg_document_file(this._pointer, index)));
+    }
+
+    /** <materialx>. The tree is the one that generation sees: after includes, templates and the upgrade to 1.39. */
+    get root() {
+        return new Element(this, this._native.lib.mxg_document_root(this._pointer));
+    }
+
+    /** An element by path: "NG_marble1/out"; null: there is none. */
+    find(path) {
+        const number = this._native.using(() => this._native.lib.mxg_document_find(this._pointer, this._native.newText(path, "path")));
+        return number ? new Element(this, number) : null;
+    }
+
+    /** All elements, in the order of the document, the root first. */
+    walk() {
+        return this.root.walk();
+    }
+
+    /** The materials. A document without materials has its graph outputs and the shaders that nothing uses. */
+    get renderables() {
+        const { lib } = this._native;
+        return this._native.records("mxg_renderable", lib.mxg_document_num_renderables(this._pointer),
+                                    (index, out) => lib.mxg_document_renderable(this._pointer, index, out));
+    }
+
+    /** The materials that a look or a look group assigns; empty if `look` is not the path of a look. */
+    lookMaterials(look) {
+        const native = this._native, found = [];
+        return native.using(() => {
+            const path = native.newText(look, "look");
+            for (let one; (one = native.record("mxg_renderable",
+                    out => native.lib.mxg_document_look_material(this._pointer, path, found.length, out)));)
+                found.push(one);
+            return found;
+        });
+    }
+
+    /** The definitions that the document adds to its library. */
+    get nodedefs() {
+        const { lib } = this._native, first = lib.mxg_library_num_nodedefs(this.library._pointer);
+        return Array.from({ length: lib.mxg_document_num_nodedefs(this._pointer) - first },
+                          (_, index) => readNodeDef(this, first + index, lib.mxg_document_nodedef, lib.mxg_document_port));
+    }
+
+    /** The document as MaterialX XML. Reading the text gives an equal tree. */
+    xml() {
+        const text = this._native.text(this._native.lib.mxg_document_xml(this._pointer, 0));
+        if (text === null)
+            throw new OutOfMemoryError("there is no memory for the text");
+        return text;
+    }
+
+    /** Begins a changed copy. */
+    edit() {
+        return this.context.edit(this);
+    }
+
+    // ---- Calls ----
+
+    /** Checks every node, connection and value against the library, without generating. Errors are in the result. */
+    validate() {
+        const made = this.context._make("mxg_document_validate", "mxg_result_destroy", [this._handle], out => [this._pointer, out]);
+        return new Shader(this._native, made.handle).diagnostics;
+    }
+
+    /** Calls `use` with the address of a mxg_generate_desc. */
+    #request(target, { element = null, options = null, withoutSource = false, onlyDiagnostics = false }, use) {
+        if (element instanceof Element && element.document !== this)
+            throw new ArgumentError("the element is of another document");
+        const native = this._native, path = element instanceof Element ? element.path : element;
+        return native.using(() => withOptions(this.context, options, made => use(native.newStruct("mxg_generate_desc", {
+            target: native.newText(target, "target"), element: native.newOptionalText(path, "element"), options: made,
+            withoutSource, onlyDiagnostics }))));
+    }
+
+    #made(make) {
+        const { handle, status } = make(), shader = new Shader(this._native, handle);
+        if (status === STATUS.errorDocument)
+            throw new DocumentError(shader.diagnostics);
+        return shader;
+    }
+
+    /**
+     * Makes a shader. `element` is a material, shader, node or output, a graph with one output, or a look with one material; null: the first
+     * renderable. Throws DocumentError.
+     */
+    generate(target, request = {}) {
+        return this.#made(() => this.#request(target, request, desc => this.context._make(
+            "mxg_generate", "mxg_result_destroy", [this._handle], out => [this._pointer, desc, out])));
+    }
+
+    /** A text for people: "elements", "graph", "dot", "ir", "closures" or "statistics". Throws DocumentError. */
+    inspect(view, { target = "glsl", ...request } = {}) {
+        const number = numberOf("mxg_view", view, "view");
+        return this.#made(() => this.#request(target, request, desc => this.context._make(
+            "mxg_inspect", "mxg_result_destroy", [this._handle], out => [this._pointer, number, desc, out])))._text();
+    }
+}

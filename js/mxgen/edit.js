@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edits: documents made from nothing or from other documents.
+
+import { Document, Element } from "./document.js";
+import { ArgumentError, DocumentError, EditError } from "./errors.js";
+import { expect, Handle, kindOf, Owner, STATUS } from "./native.js";
+
+/** A value as MaterialX text. */
+function textOf(value) {
+    if (typeof value === "string" || typeof value === "boolean")
+        return String(value);
+    const numbers = typeof value === "number" ? [value] : Array.isArray(value) || ArrayBuffer.isView(value) ? [...value] : null;
+    if (!numbers || !numbers.every(number => typeof number === "number" && Number.isFinite(number)))
+        throw new TypeError(`value must be a string, boolean, finite number or an array of finite numbers, not ${kindOf(value)}`);
+    return numbers.join(", ");
+}
+
+/** An element of an edit. Its methods change the edit. */
+export class Draft {
+    constructor(edit, number) {
+        this.edit = edit;
+        this.number = number;
+    }
+
+    /** Appends an element below. The name must be new there. */
+    add(category, name = null, type = null) {
+        return this.edit._made((lib, native, pointer) => lib.mxg_edit_add(pointer, this.number, native.newText(category, "category"),
+            native.newOptionalText(name, "name"), native.newOptionalText(type, "type")));
+    }
+
+    /** The element of a name directly below; null: there is none. */
+    child(name) {
+        const native = this.edit._native;
+        const number = native.using(() => native.lib.mxg_edit_child(this.edit._pointer, this.number, native.newText(name, "name")));
+        return number ? new Draft(this.edit, number) : null;
+    }
+
+    /** Sets an attribute; null removes it. */
+    set(attribute, value) {
+        this.edit._change((lib, native, pointer) => lib.mxg_edit_set(pointer, this.number, native.newText(attribute, "attribute"),
+                                                                    native.newOptionalText(value, "value")));
+        return this;
+    }
+
+    /** Renames the element, and changes the references to it. */
+    rename(name) {
+        this.edit._change((lib, native, pointer) => lib.mxg_edit_rename(pointer, this.number, native.newText(name, "name")));
+        return this;
+    }
+
+    /** Gives an input of a node a value, and removes its connection. An input that the node does not have yet needs a type. */
+    value(input, value, type = null) {
+        const text = textOf(value);
+        this.edit._change((lib, native, pointer) => lib.mxg_edit_value(pointer, this.number, native.newText(input, "input"),
+            native.newOptionalText(type, "type"), native.newText(text, "value")));
+        return this;
+    }
+
+    /**
+     * Connects an input of a node, or an <output> element (then `input` is null), to a node, a nodegraph or an input of the nodegraph
+     * around it. `output` null: the only output of the source.
+     */
+    connect(input, source, output = null) {
+        this.edit._own(source);
+        this.edit._change((lib, native, pointer) => lib.mxg_edit_connect(pointer, this.number, native.newOptionalText(input, "input"),
+            source.number, native.newOptionalText(output, "output")));
+        return this;
+    }
+
+    /** Removes the element with all below it. */
+    remove() {
+        this.edit._change((lib, _, pointer) => lib.mxg_edit_remove(pointer, this.number));
+    }
+
+    /** Moves the element before another one (null: to the end) below `parent` (null: the root). */
+    move(parent = null, before = null) {
+        for (const other of [parent, before])
+            if (other !== null)
+                this.edit._own(other);
+        this.edit._change((lib, _, pointer) => lib.mxg_edit_move(pointer, this.number, parent?.number ?? 0, before?.number ?? 0));
+        return this;
+    }
+
+    /** Appends a copy of an element of any document, with all below it. */
+    copy(element, name = null) {
+        expect(element, Element, "element");
+        if (element.document._native !== this.edit._native)
+            throw new ArgumentError("the element is of another instance of mxgen");
+        return this.edit._made((lib, native, pointer) => lib.mxg_edit_copy(pointer, this.number, element.document._pointer, element.number,
+                                                                          native.newOptionalText(name, "name")));
+    }
+}
+
+/**
+ * A document under construction. `Context.edit` and `Document.edit` begin one; `end` makes the document. A call that fails throws EditError
+ * and changes nothing.
+ */
+export class Edit extends Owner {
+    #context;
+    #library;
+    #source;
+
+    constructor(context, library, source, handle) {
+        super(context._native, handle, "edit");
+        this.#context = context;
+        this.#library = library;
+        this.#source = source;
+    }
+
+    // ---- Calls ----
+
+    _own(draft) {
+        if (expect(draft, Draft, "an element of the edit").edit !== this)
+            throw new ArgumentError("the element is of another edit");
+    }
+
+    #reason(pointer) {
+        return this._native.text(this._native.lib.mxg_edit_error(pointer));
+    }
+
+    _change(work) {
+        const native = this._native, pointer = this._pointer;
+        const status = native.using(() => this.#context._turn(() => work(native.lib, native, pointer)));
+        if (status === STATUS.errorArgument)
+            throw new EditError(this.#reason(pointer) || "the edit is impossible");
+        native.check(status);
+    }
+
+    _made(work) {
+        const native = this._native, pointer = this._pointer;
+        const number = native.using(() => this.#context._turn(() => work(native.lib, native, pointer)));
+        if (number)
+            return new Draft(this, number);
+        const reason = this.#reason(pointer);
+        throw reason ? new EditError(reason) : native.errorOf(STATUS.errorMemory);
+    }
+
+    // ---- Elements ----
+
+    /** <materialx>. */
+    get root() {
+        this._handle;
+        return new Draft(this, 0);
+    }
+
+    /** An element by path, as the edit is now, or an element of the document that the edit comes from; null: there is none. */
+    find(path) {
+        if (path instanceof Element) {
+            if (path.document !== this.#source)
+                throw new ArgumentError("the edit comes from another document");
+            return new Draft(this, path.number);
+        }
+        const native = this._native, number = native.using(() => native.lib.mxg_edit_find(this._pointer, native.newText(path, "path")));
+        return number ? new Draft(this, number) : null;
+    }
+
+    /** Appends an element to the root. */
+    add(category, name = null, type = null) {
+        return this.root.add(category, name, type);
+    }
+
+    /** Appends a copy of an element of any document to the root. */
+    copy(element, name = null) {
+        return this.root.copy(element, name);
+    }
+
+    // ---- End ----
+
+    /** Makes the document. The edit is over, also after an error. Throws DocumentError. */
+    end() {
+        const native = this._native, pointer = this._pointer, handle = this._take();
+        let made = null, status;
+        try {
+            native.using(() => {
+                const out = native.space(4);
+                try {
+                    status = this.#context._turn(() => {
+                        handle.forget(); // mxg_edit_end frees the edit in every case
+                        return native.lib.mxg_edit_end(pointer, out);
+                    });
+                } finally {
+                    if (native.pointer(out))
+                        made = new Handle(native.pointer(out), native.lib.mxg_document_destroy, [this.#context._handle, this.#library._handle]);
+                }
+            });
+        } catch (error) {
+            made?.release();
+            throw error;
+        } finally {
+            handle.release();
+        }
+        if (!made)
+            throw native.errorOf(status);
+        const document = new Document(this.#context, this.#library, made);
+        if (status === STATUS.errorDocument)
+            throw new DocumentError(document.diagnostics, document);
+        native.check(status);
+        return document;
+    }
+
+    /** Drops the edit. */
+    cancel() {
+        this.destroy();
+    }
+}

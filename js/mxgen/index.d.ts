@@ -1,0 +1,481 @@
+// SPDX-License-Identifier: Apache-2.0
+// The package mxgen: MaterialX documents to shaders. docs/javascript.md explains it.
+
+/** Loads mxgen.wasm, by default from beside the package. `source` is an address (in Node a path), the bytes, or a compiled module. */
+export function load(source?: string | URL | BufferSource | WebAssembly.Module): Promise<Mxgen>;
+/** The same for bytes or a compiled module, without default callbacks. */
+export function instantiate(source: BufferSource | WebAssembly.Module, defaults?: Pick<ContextOptions, "resolver" | "listFolder">): Promise<Mxgen>;
+
+export type Severity = "error" | "warning" | "note";
+export type Stage = "vertex" | "pixel";
+export type Block = "publicUniforms" | "privateUniforms" | "lightData" | "textures" | "appData" | "vertexData" | "outputs";
+/** opaque: without blending; mask: with the depth test alone; blend: back to front. Colours are premultiplied. */
+export type Alpha = "opaque" | "mask" | "blend";
+export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics";
+/** The effect of a new value of an input on a shader. */
+export type InputState = "unknown" | "unused" | "uniform" | "compiled" | "connected";
+export type ChangeKind = "nothing" | "values" | "shader";
+export type Rewriting = "format" | "upgrade";
+export type OptionType = "bool" | "int" | "string" | "enum" | "list";
+
+/** An instance of mxgen with memory of its own. */
+export class Mxgen {
+    private constructor();
+    createContext(options?: ContextOptions): Context;
+    /** The version of the library: "0.1.0". */
+    readonly version: string;
+    readonly targets: Target[];
+    /** Every option of `Document.generate`. */
+    readonly options: Option[];
+    /** Whether an option has a meaning for a target, which ignores the others. */
+    optionApplies(key: string, target: string): boolean;
+    /** Every diagnostic that mxgen can report. */
+    readonly diagnosticKinds: DiagnosticKind[];
+    /** The meanings of variables without a path. */
+    readonly semantics: Semantic[];
+    /** The values of an enumeration of the C interface: "mxg_view". */
+    static valuesOf(type: string): string[];
+}
+
+export interface Target {
+    name: string;
+    materialxName: string;
+    brief: string;
+    /** file endings; null: no such stage */
+    suffixes: { vertex: string | null; pixel: string | null };
+}
+
+export interface Option {
+    key: string;
+    type: OptionType;
+    /** enum: "complete|authored|reduced"; int: "0..1024" */
+    values: string;
+    /** the default, as text */
+    initial: string;
+    doc: string;
+}
+
+export interface DiagnosticKind {
+    id: string;
+    /** the default; the context's `warnings` can change it */
+    severity: Severity;
+    message: string;
+    cause: string;
+    cure: string;
+    /** an example as a diff; "": no example */
+    example: string;
+}
+
+export interface Semantic {
+    block: Block;
+    semantic: string;
+    /** "": several */
+    type: string;
+    doc: string;
+}
+
+// ---- Objects ----
+
+/** An object of the library. The garbage collector frees it; `destroy`, or `using` where JavaScript has it, frees it at once. */
+declare class Owner {
+    /** Frees the memory of the object now. Objects that were made from it stay. A later use throws MxgenError. */
+    destroy(): void;
+}
+
+/** A file that a resolver gives. `name`: messages show it, and includes in the file are relative to it. */
+export interface ResolvedFile {
+    data: string | ArrayBuffer | ArrayBufferView;
+    name?: string;
+}
+export type FileContent = ResolvedFile | string | ArrayBuffer | ArrayBufferView | null | undefined;
+/** Finds a file: canonical name of the referring file ("": the caller named the file), reference. null: there is no such file. */
+export type Resolver = (from: string, ref: string) => FileContent;
+
+export interface ContextOptions {
+    /** By default Node reads files of the file system, and browsers find no file. */
+    resolver?: Resolver;
+    /** Lists the files of a texture folder (null: there is none), beside a resolver. */
+    listFolder?: (from: string, folder: string) => Iterable<string> | null | undefined;
+    /** Generation and inspection call it repeatedly, and stop when it returns true. */
+    cancel?: () => boolean;
+    /** Limits (include/mxgen/mxgen.h); 0: the default. */
+    maxMemory?: number;
+    maxFileMib?: number;
+    maxElements?: number;
+    maxNodes?: number;
+    maxOutputMib?: number;
+    maxErrors?: number;
+    maxDepth?: number;
+    maxIncludeDepth?: number;
+    maxIncludes?: number;
+    /** Changes the severity of diagnostics: "error,no-unused-input". */
+    warnings?: string;
+    /** Accepts shader source in documents. */
+    trust?: boolean;
+    /** Folders to search for the source files of implementations. */
+    sourcePaths?: string[];
+}
+
+/** Loads documents and libraries. An exception in a callback ends the call and leaves it unchanged. */
+export class Context extends Owner {
+    private constructor();
+    /** The library that is built in. */
+    readonly library: Library;
+    /** Makes a library of files or an image (.mxlib), on top of `base` (null: the built-in library), or of nothing. */
+    loadLibrary(paths: string[], request?: { base?: Library | null; standalone?: boolean }): Library;
+    /** Reads a file by the resolver. Throws DocumentError. */
+    load(path: string, request?: { library?: Library | null }): Document;
+    /** Reads a document from its text. `name` appears in messages and is the base of includes. Throws DocumentError. */
+    parse(text: string | ArrayBuffer | ArrayBufferView, request?: { name?: string; library?: Library | null }): Document;
+    /** Reads a file whose includes a server or a database has. Other files come from the resolver. */
+    loadAsync(path: string, open: (from: string, ref: string) => Promise<FileContent>, request?: { library?: Library | null }): Promise<Document>;
+    /** Begins a new document, or a changed copy of one. */
+    edit(document?: Document | null, request?: { name?: string; library?: Library | null }): Edit;
+    /** Reads a document and writes it again. `text` null: reads the file `name`. */
+    rewrite(rewriting: Rewriting, name: string, text?: string | ArrayBuffer | ArrayBufferView | null): { text: string; diagnostics: Diagnostics };
+    /** The text of a document in one layout; comments stay. */
+    format(text: string, request?: { name?: string }): string;
+    /** A document of an older version as version 1.39. */
+    upgrade(text: string, request?: { name?: string }): { text: string; diagnostics: Diagnostics };
+}
+
+// ---- Libraries ----
+
+/** An input or output of a definition. A text that the definition does not have is "". */
+export interface Port {
+    name: string;
+    type: string;
+    value: string;
+    defaultgeomprop: string;
+    enumNames: string;
+    unit: string;
+    doc: string;
+    uniform: boolean;
+    advanced: boolean;
+    enumValues: string;
+    unittype: string;
+    uiname: string;
+    uifolder: string;
+    uimin: string;
+    uimax: string;
+    uisoftmin: string;
+    uisoftmax: string;
+    uistep: string;
+}
+
+/** A node definition. A text that the definition does not have is "". */
+export interface NodeDef {
+    name: string;
+    /** the category of its nodes */
+    node: string;
+    version: string;
+    group: string;
+    doc: string;
+    file: string;
+    hasImplementation: boolean;
+    isDefaultVersion: boolean;
+    inputs: Port[];
+    outputs: Port[];
+}
+
+/** Node definitions; immutable. */
+export class Library extends Owner {
+    private constructor();
+    readonly diagnostics: Diagnostics;
+    readonly files: string[];
+    readonly nodedefNames: string[];
+    nodedef(name: string): NodeDef | null;
+    /** Whether a definition has an implementation for a target. */
+    supports(name: string, target: string): boolean;
+    /** The library image, for `Context.loadLibrary(…, { standalone: true })`. The library must be standalone. */
+    image(): Uint8Array;
+    /** The library as a plain MaterialX document with all templates expanded. */
+    expand(): string;
+}
+
+// ---- Documents ----
+
+/** An element that mxgen can generate. */
+export interface Renderable {
+    /** "Gold", "NG_marble1/out" */
+    path: string;
+    type: string;
+    category: string;
+}
+
+/** What a generation makes. */
+export interface GenerateRequest {
+    /** A material, shader, node or output, a graph with one output, or a look with one material; null: the first renderable. */
+    element?: string | Element | null;
+    /** Keys of `Mxgen.options`; an array gives several values of a list. */
+    options?: Record<string, boolean | number | string | string[]> | null;
+    /** Leaves out the source. */
+    withoutSource?: boolean;
+    /** Only checks that the element can be generated. */
+    onlyDiagnostics?: boolean;
+}
+
+/** A document; immutable. */
+export class Document extends Owner {
+    private constructor();
+    readonly context: Context;
+    readonly library: Library;
+    readonly diagnostics: Diagnostics;
+    /** The files of the document, itself first. */
+    readonly files: string[];
+    readonly root: Element;
+    /** An element by path: "NG_marble1/out". */
+    find(path: string): Element | null;
+    walk(): IterableIterator<Element>;
+    readonly renderables: Renderable[];
+    /** The materials that a look or a look group assigns; empty if `look` is not the path of a look. */
+    lookMaterials(look: string): Renderable[];
+    /** The definitions that the document adds to its library. */
+    readonly nodedefs: NodeDef[];
+    xml(): string;
+    edit(): Edit;
+    /** Checks every node, connection and value against the library, without generating. */
+    validate(): Diagnostics;
+    /** Makes a shader. Throws DocumentError. */
+    generate(target: string, request?: GenerateRequest): Shader;
+    /** A text for people. Throws DocumentError. */
+    inspect(view: View, request?: GenerateRequest & { target?: string }): string;
+}
+
+export type Value = boolean | number | string | number[];
+
+export interface Connection {
+    source: Element | null;
+    output: string;
+    interfacename: string;
+}
+
+/** An element of a document. */
+export class Element {
+    constructor(document: Document, number: number);
+    readonly document: Document;
+    readonly number: number;
+    readonly category: string;
+    readonly name: string;
+    readonly type: string;
+    readonly path: string;
+    /** null after an edit */
+    readonly place: { file: string; line: number; column: number } | null;
+    readonly parent: Element | null;
+    readonly children: Element[];
+    child(name: string): Element | null;
+    walk(): IterableIterator<Element>;
+    get(attribute: string): string | null;
+    readonly attributes: Map<string, string>;
+    readonly value: Value | null;
+    readonly connection: Connection | null;
+    readonly definition: NodeDef | null;
+    equals(other: unknown): boolean;
+}
+
+/** An element of an edit. Its methods change the edit and throw EditError. */
+export class Draft {
+    private constructor();
+    readonly edit: Edit;
+    readonly number: number;
+    add(category: string, name?: string | null, type?: string | null): Draft;
+    child(name: string): Draft | null;
+    set(attribute: string, value: string | null): this;
+    rename(name: string): this;
+    value(input: string, value: Value | ArrayLike<number>, type?: string | null): this;
+    connect(input: string | null, source: Draft, output?: string | null): this;
+    remove(): void;
+    move(parent?: Draft | null, before?: Draft | null): this;
+    copy(element: Element, name?: string | null): Draft;
+}
+
+/** A document under construction. */
+export class Edit extends Owner {
+    private constructor();
+    readonly root: Draft;
+    find(path: string | Element): Draft | null;
+    add(category: string, name?: string | null, type?: string | null): Draft;
+    copy(element: Element, name?: string | null): Draft;
+    /** Makes the document. The edit is over, also after an error. Throws DocumentError. */
+    end(): Document;
+    cancel(): void;
+}
+
+// ---- Shaders ----
+
+export interface Tile {
+    file: string;
+    u: number;
+    v: number;
+}
+
+/** A uniform, attribute, texture or output of a shader (docs/reflection.md). */
+export interface Variable {
+    index: number;
+    name: string;
+    block: Block;
+    stages: Stage[];
+    type: string;
+    documentType: string;
+    path: string;
+    semantic: string;
+    colorspace: string;
+    unit: string;
+    arrayLength: number;
+    set: number;
+    binding: number;
+    location: number;
+    offset: number;
+    byteSize: number;
+    arrayStride: number;
+    matrixStride: number;
+    values: number[];
+    file: string;
+    uaddressmode: string;
+    vaddressmode: string;
+    filtertype: string;
+    uiname: string;
+    uifolder: string;
+    uimin: string;
+    uimax: string;
+    uisoftmin: string;
+    uisoftmax: string;
+    doc: string;
+    layer: string;
+    framerange: string;
+    frameendaction: string;
+    frameoffset: number;
+    unittype: string;
+    uistep: string;
+    enumNames: string;
+    enumValues: string;
+    advanced: boolean;
+    flat: boolean;
+    integer: number;
+    tiles: Tile[];
+}
+
+export interface ShaderInfo {
+    name: string;
+    path: string;
+    target: string;
+    /** equal for shaders that differ only in names and uniform values */
+    topology: bigint;
+    numClosures: number;
+    numTextures: number;
+    numLights: number;
+    transparent: boolean;
+    lit: boolean;
+    displaced: boolean;
+    alpha: Alpha;
+}
+
+/** An input whose value is compiled in. */
+export interface CompiledInput {
+    path: string;
+    type: string;
+    value: string;
+    authored: boolean;
+    advanced: boolean;
+    uiname: string;
+    uifolder: string;
+    uimin: string;
+    uimax: string;
+    uisoftmin: string;
+    uisoftmax: string;
+    uistep: string;
+    enumNames: string;
+    enumValues: string;
+    doc: string;
+}
+
+export interface BlockInfo {
+    name: string;
+    firstVariable: number;
+    numVariables: number;
+    byteSize: number;
+    set: number;
+    binding: number;
+    arrayLength: number;
+    arrayStride: number;
+}
+
+export interface LightType {
+    type: number;
+    name: string;
+    isShader: boolean;
+    members: (Variable | null)[];
+}
+
+export interface Part {
+    name: string;
+    source: string;
+    nodedef: string;
+}
+
+/** The result of a generation; immutable. */
+export class Shader extends Owner {
+    private constructor();
+    readonly vertex: string | null;
+    readonly pixel: string | null;
+    /** The shaders of an OSL network. */
+    readonly parts: Part[];
+    sourcePlace(stage: Stage, line: number): { file: string | null; line: number; column: number; path: string } | null;
+    sourcePath(stage: Stage, line: number): string | null;
+    readonly closurePaths: string[];
+    readonly files: string[];
+    readonly diagnostics: Diagnostics;
+    readonly info: ShaderInfo;
+    readonly variables: Variable[];
+    findVariable(path: string): Variable | null;
+    textureFile(variable: Pick<Variable, "index">, request?: { tile?: number; frame?: number }): string | null;
+    readonly compiledInputs: CompiledInput[];
+    inputState(path: string): InputState;
+    change(after: Shader): { kind: ChangeKind; variables: Variable[] };
+    block(block: Block): BlockInfo;
+    pack(block: Block): Uint8Array;
+    packValue(data: Uint8Array, variable: Pick<Variable, "index" | "name">, values: ArrayLike<number>, element?: number): void;
+    readonly lightTypes: LightType[];
+    readonly reflectionJson: string;
+    reflection(): any;
+}
+
+// ---- Diagnostics and exceptions ----
+
+export interface Diagnostic {
+    severity: Severity;
+    /** stable, for example "type-mismatch" */
+    id: string;
+    message: string;
+    file: string | null;
+    line: number;
+    column: number;
+    length: number;
+    /** for a note: the index of its error or warning; otherwise its own index */
+    parent: number;
+    path: string;
+}
+
+/** Diagnostics in order of discovery. Notes follow the diagnostic that they explain. */
+export class Diagnostics implements Iterable<Diagnostic> {
+    private constructor();
+    readonly items: readonly Diagnostic[];
+    readonly length: number;
+    readonly errors: number;
+    readonly warnings: number;
+    [Symbol.iterator](): IterableIterator<Diagnostic>;
+    formatOne(index: number, request?: { source?: string | null; colour?: boolean }): string;
+    format(request?: { source?: string | null; colour?: boolean }): string;
+}
+
+export class MxgenError extends Error {}
+export class ArgumentError extends MxgenError {}
+export class EditError extends ArgumentError {}
+export class OutOfMemoryError extends MxgenError {}
+export class CancelledError extends MxgenError {}
+export class InternalError extends MxgenError {}
+export class DocumentError extends MxgenError {
+    constructor(diagnostics: Diagnostics, document?: Document | null);
+    readonly diagnostics: Diagnostics;
+    readonly document: Document | null;
+}

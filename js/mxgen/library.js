@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Libraries and the node definitions in them.
+
+import { Diagnostics } from "./diagnostics.js";
+import { ArgumentError } from "./errors.js";
+import { expect, Owner } from "./native.js";
+
+/** The definition `index` of a library or document, with its ports. */
+export function readNodeDef(owner, index, read, readPort) {
+    const native = owner._native, nodedef = native.record("mxg_nodedef", out => read(owner._pointer, index, out));
+    const ports = native.records("mxg_port", nodedef.numInputs + nodedef.numOutputs,
+                                 (port, out) => readPort(owner._pointer, index, port, out));
+    nodedef.inputs = ports.slice(0, nodedef.numInputs);
+    nodedef.outputs = ports.slice(nodedef.numInputs);
+    delete nodedef.numInputs;
+    delete nodedef.numOutputs;
+    return nodedef;
+}
+
+/** Node definitions; immutable. */
+export class Library extends Owner {
+    #byName;
+
+    constructor(native, handle) {
+        super(native, handle, "library");
+    }
+
+    /** The diagnostics of loading it. */
+    get diagnostics() {
+        return new Diagnostics(this, this._native.lib.mxg_library_diagnostics(this._pointer));
+    }
+
+    /** Its files, and those of its bases. The built-in library has none. */
+    get files() {
+        const { lib } = this._native, pointer = this._pointer;
+        return Array.from({ length: lib.mxg_library_num_files(pointer) }, (_, index) => this._native.text(lib.mxg_library_file(pointer, index)));
+    }
+
+    #index() {
+        if (!this.#byName) {
+            const { lib } = this._native;
+            const infos = this._native.records("mxg_nodedef", lib.mxg_library_num_nodedefs(this._pointer),
+                                               (index, out) => lib.mxg_library_nodedef(this._pointer, index, out));
+            this.#byName = new Map(infos.map((info, index) => [info.name, index])); // a later definition replaces an earlier one
+        }
+        return this.#byName;
+    }
+
+    /** The names of all definitions, with those of the bases. */
+    get nodedefNames() {
+        this._handle;
+        return [...this.#index().keys()];
+    }
+
+    /** The definition of a name: "ND_image_color3"; null: there is none. */
+    nodedef(name) {
+        const { lib } = this._native, index = (this._handle, this.#index()).get(expect(name, "string", "name"));
+        return index === undefined ? null : readNodeDef(this, index, lib.mxg_library_nodedef, lib.mxg_library_port);
+    }
+
+    /** Whether a definition has an implementation for a target. */
+    supports(name, target) {
+        const index = (this._handle, this.#index()).get(expect(name, "string", "name"));
+        if (index === undefined)
+            throw new ArgumentError(`the library has no definition '${name}'`);
+        return this._native.using(() => this._native.lib.mxg_library_supports(this._pointer, index, this._native.newText(target, "target")) !== 0);
+    }
+
+    /** The library image, for `Context.loadLibrary(…, { standalone: true })`. The library must be standalone. */
+    image() {
+        return this.#made(this._native.lib.mxg_library_image);
+    }
+
+    /** The library as a plain MaterialX document with all templates expanded. */
+    expand() {
+        return new TextDecoder().decode(this.#made(this._native.lib.mxg_library_expand));
+    }
+
+    #made(make) {
+        const native = this._native;
+        return native.using(() => {
+            const data = native.space(4), size = native.space(4), status = make(this._pointer, data, size);
+            if (status !== 0)
+                throw native.errorOf(status, status === 2 ? "the library must be standalone" : "");
+            return native.bytes(native.pointer(data), native.pointer(size)).slice();
+        });
+    }
+}

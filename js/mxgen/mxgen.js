@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// mxgen over a module of WebAssembly, for Node and browsers alike.
+
+import { Context } from "./context.js";
+import { ArgumentError } from "./errors.js";
+import { ENUMS } from "./layout.js";
+import { Native } from "./native.js";
+
+export * from "./errors.js";
+export { Context } from "./context.js";
+export { Diagnostics } from "./diagnostics.js";
+export { Document, Element } from "./document.js";
+export { Draft, Edit } from "./edit.js";
+export { Library } from "./library.js";
+export { Shader } from "./shader.js";
+
+/** An instance of mxgen with memory of its own. */
+export class Mxgen {
+    #native;
+    #defaults;
+
+    constructor(native, defaults) {
+        this.#native = native;
+        this.#defaults = defaults;
+    }
+
+    createContext(options = {}) {
+        return new Context(this.#native, options, this.#defaults);
+    }
+
+    /** The version of the library. */
+    get version() {
+        return this.#native.text(this.#native.lib.mxg_version_string());
+    }
+
+    /** Every target. */
+    get targets() {
+        const { lib } = this.#native;
+        return this.#native.records("mxg_target", lib.mxg_num_targets(), (index, out) => lib.mxg_get_target(index, out)).map(
+            ({ stageSuffix: [vertex, pixel], ...target }) => ({ ...target, suffixes: { vertex, pixel } }));
+    }
+
+    /** Every option of `Document.generate`. */
+    get options() {
+        const { lib } = this.#native;
+        return this.#native.records("mxg_option", lib.mxg_num_options(), (index, out) => lib.mxg_get_option(index, out));
+    }
+
+    /** Whether an option has a meaning for a target, which ignores the others. */
+    optionApplies(key, target) {
+        const index = this.options.findIndex(option => option.key === key);
+        if (index < 0)
+            throw new ArgumentError(`there is no option '${key}'`);
+        if (!this.targets.some(({ name }) => name === target))
+            throw new ArgumentError(`there is no target '${target}'`);
+        return this.#native.using(() => this.#native.lib.mxg_option_applies(index, this.#native.newText(target, "target")) !== 0);
+    }
+
+    /** Every diagnostic that mxgen can report. */
+    get diagnosticKinds() {
+        const { lib } = this.#native;
+        return this.#native.records("mxg_diagnostic_kind", lib.mxg_num_diagnostic_kinds(), (index, out) => lib.mxg_get_diagnostic_kind(index, out));
+    }
+
+    /** The meanings of variables without a path. */
+    get semantics() {
+        const { lib } = this.#native;
+        return this.#native.records("mxg_semantic", lib.mxg_num_semantics(), (index, out) => lib.mxg_get_semantic(index, out));
+    }
+
+    /** The values of an enumeration of the C interface: "mxg_view". */
+    static valuesOf(type) {
+        return Object.keys(ENUMS[type]);
+    }
+}
+
+/** Makes an instance from the bytes of mxgen.wasm or from a compiled module. `defaults` are callbacks for contexts without a resolver. */
+export async function instantiate(source, defaults = {}) {
+    const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source);
+    return new Mxgen(await Native.instantiate(module), defaults);
+}

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The npm package as its users get it: packed, installed in an empty folder, its types, and the example. Arguments: a folder with the
+# package, the root of the project, the program.
+package=$(realpath "$1") root=$2 program=$(realpath "$3")
+. "$(dirname "$0")/../programs/common.sh"
+command -v npm >/dev/null || { echo "skip: npm is not installed"; exit 77; }
+export npm_config_cache=$work/cache npm_config_offline=true npm_config_update_notifier=false npm_config_fund=false npm_config_audit=false
+
+check "npm packs it" exits 0 npm pack "$package"
+tar -tzf mxgen-*.tgz | sort >files
+(cd "$package" && ls | sed 's|^|package/|' | sort) >expected
+check "the package has its files and no other" diff expected files
+check "it has at most 1.2 MB" test "$(stat -c %s mxgen-*.tgz)" -le 1200000
+mkdir app && cd app || exit 1
+echo '{ "type": "module" }' >package.json
+check "npm installs it" exits 0 npm install --no-save ../mxgen-*.tgz
+check "the tests pass with it" node "$root/tests/js/run.mjs" node_modules/mxgen "$root" "$program"
+cp "$root/examples/shader.mjs" .
+check "the example" exits 0 node shader.mjs "$root/examples/marble.mtlx" essl
+check "writes a shader" grep -q '^void main' out
+check "and lists uniforms" grep -q '^// NG_marble/stone: vec3 ' out
+check "the example without a document" exits 1 node shader.mjs none.mtlx essl
+check "reports errors" grep -q 'error: .*file-missing' err
+
+# TypeScript
+if command -v tsc >/dev/null; then
+    types() {
+        tsc --noEmit --strict --module node16 --moduleResolution node16 --target es2022 --lib es2022,dom "$@"
+    }
+    cat >right.ts <<'END'
+import { load, DocumentError, type Variable, type Shader } from "mxgen";
+const mxgen = await load(new Uint8Array());
+const context = mxgen.createContext({ resolver: (from: string, ref: string) => ({ name: ref, data: from }), maxMemory: 5 });
+const shader: Shader = context.parse("", { name: "x" }).generate("glsl", { options: { uniform: ["a"], interface: "reduced" } });
+const variable: Variable | null = shader.findVariable("a");
+if (variable) shader.packValue(shader.pack("publicUniforms"), variable, [1]);
+const edit = context.edit();
+edit.add("noise2d", "n", "float").value("amplitude", 1, "float");
+export const text: string = edit.end().xml();
+export const first = (error: DocumentError): string => error.diagnostics.items[0].id;
+END
+    check "types of a program" exits 0 types right.ts
+    cat out
+    # wrong LINE: what the compiler says to a line of TypeScript
+    wrong() {
+        printf 'import { load } from "mxgen";\nconst m = await load();\nexport const x = %s;\n' "$2" >wrong.ts
+        check "$1 is an error" exits 2 types wrong.ts
+    }
+    wrong "a wrong target" 'm.createContext().parse("").generate(5)'
+    wrong "an unknown member" 'm.createContext().parse("").generate("glsl").fragment'
+    wrong "an unknown limit" 'm.createContext({ maxWords: 5 })'
+    wrong "a block that does not exist" 'm.createContext().parse("").generate("glsl").pack("uniforms")'
+else
+    skip "tsc is not installed (Debian: node-typescript): the types were not checked"
+fi
+finish npm-package
