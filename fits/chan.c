@@ -14,9 +14,9 @@ static const double pi = 3.14159265358979323846;
 
 struct cell {
     double cosine, gloss;
-    double rough;   /* the mean of Fd of a rough surface over cosine-weighted directions */
-    double bump;    /* of Fb */
-    double smooth;  /* of Fd of a smooth surface, which has a closed form */
+    double rough;  /* the mean of Fd of a rough surface over cosine-weighted directions */
+    double bump;   /* of Fb */
+    double smooth; /* of Fd of a smooth surface, which has a closed form */
 };
 
 static double limited(double x)
@@ -36,8 +36,8 @@ static void measure(struct cell *cell)
     for (int i = 0; i < POINTS; ++i)
         for (int j = 0; j < POINTS; ++j) {
             double u = (i + 0.5) / POINTS, phi = pi * (j + 0.5) / POINTS, cos_l = sqrt(u);
-            double x = sine + sqrt(1.0 - u) * cos(phi), y = sqrt(1.0 - u) * sin(phi),
-                   z = c + cos_l, length = sqrt(x * x + y * y + z * z);
+            double x = sine + sqrt(1.0 - u) * cos(phi), y = sqrt(1.0 - u) * sin(phi), z = c + cos_l,
+                   length = sqrt(x * x + y * y + z * z);
             double cos_h = z / length, vh = (sine * x + c * z) / length;
             cell->rough += (vh + pow(1.0 - vh, 5.0)) / (POINTS * POINTS);
             cell->bump += height * vh * exp2(-fall * sqrt(cos_h)) / (POINTS * POINTS);
@@ -81,7 +81,8 @@ static void residuals(const double *p, double *out, void *user_data)
 int main(void)
 {
     static struct cell cells[CELLS];
-    double p[FIT_PARAMETERS] = {0.7, 0.2, 0.0, 0.0, 0.003, 0.001, 0.0, 0.0, 0.6, 0.2, 0.0, 0.0, 0.2};
+    double p[FIT_PARAMETERS] = {0.7, 0.2, 0.0, 0.0, 0.003, 0.001, 0.0,
+                                0.0, 0.6, 0.2, 0.0, 0.0,   0.2};
     for (int i = 0; i < CELLS; ++i) {
         double c = (i % STEPS + 0.5) / STEPS, g = (double)(i / STEPS) / (STEPS - 1);
         cells[i] = (struct cell){.cosine = c, .gloss = g};

@@ -65,12 +65,12 @@ static void layer(const double *p, const struct cell *cell, double *reflected, d
                   + u
                         * (p[0] + u * (p[1] + a * p[2]) + a * (p[3] + a * p[4])
                            + (x - 1.0) * (p[5] + a * p[6])));
-    double k = (1.0 - a) * x
-               * (1.0
-                  + a * u
-                        * (p[7] + u * (p[8] + a * p[9]) + a * (p[10] + a * p[11])
-                           + (x - 1.0) * (p[12] + a * p[13])
-                           + a * a * a * a * (p[14] + u * p[15])));
+    double k =
+        (1.0 - a) * x
+        * (1.0
+           + a * u
+                 * (p[7] + u * (p[8] + a * p[9]) + a * (p[10] + a * p[11])
+                    + (x - 1.0) * (p[12] + a * p[13]) + a * a * a * a * (p[14] + u * p[15])));
     double g = sqrt(k * (k + 2.0 * s)), e = exp(-g * t);
     /* (1 - e²) / g, which is 2 t where nothing absorbs */
     double ways = g * t > 1e-4 ? (1.0 - e * e) / g : 2.0 * t * (1.0 - g * t);

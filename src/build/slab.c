@@ -14,7 +14,8 @@ static ir_ref value_of(str_id input, const ir_ref *inputs, const struct slab_pla
 {
     switch (input) {
 #define SLAB_INPUT(name, type) \
-    case STR_##name: return inputs[SLAB_##name];
+    case STR_##name: \
+        return inputs[SLAB_##name];
 #include "slabs/slabs.def"
 #undef SLAB_INPUT
     case STR_thickness: return place->thickness;

@@ -44,8 +44,6 @@ struct walk {
     VEC(ir_ref) albedos; /* in pairs: lobes, their albedo */
 };
 
-#define LAYER_THICKNESS 0.01f /* centimetres, where the operator has no thickness */
-
 static bool is_closure(const struct walk *w, ir_ref ref)
 {
     return ref && ir_type_is_closure(ir_type_of(w->graph, ref));
@@ -113,8 +111,7 @@ static ir_ref albedo_of(struct walk *w, ir_ref lobes)
     closure_flatten(w->shader, w->host->closures, lobes, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         const struct closure_leaf *leaf = &list.leaves.items[i];
-        ir_ref albedo =
-            closure_call(w->shader, w->host->closures, leaf->leaf, LEAF_ALBEDO, NULL);
+        ir_ref albedo = closure_call(w->shader, w->host->closures, leaf->leaf, LEAF_ALBEDO, NULL);
         if (!albedo)
             continue;
         albedo = ir_op2(g, IR_MUL, albedo, closure_weight(w->shader, leaf, way));
@@ -166,8 +163,9 @@ static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *
     ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
     if (!visited(w, base, where, &base))
         return false;
-    struct where above = {.thickness = node.op == IR_SLAB_LAYER ? ir_arg(g, ref, 2)
-                                                                : ir_const_float(g, LAYER_THICKNESS)};
+    struct where above = {.thickness = node.op == IR_SLAB_LAYER
+                                           ? ir_arg(g, ref, 2)
+                                           : ir_const_float(g, SLABS_LAYER_THICKNESS)};
     bool is_surface = base && ir_type_of(g, base) == IR_TYPE_BSDF;
     above.below = is_surface ? layered(w, base, where.below) : where.below;
     if (!visited(w, top, above, &top))
@@ -229,8 +227,7 @@ static ir_ref walk_closure(struct walk *w, ir_ref root, struct where where)
 
 static struct where body(struct walk *w)
 {
-    uint32_t thickness =
-        shader_private_uniform(w->shader, STR_u_slabThickness, IR_TYPE_FLOAT, 0);
+    uint32_t thickness = shader_private_uniform(w->shader, STR_u_slabThickness, IR_TYPE_FLOAT, 0);
     return (struct where){.thickness = shader_read(w->shader, thickness), .is_body = true};
 }
 
@@ -238,8 +235,8 @@ static struct where body(struct walk *w)
 static ir_ref opacity_of(struct walk *w, ir_ref lobes)
 {
     struct ir_graph *g = w->graph;
-    ir_ref through = closure_throughput(w->shader, w->host->closures, lobes,
-                                        ir_const_float(g, 0.0f));
+    ir_ref through =
+        closure_throughput(w->shader, w->host->closures, lobes, ir_const_float(g, 0.0f));
     ir_ref mean = ir_op2(g, IR_DOT, through, ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
     return closure_one_minus(g, mean);
 }
@@ -281,29 +278,35 @@ static ir_ref rewrite_root(struct walk *w, ir_ref ref, ir_ref *replaced)
     return with_args(w, ref, replaced);
 }
 
-/* Marks the nodes that depend on a slab. */
-static bool find_slabs(struct walk *w, ir_ref root, const uint8_t *needed)
+/* Marks the nodes below the root that depend on a slab. */
+static uint8_t *find_slabs(const struct shader *shader, ir_ref root)
 {
+    const struct ir_graph *g = shader->graph;
+    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    uint8_t *has = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
     for (ir_ref ref = 1; ref <= root; ref++) {
         if (!needed[ref])
             continue;
-        const struct ir_node *node = ir_get(w->graph, ref);
-        w->has_slabs[ref] = node->op == IR_SLAB || node->op == IR_SLAB_LAYER
-                            || node->op == IR_SLAB_SURFACE;
+        const struct ir_node *node = ir_get(g, ref);
+        has[ref] = node->op == IR_SLAB || node->op == IR_SLAB_LAYER || node->op == IR_SLAB_SURFACE;
         bool is_tree = ir_type_is_closure(node->type) || ir_type_is_shader(node->type);
         for (uint32_t i = 0; is_tree && i < node->num_args; i++)
-            w->has_slabs[ref] |= w->has_slabs[ir_arg(w->graph, ref, i)];
+            has[ref] |= has[ir_arg(g, ref, i)];
     }
-    return w->has_slabs[root];
+    return has;
+}
+
+bool slabs_has(const struct shader *shader, ir_ref ref)
+{
+    return ref && find_slabs(shader, ref)[ref];
 }
 
 ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
     struct walk w = {.shader = shader, .graph = g, .host = host, .num_nodes = root + 1};
-    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    w.has_slabs = ARENA_ARRAY(shader->arena, uint8_t, w.num_nodes);
-    if (!root || !find_slabs(&w, root, needed))
+    w.has_slabs = find_slabs(shader, root);
+    if (!root || !w.has_slabs[root])
         return root;
     if (ir_type_is_closure(ir_type_of(g, root)))
         return walk_closure(&w, root, body(&w));

@@ -75,23 +75,21 @@ static inline int stack_random_top(struct stack *stack, int clear)
     if (choice < 0.35)
         return a;
     if (choice < 0.7)
-        return stack_add(stack, (struct stack_node){.kind = STACK_COVER,
-                                                    .a = a,
-                                                    .share = stack_between(0.1, 0.9)});
+        return stack_add(stack, (struct stack_node){
+                                    .kind = STACK_COVER, .a = a, .share = stack_between(0.1, 0.9)});
     slab.mfp = 0.01 / stack_between(0.05, 3.0);
     int b = stack_add(stack, slab);
-    return stack_add(stack, (struct stack_node){.kind = STACK_MIX,
-                                                .a = a,
-                                                .b = b,
-                                                .share = stack_between(0.1, 0.9)});
+    return stack_add(
+        stack,
+        (struct stack_node){.kind = STACK_MIX, .a = a, .b = b, .share = stack_between(0.1, 0.9)});
 }
 
 /* Tops over an opaque base of this albedo. */
 static inline void stack_make(struct stack *stack, int num_tops, int clear, double base_albedo)
 {
     stack->num_nodes = 0;
-    int below = stack_add(stack, (struct stack_node){
-                                     .kind = STACK_SLAB, .albedo = base_albedo, .roughness = 0.5});
+    int below = stack_add(
+        stack, (struct stack_node){.kind = STACK_SLAB, .albedo = base_albedo, .roughness = 0.5});
     for (int i = 0; i < num_tops; ++i) {
         int top = stack_random_top(stack, clear);
         below = stack_add(stack, (struct stack_node){
@@ -170,7 +168,8 @@ static inline double stack_throughput(const struct stack *stack, int at, double 
 /* ---- The random walk ---- */
 
 struct stack_pile { /* the slabs that one path meets, from above */
-    double albedo[STACK_SLABS], depth[STACK_SLABS]; /* of one scattering; optical, INFINITY: opaque */
+    double albedo[STACK_SLABS],
+        depth[STACK_SLABS]; /* of one scattering; optical, INFINITY: opaque */
     int num;
 };
 
@@ -187,7 +186,8 @@ static inline void stack_draw(const struct stack *stack, int at, double thicknes
     const struct stack_node *node = &stack->nodes[at];
     switch (node->kind) {
     case STACK_SLAB:
-        pile->albedo[pile->num] = node->mfp > 0.0 ? stack_single_albedo(node->albedo) : node->albedo;
+        pile->albedo[pile->num] =
+            node->mfp > 0.0 ? stack_single_albedo(node->albedo) : node->albedo;
         pile->depth[pile->num++] = node->mfp > 0.0 ? thickness / node->mfp : INFINITY;
         break;
     case STACK_LAYER:

@@ -30,10 +30,9 @@ struct run {
 static struct ir_value direction(double cosine, double turn)
 {
     double sine = sqrt(1.0 - cosine * cosine);
-    return (struct ir_value){IR_TYPE_VEC3,
-                             {{.f = (float)(sine * cos(turn))},
-                              {.f = (float)(sine * sin(turn))},
-                              {.f = (float)cosine}}};
+    return (struct ir_value){
+        IR_TYPE_VEC3,
+        {{.f = (float)(sine * cos(turn))}, {.f = (float)(sine * sin(turn))}, {.f = (float)cosine}}};
 }
 
 static double turn_of_light;
@@ -83,8 +82,8 @@ static double value_of(struct run *run, ir_ref ref)
 {
     const struct ir_eval_env env = {.user_data = run, .source = source, .call = call};
     struct ir_value value;
-    bool good = ir_eval(&run->generation->result->graph, ref, &env, &run->generation->scratch,
-                        &value);
+    bool good =
+        ir_eval(&run->generation->result->graph, ref, &env, &run->generation->scratch, &value);
     return REQUIRE(good) ? (double)value.w[0].f : (double)NAN;
 }
 
@@ -114,9 +113,9 @@ static void generate(struct run *run, const struct stack *stack, void (*look)(st
     run->look = look;
     run->wanted = wanted;
     stack_write(stack, text);
-    REQUIRE(mxg_document_parse(run->context, run->library, "stack.mtlx", text, strlen(text),
-                               &document)
-            == MXG_OK);
+    REQUIRE(
+        mxg_document_parse(run->context, run->library, "stack.mtlx", text, strlen(text), &document)
+        == MXG_OK);
     REQUIRE(generation_run(run->context, document, &desc, steps, run, &result) == MXG_OK);
     mxg_result_destroy(result);
     mxg_document_destroy(document);
@@ -173,7 +172,8 @@ static void test_one_top(struct run *run)
     for (int i = 0; i < 20; ++i) {
         struct stack stack;
         stack_make(&stack, 1, 1, 1.0);
-        double error = weight_error(run, &stack, stack_between(0.05, 1.0), stack_between(1.0, 1.342));
+        double error =
+            weight_error(run, &stack, stack_between(0.05, 1.0), stack_between(1.0, 1.342));
         /* a mix of two media is a sum of two powers; other tops are exact */
         bool is_mix = stack.nodes[stack.nodes[stack.num_nodes - 1].a].kind == STACK_MIX;
         REQUIRE(error < (is_mix ? 0.005 : 2e-5));
@@ -188,8 +188,8 @@ static void test_many_tops(struct run *run)
     for (int i = 0; i < 60; ++i) {
         struct stack stack;
         stack_make(&stack, 2 + i % 4, 1, 1.0);
-        worst = fmax(worst, weight_error(run, &stack, stack_between(0.05, 1.0),
-                                         stack_between(1.0, 1.342)));
+        worst = fmax(
+            worst, weight_error(run, &stack, stack_between(0.05, 1.0), stack_between(1.0, 1.342)));
     }
     printf("weights below 2 to 5 tops: within %.5f\n", worst);
     REQUIRE(worst < 0.005);
@@ -218,8 +218,7 @@ static void reflect(struct run *run)
         double reflects = value_of(run, albedo),
                once = value_of(run, closure_weight(shader, leaf, rest));
         bool is_diffuse = closure_has(shader, &g->closure_host, leaf->leaf, LEAF_WAY);
-        ir_ref way = is_diffuse ? mean
-                                : ir_const_float(graph, (float)stack_way(run->view));
+        ir_ref way = is_diffuse ? mean : ir_const_float(graph, (float)stack_way(run->view));
         out->whole += reflects * value_of(run, closure_weight(shader, leaf, way));
         out->plain += reflects * once;
         out->both += reflects * once * once;
@@ -294,7 +293,8 @@ static void test_furnace(struct run *run)
 
 /* ---- Light from single directions ---- */
 
-/* The integral of the response over light, by midpoints in the square of the cosine and the turn. */
+/* The integral of the response over light, by midpoints in the square of the cosine and the turn.
+ */
 static void integrate(struct run *run)
 {
     enum { ALONG = 24, AROUND = 32 };
