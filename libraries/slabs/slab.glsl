@@ -131,6 +131,13 @@ vec3 mx_slab_grazing(vec3 f0, vec3 f90)
     return hue * clamp(50.0 * max(f0.x, max(f0.y, f0.z)), 0.0, 1.0);
 }
 
+// Of a medium that lets `transmittance` through a thickness (Beer, Lambert): 0 lets nothing through, and nearly 1 nearly all.
+vec3 mx_slab_mean_free_path(vec3 transmittance, float thickness)
+{
+    vec3 through = clamp(transmittance, 0.0, 0.99999);
+    return mix(-thickness / log(max(through, 1e-30)), vec3(0.0), step(through, vec3(0.0)));
+}
+
 // A body whose medium scatters is seen through nowhere.
 float mx_slab_is_thick(vec3 color, vec3 mean_free_path, float is_body)
 {

@@ -121,8 +121,7 @@ static void write_slab(struct tree *t, const struct line *line)
         write_value(t, ir_arg(t->graph, line->ref, shown[i].input));
     }
     for (size_t i = 0; i < sizeof features / sizeof *features; i++)
-        if (!ir_const_is(t->graph, ir_arg(t->graph, line->ref, features[i].input),
-                         features[i].off))
+        if (!ir_const_is(t->graph, ir_arg(t->graph, line->ref, features[i].input), features[i].off))
             text_fmt(t->out, "; %s", features[i].text);
     text_char(t->out, '\n');
     note_basis(t, ir_arg(t->graph, line->ref, SLAB_normal),
@@ -220,8 +219,8 @@ static void write_root(struct tree *t, ir_ref ref, ir_ref bsdf)
 {
     struct ir_value thin = {.type = IR_TYPE_VOID};
     bool is_root = ir_get(t->graph, ref)->op == IR_SLAB_SURFACE;
-    bool is_sheet = is_root && ir_get_const(t->graph, ir_arg(t->graph, ref, 1), &thin)
-                    && thin.w[0].u;
+    bool is_sheet =
+        is_root && ir_get_const(t->graph, ir_arg(t->graph, ref, 1), &thin) && thin.w[0].u;
     text_fmt(t->out, "%s, %s\n", name_of(t, ref), is_sheet ? "a sheet" : "a body");
     t->num_slabs = t->bases.len = t->masks.len = 0;
     struct line root = {.depth = 0};
