@@ -17,7 +17,8 @@ struct check_reports {
 
 /* Fills in the options of reports; returns their number, NUM_SINK_KINDS. */
 size_t reports_args(struct check_reports *reports, struct arg *args);
-/* The reason why the arguments are invalid; NULL if they are valid. */
+/* The reason why the arguments are invalid; NULL if they are valid. reports_claim compares files.
+ */
 const char *reports_misuse(const struct check_reports *reports);
 
 /*

@@ -29,13 +29,11 @@ size_t reports_args(struct check_reports *reports, struct arg *args)
 
 const char *reports_misuse(const struct check_reports *reports)
 {
+    unsigned num_on_stdout = 0;
     for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
-        for (size_t k = 0; k < i && reports->paths[i]; ++k)
-            if (reports->paths[k] && strcmp(reports->paths[k], reports->paths[i]) == 0
-                && strcmp(reports->paths[i], "/dev/null") != 0)
-                return "two reports would be one file, or one standard output; name a file for "
-                       "each";
-    return NULL;
+        num_on_stdout += reports->paths[i] && strcmp(reports->paths[i], "-") == 0;
+    return num_on_stdout > 1 ? "two reports would be one standard output; name a file for each"
+                             : NULL;
 }
 
 bool reports_claim(const struct check_reports *reports, struct outputs *outputs,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen bind: the layers of each primitive of a stage under a look. */
 #define _POSIX_C_SOURCE 200809L
+#include "cli/bind_page.h"
 #include "cli/cli.h"
 #include "cli/files.h"
 #include "cli/memory.h"
@@ -11,7 +12,7 @@
 
 struct bind {
     struct cli cli;
-    const char *look, *stage, *json, *geom, *purpose;
+    const char *look, *stage, *json, *usda, *html, *geom, *purpose;
     struct arg_list solo, mute;
 };
 
@@ -20,17 +21,37 @@ static bool put(void *user_data, const char *data, size_t size)
     return fwrite(data, 1, size, user_data) == size;
 }
 
-static void write_json(struct bind *bind, const mxg_bindings *bindings)
+/* Writes a file with `write`, which gives false where something is missing in it. */
+static void write_file(struct bind *bind, const mxg_bindings *bindings, const char *path,
+                       mxg_bindings_format format)
 {
     struct files_stream stream;
-    const char *reason = files_begin(&stream, bind->json);
+    const char *reason = files_begin(&stream, path);
     if (!reason) {
-        report_status(&bind->cli.report,
-                      mxg_bindings_write(bindings, MXG_BINDINGS_JSON, put, stream.out));
+        mxg_status status = mxg_bindings_write(bindings, format, put, stream.out);
+        if (status == MXG_ERROR_DOCUMENT)
+            report_warning(&bind->cli.report, "usda-loss",
+                           "'%s' lacks products of weaker assignments, variants, or volumes beside "
+                           "layers: slot bindings have no place for them",
+                           path);
+        else
+            report_status(&bind->cli.report, status);
         reason = files_end(&stream, true);
     }
     if (reason)
-        report_error(&bind->cli.report, "output-failed", "cannot write '%s': %s", bind->json,
+        report_error(&bind->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
+}
+
+static void write_page(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
+{
+    struct files_stream stream;
+    const char *reason = files_begin(&stream, bind->html);
+    if (!reason) {
+        bind_page_write(stream.out, scene, bindings, bind->look ? bind->look : "");
+        reason = files_end(&stream, true);
+    }
+    if (reason)
+        report_error(&bind->cli.report, "output-failed", "cannot write '%s': %s", bind->html,
                      reason);
 }
 
@@ -68,10 +89,14 @@ static void explain(struct bind *bind, const mxg_scene *scene, const mxg_binding
 static void write_bindings(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
 {
     if (bind->json)
-        write_json(bind, bindings);
+        write_file(bind, bindings, bind->json, MXG_BINDINGS_JSON);
+    if (bind->usda)
+        write_file(bind, bindings, bind->usda, MXG_BINDINGS_USDA);
+    if (bind->html)
+        write_page(bind, scene, bindings);
     if (bind->geom)
         explain(bind, scene, bindings);
-    else if (!bind->json)
+    else if (!bind->json && !bind->usda && !bind->html)
         report_status(&bind->cli.report,
                       mxg_bindings_write(bindings,
                                          isatty(STDOUT_FILENO) ? MXG_BINDINGS_TABLE_COLOUR
@@ -96,16 +121,29 @@ static void bind_document(struct bind *bind, const mxg_document *document, mxg_s
     mxg_bindings_destroy(bindings);
 }
 
+/* The document, which may be missing, with the materials of the stage that it lacks. */
+static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *scene)
+{
+    mxg_document *own = path ? cli_load(&bind->cli, path) : NULL, *whole = NULL;
+    if (path && !own)
+        return NULL;
+    mxg_status status =
+        mxg_document_with_materials(bind->cli.context, bind->cli.library, own, scene, &whole);
+    if (whole)
+        report_list(&bind->cli.report, mxg_document_diagnostics(whole));
+    report_status(&bind->cli.report, status);
+    mxg_document_destroy(own);
+    return whole;
+}
+
 static void bind_file(struct bind *bind, const char *path)
 {
     mxg_scene *scene = NULL;
-    mxg_document *document = cli_load(&bind->cli, path);
-    if (!document)
-        return;
+    mxg_document *document = NULL;
     mxg_status status = mxg_scene_load(bind->cli.context, bind->stage, bind->purpose, &scene);
     if (scene)
         report_list(&bind->cli.report, mxg_scene_diagnostics(scene));
-    if (report_status(&bind->cli.report, status))
+    if (report_status(&bind->cli.report, status) && (document = load(bind, path, scene)) != NULL)
         bind_document(bind, document, scene);
     mxg_scene_destroy(scene);
     mxg_document_destroy(document);
@@ -122,18 +160,21 @@ int command_bind(const struct command *command, int argc, char **argv)
          "also takes the bindings of the stage for this purpose", &bind.purpose},
         {"json", 0, ARG_TEXT, "FILE", "writes the layers of all primitives as JSON; '-': prints it",
          &bind.json},
+        {"usda", 0, ARG_TEXT, "FILE", "writes the layers as slot bindings of USD; '-': prints them",
+         &bind.usda},
+        {"html", 0, ARG_TEXT, "FILE", "writes a page to look into the layers", &bind.html},
         {"geom", 0, ARG_TEXT, "PATH", "explains the layers of one primitive", &bind.geom},
         {"solo", 0, ARG_LIST, "SLOT", "shows only this slot, layer or override", &bind.solo},
         {"mute", 0, ARG_LIST, "SLOT", "leaves out this slot, layer or override", &bind.mute},
     };
     int code;
-    if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT, argc, argv,
-                  &code)) {
-        if (!bind.stage || bind.cli.parser.inputs.len != 1) {
+    if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {
+        const struct arg_list *inputs = &bind.cli.parser.inputs;
+        if (!bind.stage || inputs->len > 1) {
             fprintf(stderr, "usage: mxgen %s\n", command->usage);
             code = EXIT_USAGE;
         } else {
-            bind_file(&bind, bind.cli.parser.inputs.items[0]);
+            bind_file(&bind, inputs->len ? inputs->items[0] : NULL);
             code = bind.cli.report.errors ? EXIT_FAULT : EXIT_DONE;
         }
     }

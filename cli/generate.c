@@ -3,29 +3,13 @@
  * mxgen FILE|FOLDER...: shaders of the renderable elements of documents, as files or on standard
  * output.
  */
-#include "cli/cli.h"
 #include "cli/files.h"
 #include "cli/folder.h"
-#include "cli/outputs.h"
+#include "cli/generate.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct generate {
-    struct cli cli;
-    const char *target, *output, *depfile;
-    struct arg_list elements; /* empty: every renderable */
-    bool to_stdout, reflect;
-
-    mxg_target target_info;
-    bool is_network;                    /* --osl-network */
-    bool is_file;                       /* -o names one file: a stage of one element */
-    mxg_stage stage;                    /* this stage */
-    struct arg_list documents, folders; /* each document with its output folder; allocated */
-    struct outputs files;               /* all files that the command reads or writes */
-    struct arg_list outputs, sources;   /* for the depfile; items are allocated */
-    struct name_table known_sources;    /* the names in `sources` */
-};
 
 /* ---- Files ---- */
 
@@ -117,8 +101,8 @@ static void write_stages(struct generate *gen, const char *folder, const char *e
     }
 }
 
-static void write_result(struct generate *gen, const char *folder, const char *element,
-                         const mxg_result *result)
+void generate_write(struct generate *gen, const char *folder, const char *element,
+                    const mxg_result *result)
 {
     if (mxg_result_num_parts(result))
         write_network(gen, folder, element, result);
@@ -131,8 +115,7 @@ static void write_result(struct generate *gen, const char *folder, const char *e
     }
 }
 
-/* Notes a file that output depends on. False after an error: an output has its name. */
-static bool add_source(struct generate *gen, const char *file)
+bool generate_add_source(struct generate *gen, const char *file)
 {
     bool is_new = false;
     if (strcmp(file, CLI_STDIN_NAME) != 0)
@@ -160,9 +143,9 @@ static void generate_element(struct generate *gen, const mxg_document *document,
         /* only the path; computing the topology hash is expensive */
         mxg_shader_info info = {offsetof(mxg_shader_info, topology)};
         mxg_result_info(result, &info);
-        write_result(gen, folder, info.path, result);
+        generate_write(gen, folder, info.path, result);
         for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)
-            add_source(gen, mxg_result_file(result, i));
+            generate_add_source(gen, mxg_result_file(result, i));
     }
     mxg_result_destroy(result);
 }
@@ -200,9 +183,7 @@ static struct arg_list find_elements(const struct generate *gen, const mxg_docum
     return list;
 }
 
-/* Claims every file that an element may have, so that no name clashes after the first is written.
- */
-static bool claim_element(struct generate *gen, const char *folder, const char *element)
+bool generate_claim(struct generate *gen, const char *folder, const char *element)
 {
     const char *const *suffixes =
         gen->is_network ? network_suffixes : gen->target_info.stage_suffix;
@@ -217,7 +198,7 @@ static bool claim_files(struct generate *gen, const mxg_document *document, cons
 {
     bool good = true;
     for (uint32_t i = 0; i < mxg_document_num_files(document); ++i)
-        good = add_source(gen, mxg_document_file(document, i)) && good;
+        good = generate_add_source(gen, mxg_document_file(document, i)) && good;
     if (gen->is_file && elements->len > 1) {
         report_error(&gen->cli.report, "output-clash",
                      "'%s' is one file, and the document has %zu elements; name one with -e, or a "
@@ -226,11 +207,11 @@ static bool claim_files(struct generate *gen, const mxg_document *document, cons
         return false;
     }
     for (size_t i = 0; i < elements->len && !gen->to_stdout; ++i)
-        good = claim_element(gen, folder, elements->items[i]) && good;
+        good = generate_claim(gen, folder, elements->items[i]) && good;
     return good;
 }
 
-static bool make_folder(struct generate *gen, const char *folder)
+bool generate_make_folder(struct generate *gen, const char *folder)
 {
     const char *reason = gen->to_stdout || gen->is_file ? NULL : files_make_folder(folder);
     if (reason)
@@ -253,7 +234,7 @@ static void validate(struct generate *gen, const mxg_document *document)
 static void generate_elements(struct generate *gen, const mxg_document *document,
                               const char *folder, const struct arg_list *elements)
 {
-    if (!make_folder(gen, folder))
+    if (!generate_make_folder(gen, folder))
         return;
     if (gen->elements.len == 0)
         validate(gen, document);
@@ -268,6 +249,11 @@ static void generate_file(struct generate *gen, const char *input, const char *f
     mxg_document *document = cli_load(&gen->cli, input);
     if (!document)
         return;
+    if (gen->stage_file) {
+        generate_stacks(gen, document, folder);
+        mxg_document_destroy(document);
+        return;
+    }
     struct arg_list elements = find_elements(gen, document);
     if (claim_files(gen, document, folder, &elements))
         generate_elements(gen, document, folder, &elements);
@@ -354,7 +340,7 @@ static int generate_all(struct generate *gen)
     bool good =
         !gen->depfile || outputs_write(&gen->files, &gen->cli.report, gen->depfile, "--depfile");
     for (uint32_t i = 0; i < mxg_library_num_files(gen->cli.library); ++i)
-        good = add_source(gen, mxg_library_file(gen->cli.library, i)) && good;
+        good = generate_add_source(gen, mxg_library_file(gen->cli.library, i)) && good;
     good = find_documents(gen) && good;
     for (size_t i = 0; i < gen->documents.len && good; ++i)
         generate_file(gen, gen->documents.items[i], gen->folders.items[i]);
@@ -401,6 +387,30 @@ static const char *find_file_misuse(const struct generate *gen)
                                                                 : NULL;
 }
 
+/* The reason why --stage cannot stand with the other arguments; NULL if it can. */
+static const char *find_stage_misuse(const struct generate *gen)
+{
+    if (!gen->stage_file)
+        return gen->look || gen->purpose ? "--look and --purpose need --stage" : NULL;
+    if (gen->elements.len)
+        return "--stage takes its materials from a look, so --element does not apply";
+    if (gen->to_stdout || gen->is_file)
+        return "--stage writes several files; name a folder with -o";
+    if (gen->is_network)
+        return "--stage does not write OSL networks";
+    return gen->cli.parser.inputs.len > 1 || files_is_folder(gen->cli.parser.inputs.items[0])
+               ? "--stage takes one document"
+               : NULL;
+}
+
+static bool check_stage(const struct generate *gen)
+{
+    const char *misuse = find_stage_misuse(gen);
+    if (misuse)
+        fprintf(stderr, "mxgen: %s\n", misuse);
+    return !misuse;
+}
+
 /* Decides whether -o is a folder or, by its ending, a file. False after a message. */
 static bool prepare_output(struct generate *gen)
 {
@@ -441,6 +451,14 @@ int command_generate(const struct command *command, int argc, char **argv)
          &gen.output},
         {"reflect", 0, ARG_FLAG, NULL, "also writes the reflection as JSON", &gen.reflect},
         {"stdout", 0, ARG_FLAG, NULL, "prints the files instead of writing them", &gen.to_stdout},
+        {"stage", 0, ARG_TEXT, "FILE",
+         "a scene; writes a shader for each distinct stack of its primitives, and bindings.json "
+         "(docs/slots.md)",
+         &gen.stage_file},
+        {"look", 0, ARG_TEXT, "LOOK", "the look for --stage, or a look group with a default",
+         &gen.look},
+        {"purpose", 0, ARG_TEXT, "full|preview",
+         "for --stage: also takes the bindings of the scene for this purpose", &gen.purpose},
         {"depfile", 0, ARG_TEXT, "FILE",
          "writes the dependencies of the output, for make and ninja", &gen.depfile},
     };
@@ -449,7 +467,7 @@ int command_generate(const struct command *command, int argc, char **argv)
                   CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
         code = cli_find_target(gen.target, strlen(gen.target), &gen.target_info)
                        && cli_options_apply(&gen.cli, &gen.target_info.name, 1)
-                       && prepare_output(&gen)
+                       && prepare_output(&gen) && check_stage(&gen)
                    ? generate_all(&gen)
                    : EXIT_USAGE;
     cli_finish(&gen.cli);

@@ -96,8 +96,9 @@ static const struct action {
     bool on_builtin;            /* the paths extend the built-in library */
     bool has_output, has_pages; /* takes -o; takes --html, --markdown and --pictures */
     bool has_words;             /* arguments that are no paths are words */
+    bool has_notes;             /* prints the notes of loading, which are otherwise hidden */
 } actions[] = {{"pack", pack, .has_output = true},
-               {"list", list, .has_words = true},
+               {"list", list, .has_words = true, .has_notes = true},
                {"expand", expand, .has_output = true},
                {"doc", library_doc, true, true, true}};
 #define NUM_ACTIONS (sizeof actions / sizeof *actions)
@@ -144,8 +145,11 @@ static bool load(struct cli *cli, const struct action *action)
                                          paths.items, paths.len, &cli->library);
     free(paths.items);
     mxg_library_unref(builtin);
+    bool verbose = cli->report.verbose;
+    cli->report.verbose |= action->has_notes && !cli->report.quiet;
     if (cli->library)
         report_list(&cli->report, mxg_library_diagnostics(cli->library));
+    cli->report.verbose = verbose;
     return report_status(&cli->report, status);
 }
 

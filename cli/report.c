@@ -174,7 +174,8 @@ static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
     uint64_t place = (uint64_t)diagnostic->line << 32 | diagnostic->column;
     uint64_t hash = group_key_hash(&(struct group_key){
         .id = diagnostic->id, .file = diagnostic->file, .text = diagnostic->message});
-    hash ^= place * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ place) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
     hash = hash ? hash : 1;
     if (report->num_printed * 2 >= report->capacity_printed && !grow_printed(report))
         return true;

@@ -17,6 +17,8 @@ struct check {
     struct arg_list elements;
     bool no_compile;
     const char *input;
+    const char *stage, *look; /* of a scene */
+    mxg_bindings *bindings;   /* NULL without a scene */
 };
 
 /* The next word of a list with commas; false behind the last. */
@@ -102,12 +104,10 @@ static void check_result(struct check *check, const char *target, const char *in
     compiled_finish(&compiled);
 }
 
-static void check_element(struct check *check, const mxg_document *document, const char *element,
-                          const char *target, const char *interface)
+static void check_one(struct check *check, const mxg_document *document, mxg_generate_desc desc,
+                      const char *target, const char *interface)
 {
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = target;
-    desc.element = element;
     desc.options = check->cli.options;
     mxg_result *result = NULL;
     mxg_status status = mxg_generate(check->cli.context, document, &desc, &result);
@@ -118,9 +118,31 @@ static void check_element(struct check *check, const mxg_document *document, con
     mxg_result_destroy(result);
 }
 
+static void check_element(struct check *check, const mxg_document *document, const char *element,
+                          const char *target, const char *interface)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.element = element;
+    check_one(check, document, desc, target, interface);
+}
+
+/* The stacks of --stage, which stand for the elements. */
+static void check_stacks(struct check *check, const mxg_document *document, const char *target,
+                         const char *interface)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.bindings = check->bindings;
+    for (; desc.stack < mxg_bindings_num_stacks(check->bindings); ++desc.stack)
+        check_one(check, document, desc, target, interface);
+}
+
 static void check_elements(struct check *check, const mxg_document *document, const char *target,
                            const char *interface)
 {
+    if (check->bindings) {
+        check_stacks(check, document, target, interface);
+        return;
+    }
     for (size_t i = 0; i < check->elements.len; ++i)
         check_element(check, document, check->elements.items[i], target, interface);
     for (uint32_t i = 0; check->elements.len == 0 && i < mxg_document_num_renderables(document);
@@ -131,9 +153,32 @@ static void check_elements(struct check *check, const mxg_document *document, co
     }
 }
 
+/* False after a message. */
+static bool bind_stage(struct check *check, const mxg_document *document)
+{
+    mxg_scene *scene = NULL;
+    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    desc.look = check->look;
+    mxg_status status = mxg_scene_load(check->cli.context, check->stage, NULL, &scene);
+    if (scene)
+        report_list(&check->cli.report, mxg_scene_diagnostics(scene));
+    if (report_status(&check->cli.report, status)) {
+        status = mxg_bind(check->cli.context, document, scene, &desc, &check->bindings);
+        if (check->bindings)
+            report_list(&check->cli.report, mxg_bindings_diagnostics(check->bindings));
+        report_status(&check->cli.report, status);
+    }
+    mxg_scene_destroy(scene);
+    return status == MXG_OK;
+}
+
 static void check_document(struct check *check)
 {
     mxg_document *document = cli_load(&check->cli, check->input);
+    if (document && check->stage && !bind_stage(check, document)) {
+        mxg_document_destroy(document);
+        return;
+    }
     char target[32], interface[32];
     for (const char *targets = check->targets;
          document && next_word(&targets, target, sizeof target);) {
@@ -146,6 +191,8 @@ static void check_document(struct check *check)
                              mxg_options_error(check->cli.options));
         }
     }
+    mxg_bindings_destroy(check->bindings);
+    check->bindings = NULL;
     mxg_document_destroy(document);
 }
 
@@ -164,6 +211,9 @@ int main(int argc, char **argv)
          "interface modes (default: complete,authored,reduced)", &check.interfaces},
         {"element", 'e', ARG_LIST, "PATH", "path of an element (default: all renderable elements)",
          &check.elements},
+        {"stage", 0, ARG_TEXT, "FILE", "a scene: the stacks of its primitives are the elements",
+         &check.stage},
+        {"look", 0, ARG_TEXT, "LOOK", "the look for --stage", &check.look},
         {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &check.no_compile},
     };
     int code;

@@ -32,7 +32,14 @@ static const struct {
      "only a raster with --environment importance samples the environment"},
     {"sample-filter", FACT_SAMPLED,
      "only a raster with --environment importance samples the environment"},
+    {"element", FACT_NO_STAGE, "the look selects the materials of a stage"},
     {"element", FACT_NO_LOOK, "--look selects the elements"},
+    {"stage", FACT_STUDIO, "only the scene 'studio' takes a stage"},
+    {"stage", FACT_ONE_FILE, "a stage takes one document"},
+    {"mesh", FACT_NO_STAGE, "the stage has the meshes"},
+    {"turntable", FACT_NO_STAGE, "a turntable shows one element"},
+    {"set", FACT_NO_STAGE, "a stage has many shaders; change the document"},
+    {"purpose", FACT_STAGE, "only a stage has bindings for purposes"},
 };
 
 bool applies_all(const struct arg_parser *parser, unsigned facts)

@@ -18,6 +18,8 @@ enum render_fact {
     FACT_RASTER = 1 << 8,      /* no --path-trace */
     FACT_SAMPLED = 1 << 9,     /* a raster that samples the environment */
     FACT_NO_LOOK = 1 << 10,
+    FACT_STAGE = 1 << 11, /* --stage */
+    FACT_NO_STAGE = 1 << 12,
 };
 
 /* False after a message about the first option that does not apply. */

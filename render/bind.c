@@ -83,7 +83,7 @@ static bool reserve(struct bind *bind, const mxg_variable *variable)
         if (draw->num_blocks == DRAW_MAX_BLOCKS)
             return fail(bind, "the shader has more than %u uniform blocks", DRAW_MAX_BLOCKS);
         block = &draw->blocks[draw->num_blocks++];
-        *block = (struct draw_block){variable->set, variable->binding, NULL, 0};
+        *block = (struct draw_block){variable->set, variable->binding, 0};
     }
     uint32_t end = round_up(variable->offset + variable->byte_size);
     if (variable->block == MXG_BLOCK_LIGHT_DATA)
@@ -108,9 +108,11 @@ static void store(unsigned char *at, const mxg_variable *variable, const float *
     }
 }
 
-static unsigned char *address(struct bind *bind, const mxg_variable *variable)
+static unsigned char *address(struct bind *bind, uint32_t object, const mxg_variable *variable)
 {
-    return find_block(&bind->draw, variable->set, variable->binding)->data + variable->offset;
+    struct draw *draw = &bind->draw;
+    size_t block = (size_t)(find_block(draw, variable->set, variable->binding) - draw->blocks);
+    return draw->objects[object].blocks[block] + variable->offset;
 }
 
 /*
@@ -158,7 +160,7 @@ static const char *user_value(const struct bind *bind, const mxg_variable *varia
     return text;
 }
 
-static bool store_public(struct bind *bind, const mxg_variable *variable)
+static bool store_public(struct bind *bind, uint32_t object, const mxg_variable *variable)
 {
     float values[MAX_COMPONENTS];
     memcpy(values, variable->values, sizeof values);
@@ -170,19 +172,20 @@ static bool store_public(struct bind *bind, const mxg_variable *variable)
     if (text && !parse_value(text, shape, values))
         return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", text,
                        variable->path, variable->type);
-    store(address(bind, variable), variable, values);
+    store(address(bind, object, variable), variable, values);
     return true;
 }
 
-static void store_private(struct bind *bind, const mxg_variable *variable)
+static void store_private(struct bind *bind, uint32_t object, const mxg_variable *variable)
 {
     float values[MAX_COMPONENTS] = {0};
-    if (!scene_uniform(bind->scene, variable->name, values) && variable->num_values)
+    if (!scene_uniform(bind->scene, &bind->objects[object], variable->name, values)
+        && variable->num_values)
         memcpy(values, variable->values, sizeof values);
     if (strcmp(variable->name, "u_numActiveLightSources") == 0
         && values[0] > (float)bind->max_lights)
         values[0] = (float)bind->max_lights;
-    store(address(bind, variable), variable, values);
+    store(address(bind, object, variable), variable, values);
 }
 
 /* "u_lightData[2].color": the name of the member, or NULL where the path is none of a light. */
@@ -211,20 +214,20 @@ static const struct bind_value *light_value(const struct bind *bind, uint32_t li
     return found;
 }
 
-static bool store_lights(struct bind *bind, const mxg_variable *variable)
+static bool store_lights(struct bind *bind, uint32_t object, const mxg_variable *variable)
 {
     size_t stride =
         find_block(&bind->draw, variable->set, variable->binding)->size / bind->max_lights;
     const struct shape *shape = find_shape(variable->type);
     for (uint32_t i = 0; i < SCENE_NUM_LIGHTS && i < bind->max_lights; ++i) {
         float values[MAX_COMPONENTS] = {0};
-        if (!scene_light(i, variable->name, values) && variable->num_values)
+        if (!scene_light(bind->scene, i, variable->name, values) && variable->num_values)
             memcpy(values, variable->values, sizeof values);
         const struct bind_value *said = light_value(bind, i, variable->name);
         if (said && (!shape || !parse_value(said->text, shape, values)))
             return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s",
                            said->text, said->path, variable->type);
-        store(address(bind, variable) + i * stride, variable, values);
+        store(address(bind, object, variable) + i * stride, variable, values);
     }
     return true;
 }
@@ -251,23 +254,24 @@ static bool make_blocks(struct bind *bind)
         if (is_uniform(&variable) && !reserve(bind, &variable))
             return false;
     }
-    for (uint32_t i = 0; i < bind->draw.num_blocks; ++i) {
-        bind->draw.blocks[i].data = calloc(1, bind->draw.blocks[i].size);
-        if (!bind->draw.blocks[i].data)
-            return fail(bind, "out of memory");
-    }
+    for (uint32_t o = 0; o < bind->num_objects; ++o)
+        for (uint32_t i = 0; i < bind->draw.num_blocks; ++i) {
+            bind->draw.objects[o].blocks[i] = calloc(1, bind->draw.blocks[i].size);
+            if (!bind->draw.objects[o].blocks[i])
+                return fail(bind, "out of memory");
+        }
     return true;
 }
 
-static bool fill_blocks(struct bind *bind)
+static bool fill_blocks(struct bind *bind, uint32_t object)
 {
     for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
         mxg_variable variable = get_variable(bind, i);
-        if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, &variable))
+        if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, object, &variable))
             return false;
         if (variable.block == MXG_BLOCK_PRIVATE_UNIFORMS)
-            store_private(bind, &variable);
-        if (variable.block == MXG_BLOCK_LIGHT_DATA && !store_lights(bind, &variable))
+            store_private(bind, object, &variable);
+        if (variable.block == MXG_BLOCK_LIGHT_DATA && !store_lights(bind, object, &variable))
             return false;
     }
     return true;
@@ -386,28 +390,50 @@ static VkFormat attribute_format(const struct shape *shape)
     return (shape->is_float ? floats : integers)[shape->rows - 1];
 }
 
+/* Fills the attribute that was added last for one object. */
+static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variable *variable,
+                           const struct shape *shape)
+{
+    const struct scene_object *from = &bind->objects[object];
+    uint32_t count = from->mesh.num_vertices;
+    float(*data)[4] = calloc(count, sizeof *data);
+    if (!data)
+        return fail(bind, "out of memory");
+    bind->draw.objects[object].attributes[bind->draw.num_attributes - 1] = data;
+    for (uint32_t i = 0; i < count; ++i) {
+        bool has_stand_in = !shape->is_float && !from->path;
+        float values[4] = {INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE,
+                           INTEGER_ATTRIBUTE};
+        for (uint32_t k = 0; !has_stand_in && k < 4; ++k)
+            values[k] = k < variable->num_values ? variable->values[k] : 0.0f;
+        if (!has_stand_in && !scene_attribute(from, variable->name, i, values) && i == 0
+            && !bind->num_lacking++) {
+            bind->lacking = from->path;
+            bind->lacked = variable->name;
+        }
+        for (uint32_t k = 0; k < 4; ++k) {
+            int32_t integer = (int32_t)values[k];
+            if (shape->is_float)
+                data[i][k] = values[k];
+            else
+                memcpy(&data[i][k], &integer, sizeof integer);
+        }
+    }
+    return true;
+}
+
 static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
 {
     const struct shape *shape = find_shape(variable->type);
     if (!shape || shape->columns != 1 || bind->draw.num_attributes == DRAW_MAX_ATTRIBUTES)
         return fail(bind, "the attribute '%s' (%s) cannot be bound", variable->name,
                     variable->type);
-    uint32_t count = bind->scene->mesh.num_vertices;
-    float(*data)[4] = calloc(count, sizeof *data);
-    if (!data)
-        return fail(bind, "out of memory");
-    struct draw_attribute *attribute = &bind->draw.attributes[bind->draw.num_attributes++];
-    *attribute = (struct draw_attribute){variable->location, attribute_format(shape), data};
-    for (uint32_t i = 0; i < count; ++i) {
-        if (shape->is_float)
-            scene_attribute(bind->scene, variable->name, i, data[i]);
-        else
-            memcpy(data[i],
-                   (const int32_t[4]){INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE,
-                                      INTEGER_ATTRIBUTE},
-                   16);
-    }
-    return true;
+    bind->draw.attributes[bind->draw.num_attributes++] =
+        (struct draw_attribute){variable->location, attribute_format(shape)};
+    bool good = true;
+    for (uint32_t o = 0; good && o < bind->num_objects; ++o)
+        good = fill_attribute(bind, o, variable, shape);
+    return good;
 }
 
 static bool bind_attributes(struct bind *bind)
@@ -446,48 +472,76 @@ static bool check_values(struct bind *bind)
     return true;
 }
 
+static bool make_objects(struct bind *bind)
+{
+    if (!bind->num_objects) {
+        bind->objects = &bind->scene->object;
+        bind->num_objects = 1;
+    }
+    bind->draw.objects = calloc(bind->num_objects, sizeof *bind->draw.objects);
+    bind->orders = calloc(bind->num_objects, sizeof(uint32_t *));
+    if (!bind->draw.objects || !bind->orders)
+        return fail(bind, "out of memory");
+    bind->draw.num_objects = bind->num_objects;
+    for (uint32_t o = 0; o < bind->num_objects; ++o) {
+        bind->draw.objects[o].num_vertices = bind->objects[o].mesh.num_vertices;
+        bind->draw.objects[o].num_indices = bind->objects[o].mesh.num_indices;
+    }
+    return true;
+}
+
 bool bind_shader(struct bind *bind)
 {
     mxg_shader_info info = {sizeof info};
     mxg_result_info(bind->result, &info);
-    bind->draw.num_vertices = bind->scene->mesh.num_vertices;
-    bind->draw.num_indices = bind->scene->mesh.num_indices;
     bind->draw.blend = info.alpha == MXG_ALPHA_BLEND && !bind->is_opaque;
     bind->max_lights = info.num_lights;
-    return check_values(bind) && make_blocks(bind) && bind_textures(bind) && bind_attributes(bind)
-           && bind_scene(bind);
+    return make_objects(bind) && check_values(bind) && make_blocks(bind) && bind_textures(bind)
+           && bind_attributes(bind) && bind_scene(bind);
 }
 
 /* Triangles that can be seen through come from far to near. */
-static bool bind_order(struct bind *bind)
+static bool bind_order(struct bind *bind, uint32_t index)
 {
     const struct scene *scene = bind->scene;
-    bind->draw.indices = scene->mesh.indices;
+    const struct scene_object *object = &bind->objects[index];
+    struct draw_object *drawn = &bind->draw.objects[index];
+    drawn->indices = object->mesh.indices;
     if (!bind->draw.blend)
         return true;
-    struct matrix to_mesh = matrix_inverse(scene->world);
-    double eye[3];
-    for (size_t r = 0; r < 3; ++r)
-        eye[r] = to_mesh.m[3][r] + to_mesh.m[0][r] * scene->eye[0] + to_mesh.m[1][r] * scene->eye[1]
-                 + to_mesh.m[2][r] * scene->eye[2];
-    free(bind->order);
-    bind->draw.indices = bind->order = mesh_sorted(&scene->mesh, eye);
-    return bind->order || fail(bind, "out of memory");
+    struct matrix to_mesh = matrix_inverse(object->world);
+    double eye[3], centre[3], square = 0;
+    mesh_centre(&object->mesh, centre);
+    matrix_point(to_mesh, scene->eye, eye);
+    matrix_point(object->world, centre, centre);
+    for (size_t i = 0; i < 3; ++i)
+        square += (centre[i] - scene->eye[i]) * (centre[i] - scene->eye[i]);
+    drawn->distance = square;
+    free(bind->orders[index]);
+    drawn->indices = bind->orders[index] = mesh_sorted(&object->mesh, eye);
+    return drawn->indices || fail(bind, "out of memory");
 }
 
 bool bind_scene(struct bind *bind)
 {
-    return fill_blocks(bind) && bind_order(bind);
+    bool good = true;
+    for (uint32_t o = 0; good && o < bind->num_objects; ++o)
+        good = fill_blocks(bind, o) && bind_order(bind, o);
+    return good;
 }
 
 void bind_finish(struct bind *bind)
 {
-    for (uint32_t i = 0; i < bind->draw.num_attributes; ++i)
-        free(bind->draw.attributes[i].data);
-    for (uint32_t i = 0; i < bind->draw.num_blocks; ++i)
-        free(bind->draw.blocks[i].data);
+    for (uint32_t o = 0; o < bind->draw.num_objects; ++o) {
+        for (uint32_t i = 0; i < bind->draw.num_attributes; ++i)
+            free(bind->draw.objects[o].attributes[i]);
+        for (uint32_t i = 0; i < bind->draw.num_blocks; ++i)
+            free(bind->draw.objects[o].blocks[i]);
+        free(bind->orders[o]);
+    }
     for (uint32_t i = 0; i < bind->num_images; ++i)
         image_finish(&bind->images[i]);
-    free(bind->order);
     free(bind->faults);
+    free(bind->draw.objects);
+    free(bind->orders);
 }

@@ -28,8 +28,10 @@ struct bind_fault {
 struct bind {
     const mxg_result *result;
     const struct scene *scene;
-    const char *document;        /* texture files are relative to it */
-    const struct outputs *files; /* none of them may be a texture */
+    const struct scene_object *objects; /* what is drawn */
+    uint32_t num_objects;               /* 0: the scene's object */
+    const char *document;               /* texture files are relative to it */
+    const struct outputs *files;        /* none of them may be a texture */
     const struct bind_value *values;
     size_t num_values;
     bool is_opaque; /* replaces the background, also for transparent materials */
@@ -40,10 +42,12 @@ struct bind {
     struct draw draw;                       /* the result */
     struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */
     uint32_t num_images;
-    uint32_t *order;     /* triangles from far to near, if the shader blends */
-    uint32_t max_lights; /* array length in the shader */
-    const char *id;      /* id of the error: "missing-texture"… */
-    char reason[512];    /* why it failed */
+    uint32_t **orders;            /* by object: triangles from far to near, if the shader blends */
+    const char *lacking, *lacked; /* an object of a stage, and an attribute that it lacks */
+    uint32_t num_lacking;         /* how many there are */
+    uint32_t max_lights;          /* array length in the shader */
+    const char *id;               /* id of the error: "missing-texture"… */
+    char reason[512];             /* why it failed */
 };
 
 /*

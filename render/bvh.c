@@ -11,16 +11,16 @@ enum { LEAF_TRIANGLES = 4 };
 
 struct item {
     float low[3], high[3], centre[3];
-    uint32_t triangle;
+    uint32_t triangle; /* three corners in `corners` */
 };
 
-static struct item make_item(const struct mesh *mesh, uint32_t triangle)
+static struct item make_item(const struct bvh_corner *corners, uint32_t triangle)
 {
     struct item item = {
         {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, {0}, triangle};
     for (uint32_t k = 0; k < 3; ++k)
         for (size_t i = 0; i < 3; ++i) {
-            float x = mesh->vertices[mesh->indices[triangle * 3 + k]].position[i];
+            float x = corners[3 * (size_t)triangle + k].position[i];
             item.low[i] = fminf(item.low[i], x);
             item.high[i] = fmaxf(item.high[i], x);
         }
@@ -90,32 +90,68 @@ static void split(struct bvh *bvh, uint32_t node, struct item *items, uint32_t f
     split(bvh, children + 1, items, first + count / 2, count - count / 2);
 }
 
-static struct bvh_corner make_corner(const struct vertex *vertex)
+static void store_unit(double v[3], float out[3])
+{
+    vector_normalize(v);
+    for (size_t i = 0; i < 3; ++i)
+        out[i] = (float)v[i];
+}
+
+/* The vertex in the world. */
+static struct bvh_corner make_corner(const struct vertex *vertex, const struct matrix *world,
+                                     const struct matrix *normals)
 {
     struct bvh_corner corner = {.s = vertex->texcoord[0], .t = vertex->texcoord[1]};
-    memcpy(corner.position, vertex->position, sizeof corner.position);
-    memcpy(corner.normal, vertex->normal, sizeof corner.normal);
-    memcpy(corner.tangent, vertex->tangent, sizeof vertex->tangent);
-    memcpy(corner.rest, vertex->position, sizeof vertex->position);
-    memcpy(corner.moved, vertex->normal, sizeof vertex->normal);
+    double at[3], normal[3], tangent[3];
+    for (size_t i = 0; i < 3; ++i) {
+        at[i] = vertex->position[i];
+        normal[i] = vertex->normal[i];
+        tangent[i] = vertex->tangent[i];
+    }
+    matrix_point(*world, at, at);
+    matrix_direction(*normals, normal, normal);
+    matrix_direction(*world, tangent, tangent);
+    for (size_t i = 0; i < 3; ++i)
+        corner.position[i] = corner.rest[i] = (float)at[i];
+    store_unit(normal, corner.normal);
+    store_unit(tangent, corner.tangent);
+    memcpy(corner.moved, corner.normal, sizeof corner.normal);
     return corner;
 }
 
-bool bvh_build(const struct mesh *mesh, struct bvh *out)
+static void add_corners(const struct scene_object *object, uint32_t number,
+                        struct bvh_corner *corners)
 {
-    uint32_t count = mesh->num_indices / 3;
+    const struct mesh *mesh = &object->mesh;
+    struct matrix normals = matrix_transpose(matrix_inverse(object->world));
+    for (uint32_t i = 0; i < mesh->num_indices; ++i) {
+        corners[i] = make_corner(&mesh->vertices[mesh->indices[i]], &object->world, &normals);
+        corners[i].object = number;
+        corners[i].triangle = i / 3;
+    }
+}
+
+bool bvh_build(const struct scene_object *const *objects, uint32_t num_objects, struct bvh *out)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < num_objects; ++i)
+        count += objects[i]->mesh.num_indices / 3;
     *out = (struct bvh){malloc(2 * (size_t)count * sizeof *out->nodes),
                         malloc(3 * (size_t)count * sizeof *out->corners), 1, count};
     struct item *items = malloc(count * sizeof *items);
-    bool good = items && out->nodes && out->corners;
+    struct bvh_corner *corners = malloc(3 * (size_t)count * sizeof *corners);
+    bool good = items && corners && out->nodes && out->corners;
+    size_t at = 0;
+    for (uint32_t i = 0; good && i < num_objects; at += objects[i++]->mesh.num_indices)
+        add_corners(objects[i], i, corners + at);
     for (uint32_t i = 0; good && i < count; ++i)
-        items[i] = make_item(mesh, i);
+        items[i] = make_item(corners, i);
     if (good)
         split(out, 0, items, 0, count);
-    for (uint32_t i = 0; good && i < 3 * count; ++i)
-        out->corners[i] =
-            make_corner(&mesh->vertices[mesh->indices[items[i / 3].triangle * 3 + i % 3]]);
+    for (size_t i = 0; good && i < 3 * (size_t)count; ++i)
+        out->corners[i] = corners[3 * (size_t)items[i / 3].triangle + i % 3];
     free(items);
+    free(corners);
     return good;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A tree of boxes around the triangles of a mesh, for path.glsl. */
+/* A tree of boxes around the triangles of objects in the world, for path.glsl. */
 #ifndef MXG_RENDER_BVH_H
 #define MXG_RENDER_BVH_H
 
-#include "render/mesh.h"
+#include "render/scene.h"
 
 struct bvh_node {
     float low[3];
@@ -13,9 +13,11 @@ struct bvh_node {
 };
 
 struct bvh_corner {
-    float position[3], s, normal[3], t, tangent[4];
-    /* the position before displacement, and the normal after it */
-    float rest[4], moved[4];
+    float position[3], s, normal[3], t, tangent[3];
+    uint32_t object;
+    float rest[3];     /* the position before displacement */
+    uint32_t triangle; /* number in its object */
+    float moved[4];    /* the normal after displacement */
 };
 
 struct bvh {
@@ -25,7 +27,7 @@ struct bvh {
 };
 
 /* false: out of memory. Call bvh_finish in any case. */
-bool bvh_build(const struct mesh *mesh, struct bvh *out);
+bool bvh_build(const struct scene_object *const *objects, uint32_t num_objects, struct bvh *out);
 /*
  * Moves the corners to `positions` (four floats each), and rotates their normals with the adjacent
  * triangles.

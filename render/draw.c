@@ -9,13 +9,22 @@
 #define COLOR_FORMAT VK_FORMAT_R32G32B32A32_SFLOAT
 #define DEPTH_FORMAT VK_FORMAT_D32_SFLOAT
 
-/* What it owns on the device. */
+struct draw_canvas {
+    struct gpu *gpu;
+    uint32_t width, height;
+    struct gpu_image color, depth;
+    struct gpu_buffer readback;
+};
+
+/* The buffers of an object. */
+struct object_buffers {
+    struct gpu_buffer indices, attributes[DRAW_MAX_ATTRIBUTES];
+};
+
 struct draw_program {
     struct gpu *gpu;
     const struct draw *draw;
-    struct gpu_image color, depth;
-    struct gpu_buffer readback, indices;
-    struct gpu_buffer attributes[DRAW_MAX_ATTRIBUTES];
+    struct object_buffers *objects;
     struct inputs inputs;
     VkPipelineLayout layout;
     VkShaderModule modules[2];
@@ -24,29 +33,54 @@ struct draw_program {
 
 /* ---- Resources ---- */
 
-static bool create_targets(struct draw_program *program)
+struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t height)
 {
-    struct gpu *gpu = program->gpu;
-    uint32_t width = program->draw->width, height = program->draw->height;
-    return gpu_create_image(gpu, COLOR_FORMAT, width, height, 0, 1,
-                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                            VK_IMAGE_ASPECT_COLOR_BIT, &program->color)
-           && gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1,
-                               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                               VK_IMAGE_ASPECT_DEPTH_BIT, &program->depth)
-           && gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
-                                (size_t)width * height * 4 * sizeof(float), &program->readback);
+    struct draw_canvas *canvas = calloc(1, sizeof *canvas);
+    if (!canvas) {
+        gpu_check(gpu, VK_ERROR_OUT_OF_HOST_MEMORY, "preparing to draw");
+        return NULL;
+    }
+    *canvas = (struct draw_canvas){.gpu = gpu, .width = width, .height = height};
+    if (gpu_create_image(gpu, COLOR_FORMAT, width, height, 0, 1,
+                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                         VK_IMAGE_ASPECT_COLOR_BIT, &canvas->color)
+        && gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1,
+                            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT,
+                            &canvas->depth)
+        && gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
+                             (size_t)width * height * 4 * sizeof(float), &canvas->readback))
+        return canvas;
+    draw_close_canvas(canvas);
+    return NULL;
+}
+
+void draw_close_canvas(struct draw_canvas *canvas)
+{
+    if (!canvas)
+        return;
+    gpu_destroy_buffer(canvas->gpu, &canvas->readback);
+    gpu_destroy_image(canvas->gpu, &canvas->depth);
+    gpu_destroy_image(canvas->gpu, &canvas->color);
+    free(canvas);
 }
 
 static bool create_buffers(struct draw_program *program)
 {
     const struct draw *draw = program->draw;
-    bool good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, draw->indices,
-                                  draw->num_indices * sizeof *draw->indices, &program->indices);
-    for (uint32_t i = 0; good && i < draw->num_attributes; ++i)
-        good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                                 draw->attributes[i].data, (size_t)draw->num_vertices * 16,
-                                 &program->attributes[i]);
+    bool good = true;
+    program->objects = calloc(draw->num_objects, sizeof *program->objects);
+    if (!program->objects)
+        return gpu_check(program->gpu, VK_ERROR_OUT_OF_HOST_MEMORY, "preparing to draw");
+    for (uint32_t o = 0; good && o < draw->num_objects; ++o) {
+        const struct draw_object *object = &draw->objects[o];
+        good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, object->indices,
+                                 object->num_indices * sizeof *object->indices,
+                                 &program->objects[o].indices);
+        for (uint32_t i = 0; good && i < draw->num_attributes; ++i)
+            good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                                     object->attributes[i], (size_t)object->num_vertices * 16,
+                                     &program->objects[o].attributes[i]);
+    }
     return good;
 }
 
@@ -134,7 +168,7 @@ static const VkPipelineRenderingCreateInfo rendering = {
     .depthAttachmentFormat = DEPTH_FORMAT,
 };
 
-static bool create_pipeline(struct draw_program *program)
+static bool create_pipeline(struct draw_program *program, const struct draw_canvas *canvas)
 {
     const struct draw *draw = program->draw;
     const VkPipelineShaderStageCreateInfo stages[2] = {
@@ -146,8 +180,8 @@ static bool create_pipeline(struct draw_program *program)
     const VkPipelineVertexInputStateCreateInfo input = vertex_input(draw, bindings, attributes);
     /* A negative height turns the picture so that clip space has y upwards, as in OpenGL. */
     const VkViewport viewport = {
-        0, (float)draw->height, (float)draw->width, -(float)draw->height, 0, 1};
-    const VkRect2D scissor = {{0, 0}, {draw->width, draw->height}};
+        0, (float)canvas->height, (float)canvas->width, -(float)canvas->height, 0, 1};
+    const VkRect2D scissor = {{0, 0}, {canvas->width, canvas->height}};
     const VkPipelineViewportStateCreateInfo viewports = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
         .viewportCount = 1,
@@ -161,7 +195,7 @@ static bool create_pipeline(struct draw_program *program)
         .lineWidth = 1.0f};
     const VkPipelineDepthStencilStateCreateInfo depth = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = !draw->blend,
+        .depthTestEnable = VK_TRUE,
         .depthWriteEnable = !draw->blend,
         .depthCompareOp = VK_COMPARE_OP_LESS};
     const VkPipelineColorBlendAttachmentState blend = premultiplied_blending(draw->blend);
@@ -189,75 +223,131 @@ static bool create_pipeline(struct draw_program *program)
 
 /* ---- Drawing ---- */
 
-static void begin_rendering(const struct draw_program *program, VkCommandBuffer commands)
+static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer commands)
 {
-    gpu_image_barrier(commands, program->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+    gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
                       VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    gpu_image_barrier(commands, program->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1,
+    gpu_image_barrier(commands, canvas->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1,
                       VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     const VkRenderingAttachmentInfo color = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                             .imageView = program->color.view,
+                                             .imageView = canvas->color.view,
                                              .imageLayout =
                                                  VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                              .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                              .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     const VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                             .imageView = program->depth.view,
+                                             .imageView = canvas->depth.view,
                                              .imageLayout =
                                                  VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                                              .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                              .storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
                                              .clearValue = {.depthStencil = {.depth = 1.0f}}};
-    const VkRenderingInfo info = {
-        .sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-        .renderArea = {{0, 0}, {program->draw->width, program->draw->height}},
-        .layerCount = 1,
-        .colorAttachmentCount = 1,
-        .pColorAttachments = &color,
-        .pDepthAttachment = &depth};
+    const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                  .renderArea = {{0, 0}, {canvas->width, canvas->height}},
+                                  .layerCount = 1,
+                                  .colorAttachmentCount = 1,
+                                  .pColorAttachments = &color,
+                                  .pDepthAttachment = &depth};
     vkCmdBeginRendering(commands, &info);
 }
 
-static void record(const struct draw_program *program, VkCommandBuffer commands)
+/* A draw call. */
+struct call {
+    const struct draw_program *program;
+    uint32_t object;
+};
+
+static int compare_calls(const void *a, const void *b)
 {
+    const struct call *x = a, *y = b;
+    bool blends = x->program->draw->blend;
+    if (blends != y->program->draw->blend)
+        return blends ? 1 : -1;
+    double near = x->program->draw->objects[x->object].distance,
+           far = y->program->draw->objects[y->object].distance;
+    return blends ? (near < far) - (near > far) : 0;
+}
+
+/* The calls in their order; free. */
+static struct call *sort_calls(struct draw_program *const *programs, size_t count,
+                               size_t *out_count)
+{
+    size_t total = 0;
+    for (size_t i = 0; i < count; ++i)
+        total += programs[i]->draw->num_objects;
+    struct call *calls = malloc((total + 1) * sizeof *calls);
+    *out_count = 0;
+    for (size_t i = 0; calls && i < count; ++i)
+        for (uint32_t o = 0; o < programs[i]->draw->num_objects; ++o)
+            calls[(*out_count)++] = (struct call){programs[i], o};
+    if (calls)
+        qsort(calls, total, sizeof *calls, compare_calls);
+    return calls;
+}
+
+static void record_call(const struct call *call, VkCommandBuffer commands)
+{
+    const struct draw_program *program = call->program;
     const struct draw *draw = program->draw;
-    begin_rendering(program, commands);
-    if (program->inputs.num_sets)
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0,
-                                program->inputs.num_sets, program->inputs.sets, 0, NULL);
+    const struct object_buffers *buffers = &program->objects[call->object];
     const VkDeviceSize zero = 0;
+    inputs_bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, draw, &program->inputs,
+                call->object);
     for (uint32_t i = 0; i < draw->num_attributes; ++i)
-        vkCmdBindVertexBuffers(commands, i, 1, &program->attributes[i].buffer, &zero);
-    vkCmdBindIndexBuffer(commands, program->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
+        vkCmdBindVertexBuffers(commands, i, 1, &buffers->attributes[i].buffer, &zero);
+    vkCmdBindIndexBuffer(commands, buffers->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->pipeline);
-    vkCmdDrawIndexed(commands, draw->num_indices, 1, 0, 0, 0);
+    vkCmdDrawIndexed(commands, draw->objects[call->object].num_indices, 1, 0, 0, 0);
+}
+
+static void record(const struct draw_canvas *canvas, const struct call *calls, size_t count,
+                   VkCommandBuffer commands)
+{
+    begin_rendering(canvas, commands);
+    for (size_t i = 0; i < count; ++i)
+        record_call(&calls[i], commands);
     vkCmdEndRendering(commands);
-    gpu_image_barrier(commands, program->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+    gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
                       VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                       VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                    .imageExtent = {draw->width, draw->height, 1}};
-    vkCmdCopyImageToBuffer(commands, program->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           program->readback.buffer, 1, &copy);
+                                    .imageExtent = {canvas->width, canvas->height, 1}};
+    vkCmdCopyImageToBuffer(commands, canvas->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           canvas->readback.buffer, 1, &copy);
 }
 
-bool draw_frame(struct draw_program *program, float *out_pixels)
+static void update(struct draw_program *program)
 {
     const struct draw *draw = program->draw;
     inputs_update(draw, &program->inputs);
-    memcpy(program->indices.mapped, draw->indices, draw->num_indices * sizeof *draw->indices);
-    VkCommandBuffer commands = gpu_begin(program->gpu);
-    if (!commands)
+    for (uint32_t o = 0; o < draw->num_objects; ++o)
+        memcpy(program->objects[o].indices.mapped, draw->objects[o].indices,
+               draw->objects[o].num_indices * sizeof *draw->objects[o].indices);
+}
+
+bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs, size_t count,
+                float *out_pixels)
+{
+    size_t num_calls;
+    struct call *calls = sort_calls(programs, count, &num_calls);
+    VkCommandBuffer commands = calls ? gpu_begin(canvas->gpu) : NULL;
+    bool good = commands != NULL;
+    if (!calls)
+        gpu_check(canvas->gpu, VK_ERROR_OUT_OF_HOST_MEMORY, "preparing to draw");
+    for (size_t i = 0; good && i < count; ++i)
+        update(programs[i]);
+    if (good)
+        record(canvas, calls, num_calls, commands);
+    free(calls);
+    if (!good || !gpu_end(canvas->gpu, commands))
         return false;
-    record(program, commands);
-    if (!gpu_end(program->gpu, commands))
-        return false;
-    memcpy(out_pixels, program->readback.mapped, program->readback.size);
+    memcpy(out_pixels, canvas->readback.mapped, canvas->readback.size);
     return true;
 }
 
-struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw)
+struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *draw)
 {
+    struct gpu *gpu = canvas->gpu;
     struct draw_program *program = calloc(1, sizeof *program);
     if (!program) {
         gpu_check(gpu, VK_ERROR_OUT_OF_HOST_MEMORY, "preparing to draw");
@@ -265,9 +355,8 @@ struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw)
     }
     program->gpu = gpu;
     program->draw = draw;
-    if (create_targets(program) && create_buffers(program)
-        && inputs_create(program->gpu, draw, &program->inputs) && create_layout(program)
-        && create_modules(program) && create_pipeline(program))
+    if (create_buffers(program) && inputs_create(program->gpu, draw, &program->inputs)
+        && create_layout(program) && create_modules(program) && create_pipeline(program, canvas))
         return program;
     draw_close(program);
     return NULL;
@@ -277,17 +366,17 @@ void draw_close(struct draw_program *program)
 {
     if (!program)
         return;
-    VkDevice device = program->gpu->device;
-    vkDestroyPipeline(device, program->pipeline, NULL);
+    struct gpu *gpu = program->gpu;
+    vkDestroyPipeline(gpu->device, program->pipeline, NULL);
     for (int i = 0; i < 2; ++i)
-        vkDestroyShaderModule(device, program->modules[i], NULL);
-    vkDestroyPipelineLayout(device, program->layout, NULL);
-    inputs_destroy(program->gpu, program->draw, &program->inputs);
-    for (uint32_t i = 0; i < program->draw->num_attributes; ++i)
-        gpu_destroy_buffer(program->gpu, &program->attributes[i]);
-    gpu_destroy_buffer(program->gpu, &program->indices);
-    gpu_destroy_buffer(program->gpu, &program->readback);
-    gpu_destroy_image(program->gpu, &program->depth);
-    gpu_destroy_image(program->gpu, &program->color);
+        vkDestroyShaderModule(gpu->device, program->modules[i], NULL);
+    vkDestroyPipelineLayout(gpu->device, program->layout, NULL);
+    inputs_destroy(gpu, program->draw, &program->inputs);
+    for (uint32_t o = 0; program->objects && o < program->draw->num_objects; ++o) {
+        for (uint32_t i = 0; i < program->draw->num_attributes; ++i)
+            gpu_destroy_buffer(gpu, &program->objects[o].attributes[i]);
+        gpu_destroy_buffer(gpu, &program->objects[o].indices);
+    }
+    free(program->objects);
     free(program);
 }

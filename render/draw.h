@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * One draw call: a program, its inputs as plain data, and a picture of floats. Independent of
+ * Draw calls: programs, their inputs as plain data, and a picture of floats. Independent of
  * MaterialX.
  */
 #ifndef MXG_RENDER_DRAW_H
@@ -16,12 +16,10 @@
 struct draw_attribute {
     uint32_t location;
     VkFormat format; /* of the 16 bytes per vertex, as the shader reads them */
-    void *data;      /* 16 bytes per vertex; malloc */
 };
 
 struct draw_block {
     uint32_t set, binding;
-    unsigned char *data; /* malloc */
     size_t size;
 };
 
@@ -34,29 +32,45 @@ struct draw_texture {
     bool has_mips;
 };
 
+/* A mesh, with the values that the program reads for it. */
+struct draw_object {
+    uint32_t num_vertices, num_indices;
+    const uint32_t *indices;
+    void *attributes[DRAW_MAX_ATTRIBUTES];  /* 16 bytes per vertex; malloc */
+    unsigned char *blocks[DRAW_MAX_BLOCKS]; /* malloc */
+    double distance;                        /* from the camera, where programs blend */
+};
+
+/* A program for several objects. */
 struct draw {
     const uint32_t *code[2]; /* SPIR-V of the vertex and pixel stage */
     size_t code_words[2];
-    uint32_t num_vertices, num_indices;
-    const uint32_t *indices;
     struct draw_attribute attributes[DRAW_MAX_ATTRIBUTES];
     struct draw_block blocks[DRAW_MAX_BLOCKS];
     struct draw_texture textures[DRAW_MAX_TEXTURES];
     uint32_t num_attributes, num_blocks, num_textures;
+    struct draw_object *objects; /* malloc */
+    uint32_t num_objects;
     bool blend; /* colours are premultiplied, and triangles are sorted from far to near */
-    uint32_t width, height;
 };
 
+struct draw_canvas;
 struct draw_program;
 
+/* A picture of this size on the device; NULL: see gpu->reason. */
+struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t height);
+void draw_close_canvas(struct draw_canvas *canvas);
+
 /* Compiles the program and uploads its inputs; NULL: see gpu->reason. `draw` must outlive it. */
-struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw);
+struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *draw);
 
 /*
- * Draws with the current blocks and indices to RGBA floats, top row first, cleared to 0. false: see
+ * Draws all objects of the programs with the current blocks and indices to RGBA floats, top row
+ * first, cleared to 0: opaque programs, then the objects of the others from far to near. false: see
  * gpu->reason.
  */
-bool draw_frame(struct draw_program *program, float *out_pixels);
+bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs, size_t count,
+                float *out_pixels);
 
 void draw_close(struct draw_program *program);
 

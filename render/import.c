@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #define _POSIX_C_SOURCE 200809L
-#include "render/mesh.h"
+#include "render/import.h"
 
 #include "cli/files.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
-#include <assimp/scene.h>
 
 #include <errno.h>
 #include <math.h>
@@ -48,11 +47,7 @@ static bool is_finite(const struct aiScene *scene)
     return true;
 }
 
-/*
- * One list of triangles in the space of the scene. Lines and points are dropped. NULL after a
- * fault.
- */
-static const struct aiScene *read_scene(const char *path, struct mesh_fault *fault)
+const struct aiScene *import_read(const char *path, bool keeps_nodes, struct mesh_fault *fault)
 {
     if (!files_is_regular(path)) { /* a device or a pipe may never end */
         fail(fault, "bad-mesh", access(path, F_OK) == 0 ? "it is not a file" : strerror(errno));
@@ -75,23 +70,26 @@ static const struct aiScene *read_scene(const char *path, struct mesh_fault *fau
         return NULL;
     }
     if (scene) /* this releases the scene if it fails */
-        scene = aiApplyPostProcessing(scene, aiProcess_Triangulate | aiProcess_SortByPType
-                                                 | aiProcess_PreTransformVertices);
+        scene = aiApplyPostProcessing(
+            scene, aiProcess_Triangulate | aiProcess_SortByPType
+                       | (keeps_nodes ? 0u : (unsigned)aiProcess_PreTransformVertices));
     if (!scene)
         fail(fault, "bad-mesh", aiGetErrorString());
     return scene;
+}
+
+unsigned import_missing(const struct aiMesh *mesh)
+{
+    return (mesh->mNormals ? 0u : MESH_NORMALS) | (mesh->mTextureCoords[0] ? 0u : MESH_TEXCOORDS)
+           | (mesh->mTangents && mesh->mTextureCoords[0] ? 0u : MESH_TANGENTS);
 }
 
 /* What any of the scene's meshes lacks. */
 static unsigned missing_parts(const struct aiScene *scene)
 {
     unsigned missing = 0;
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
-        const struct aiMesh *mesh = scene->mMeshes[i];
-        missing |= (mesh->mNormals ? 0u : MESH_NORMALS)
-                   | (mesh->mTextureCoords[0] ? 0u : MESH_TEXCOORDS)
-                   | (mesh->mTangents && mesh->mTextureCoords[0] ? 0u : MESH_TANGENTS);
-    }
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+        missing |= import_missing(scene->mMeshes[i]);
     return missing;
 }
 
@@ -112,7 +110,7 @@ static void store(const struct aiVector3D *from, float out[3])
     out[0] = from->x, out[1] = from->y, out[2] = from->z;
 }
 
-static void copy_vertices(const struct aiMesh *from, struct vertex *to)
+void import_vertices(const struct aiMesh *from, struct vertex *to)
 {
     for (unsigned v = 0; v < from->mNumVertices; ++v) {
         store(&from->mVertices[v], to[v].position);
@@ -132,7 +130,7 @@ static void copy_scene(const struct aiScene *scene, struct mesh *out)
     uint32_t vertex = 0, index = 0;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         const struct aiMesh *mesh = scene->mMeshes[i];
-        copy_vertices(mesh, out->vertices + vertex);
+        import_vertices(mesh, out->vertices + vertex);
         for (unsigned f = 0; f < mesh->mNumFaces; ++f)
             for (unsigned k = 0; mesh->mFaces[f].mNumIndices == 3 && k < 3; ++k)
                 out->indices[index++] = vertex + mesh->mFaces[f].mIndices[k];
@@ -162,7 +160,7 @@ static bool convert(const struct aiScene *scene, unsigned made, struct mesh *out
 bool mesh_import(const char *path, struct mesh *out, unsigned *out_made, struct mesh_fault *fault)
 {
     *out = (struct mesh){0};
-    const struct aiScene *scene = read_scene(path, fault);
+    const struct aiScene *scene = import_read(path, false, fault);
     if (!scene)
         return false;
     *out_made = missing_parts(scene);

@@ -9,13 +9,22 @@ struct maker {
     struct inputs *inputs;
 };
 
+/* Every device takes such an offset into a uniform buffer. */
+#define OFFSET_ROUND 256u
+
 static bool create_blocks(struct maker *maker)
 {
+    const struct draw *draw = maker->draw;
     bool good = true;
-    for (uint32_t i = 0; good && i < maker->draw->num_blocks; ++i)
-        good = gpu_create_buffer(maker->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                                 maker->draw->blocks[i].data, maker->draw->blocks[i].size,
-                                 &maker->inputs->blocks[i]);
+    for (uint32_t i = 0; good && i < draw->num_blocks; ++i) {
+        uint32_t size = (uint32_t)draw->blocks[i].size,
+                 stride = (size + OFFSET_ROUND - 1) / OFFSET_ROUND * OFFSET_ROUND;
+        maker->inputs->strides[i] = stride;
+        good = gpu_create_buffer(maker->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, NULL,
+                                 (size_t)stride * draw->num_objects, &maker->inputs->blocks[i]);
+    }
+    if (good)
+        inputs_update(draw, maker->inputs);
     return good;
 }
 
@@ -57,7 +66,8 @@ static bool create_set_layout(struct maker *maker, uint32_t set)
     for (uint32_t i = 0; i < draw->num_blocks; ++i) {
         if (draw->blocks[i].set == set)
             bindings[count++] = (VkDescriptorSetLayoutBinding){
-                draw->blocks[i].binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages, NULL};
+                draw->blocks[i].binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, stages,
+                NULL};
     }
     for (uint32_t i = 0; i < draw->num_textures; ++i) {
         if (draw->textures[i].set == set)
@@ -78,7 +88,7 @@ static bool create_set_layout(struct maker *maker, uint32_t set)
 static bool allocate_sets(struct maker *maker)
 {
     const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, DRAW_MAX_BLOCKS},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, DRAW_MAX_BLOCKS},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, DRAW_MAX_TEXTURES}};
     const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                              .maxSets = DRAW_MAX_SETS,
@@ -103,12 +113,14 @@ static void write_sets(struct maker *maker)
 {
     const struct draw *draw = maker->draw;
     for (uint32_t i = 0; i < draw->num_blocks; ++i) {
-        const VkDescriptorBufferInfo buffer = {maker->inputs->blocks[i].buffer, 0, VK_WHOLE_SIZE};
+        const VkDescriptorBufferInfo buffer = {maker->inputs->blocks[i].buffer, 0,
+                                               draw->blocks[i].size};
         const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                             .dstSet = maker->inputs->sets[draw->blocks[i].set],
                                             .dstBinding = draw->blocks[i].binding,
                                             .descriptorCount = 1,
-                                            .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                            .descriptorType =
+                                                VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
                                             .pBufferInfo = &buffer};
         vkUpdateDescriptorSets(maker->gpu->device, 1, &write, 0, NULL);
     }
@@ -159,7 +171,30 @@ bool inputs_create(struct gpu *gpu, const struct draw *draw, struct inputs *out)
 void inputs_update(const struct draw *draw, struct inputs *inputs)
 {
     for (uint32_t i = 0; i < draw->num_blocks; ++i)
-        memcpy(inputs->blocks[i].mapped, draw->blocks[i].data, draw->blocks[i].size);
+        for (uint32_t k = 0; k < draw->num_objects; ++k)
+            memcpy((unsigned char *)inputs->blocks[i].mapped + (size_t)k * inputs->strides[i],
+                   draw->objects[k].blocks[i], draw->blocks[i].size);
+}
+
+/* Offsets come in the order of sets, then of bindings. */
+static bool is_before(const struct draw_block *a, const struct draw_block *b)
+{
+    return a->set != b->set ? a->set < b->set : a->binding < b->binding;
+}
+
+void inputs_bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipelineLayout layout,
+                 const struct draw *draw, const struct inputs *inputs, uint32_t object)
+{
+    uint32_t offsets[DRAW_MAX_BLOCKS];
+    for (uint32_t i = 0; i < draw->num_blocks; ++i) {
+        uint32_t rank = 0;
+        for (uint32_t k = 0; k < draw->num_blocks; ++k)
+            rank += is_before(&draw->blocks[k], &draw->blocks[i]);
+        offsets[rank] = object * inputs->strides[i];
+    }
+    if (inputs->num_sets)
+        vkCmdBindDescriptorSets(commands, point, layout, 0, inputs->num_sets, inputs->sets,
+                                draw->num_blocks, offsets);
 }
 
 void inputs_destroy(struct gpu *gpu, const struct draw *draw, struct inputs *inputs)

@@ -6,7 +6,8 @@
 #include "render/draw.h"
 
 struct inputs {
-    struct gpu_buffer blocks[DRAW_MAX_BLOCKS];
+    struct gpu_buffer blocks[DRAW_MAX_BLOCKS]; /* of all objects, one after the other */
+    uint32_t strides[DRAW_MAX_BLOCKS];
     struct gpu_image textures[DRAW_MAX_TEXTURES];
     VkSampler samplers[DRAW_MAX_TEXTURES];
     VkDescriptorSetLayout set_layouts[DRAW_MAX_SETS];
@@ -19,6 +20,9 @@ struct inputs {
 bool inputs_create(struct gpu *gpu, const struct draw *draw, struct inputs *out);
 /* Uploads the current contents of the blocks. */
 void inputs_update(const struct draw *draw, struct inputs *inputs);
+/* Binds the sets from set 0 on, with the blocks of an object. */
+void inputs_bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipelineLayout layout,
+                 const struct draw *draw, const struct inputs *inputs, uint32_t object);
 void inputs_destroy(struct gpu *gpu, const struct draw *draw, struct inputs *inputs);
 
 #endif

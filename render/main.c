@@ -11,7 +11,9 @@
 #include "render/bake.h"
 #include "render/picture.h"
 #include "render/sheet.h"
+#include "render/stage_picture.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -37,6 +39,7 @@ struct job {
     struct render_options options;
     struct painter painter;
     enum scene_kind scene_kind;
+    struct stage stage;
     struct bind_value *values;
     struct arg_list found; /* documents, including those in folders; allocated */
     struct outputs files;  /* files that the command reads or writes */
@@ -124,6 +127,12 @@ static bool apply_interface(struct job *job)
                          mxg_options_set(job->cli.options, "interface", "reduced"));
 }
 
+/* True if --camera is the path of a camera on the stage. */
+static bool names_camera(const struct job *job)
+{
+    return job->options.stage && job->options.camera && *job->options.camera == '/';
+}
+
 static bool parse(struct job *job)
 {
     const char *scene_names[NUM_SCENES + 1] = {0};
@@ -144,7 +153,8 @@ static bool parse(struct job *job)
                      (const char *const[]){"error", "checker", NULL})
                != 0)
         return false;
-    if (job->options.camera && !studio_parse_camera(&job->painter.studio, job->options.camera)) {
+    if (job->options.camera && !names_camera(job)
+        && !studio_parse_camera(&job->painter.studio, job->options.camera)) {
         fprintf(stderr,
                 "mxgen: '%s' is no camera; write AZIMUTH,ELEVATION[,DISTANCE[,FOV]], with an "
                 "elevation between -90 and 90\n",
@@ -216,6 +226,41 @@ static bool make_scene(struct job *job)
     return good || report_status(&job->cli.report, MXG_ERROR_MEMORY);
 }
 
+/* Lengths of documents are in the unit of the stage, where it is one of MaterialX's. */
+static void apply_unit(struct job *job)
+{
+    static const struct {
+        const char *name;
+        double meters;
+    } units[] = {{"meter", 1},     {"centimeter", 0.01}, {"millimeter", 0.001}, {"kilometer", 1000},
+                 {"inch", 0.0254}, {"foot", 0.3048},     {"micron", 1e-6},      {"nanometer", 1e-9},
+                 {"yard", 0.9144}, {"mile", 1609.344}};
+    double unit = mxg_scene_meters_per_unit(job->stage.scene);
+    if (args_is_given(&job->cli.parser, "distance-unit") || unit <= 0)
+        return;
+    for (size_t i = 0; i < sizeof units / sizeof *units; ++i)
+        if (fabs(unit / units[i].meters - 1) < 1e-5)
+            mxg_options_set(job->cli.options, "distance-unit", units[i].name);
+}
+
+static bool make_stage(struct job *job)
+{
+    struct painter *painter = &job->painter;
+    struct studio_fault fault;
+    double aspect = (double)painter->width / painter->height;
+    if (!stage_open(&job->stage, job->cli.context, &job->cli.report, job->options.stage,
+                    job->options.purpose))
+        return false;
+    apply_unit(job);
+    if (!studio_open_light(&painter->studio, &painter->scene, &fault)) {
+        report_error(&job->cli.report, fault.id, "%s", fault.text);
+        return false;
+    }
+    tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
+    return stage_aim(&job->stage, &painter->studio, names_camera(job) ? job->options.camera : NULL,
+                     job->options.camera && !names_camera(job), aspect, &painter->scene);
+}
+
 static bool open_gpu(struct job *job)
 {
     struct painter *painter = &job->painter;
@@ -235,7 +280,7 @@ static bool prepare(struct job *job)
 {
     struct painter *painter = &job->painter;
     painter->oversampling = job->scene_kind == SCENE_GRID ? 1 : OVERSAMPLING;
-    if (!make_scene(job))
+    if (!(job->options.stage ? make_stage(job) : make_scene(job)))
         return false;
     painter->scene.environment_samples = (uint32_t)job->options.samples;
     painter->scene.frame = (int32_t)job->options.frame;
@@ -259,7 +304,7 @@ static void report_progress(const struct job *job, size_t done, size_t count, co
 static void draw_one(struct job *job, const struct subject *subject)
 {
     struct image picture;
-    if (picture_draw(&job->painter, subject, &picture)) {
+    if (picture_draw(&job->painter, subject, 1, &picture)) {
         picture_write(&job->painter, job->options.output, &picture);
         if (job->options.copy)
             picture_write(&job->painter, job->options.copy, &picture);
@@ -279,7 +324,7 @@ static void draw_turntable(struct job *job, const struct subject *subject)
 {
     struct painter *painter = &job->painter;
     struct painting painting;
-    bool good = painting_open(painter, subject, &painting);
+    bool good = painting_open(painter, subject, 1, &painting);
     for (size_t i = 0; good && i < job->options.frames; ++i) {
         struct image picture;
         char *name = frame_name(job->options.output, i);
@@ -293,6 +338,21 @@ static void draw_turntable(struct job *job, const struct subject *subject)
     }
     report_progress(job, job->options.frames, job->options.frames, "");
     painting_close(&painting);
+}
+
+static void draw_stage(struct job *job, const mxg_document *document, const char *path)
+{
+    struct stage_subjects subjects;
+    struct image picture = {0};
+    if (stage_subjects_make(&job->painter, &job->stage, document, path, job->options.look,
+                            &subjects)
+        && picture_draw(&job->painter, subjects.items, subjects.len, &picture)) {
+        picture_write(&job->painter, job->options.output, &picture);
+        if (job->options.copy)
+            picture_write(&job->painter, job->options.copy, &picture);
+    }
+    image_finish(&picture);
+    stage_subjects_finish(&subjects);
 }
 
 /* ---- Contact sheets ---- */
@@ -315,7 +375,8 @@ static void add_item(struct items *list, const mxg_document *document, const cha
     if (!more)
         return;
     list->items = more;
-    more[list->len++] = (struct item){{document, path, element}, cli_format("%s", element)};
+    more[list->len++] = (struct item){{.document = document, .path = path, .element = element},
+                                      cli_format("%s", element)};
 }
 
 /* Adds the materials of the requested look, or the renderables. */
@@ -381,7 +442,7 @@ static void free_items(struct items *list)
 static void place(struct job *job, struct sheet *sheet, size_t index, const struct item *item)
 {
     struct image linear, shown = {0};
-    bool good = picture_draw(&job->painter, &item->subject, &linear)
+    bool good = picture_draw(&job->painter, &item->subject, 1, &linear)
                 && picture_develop(&job->painter, &linear, &shown);
     sheet_place(sheet, (uint32_t)index, good ? &shown : NULL, item->name);
     image_finish(&linear);
@@ -439,9 +500,10 @@ static void draw_grid(struct job *job, const mxg_document *document, const char 
         mxg_document_renderable(document, i, &renderable);
         if (job->options.element && strcmp(job->options.element, renderable.path) != 0)
             continue;
-        const struct subject subject = {document, path, renderable.path};
+        const struct subject subject = {
+            .document = document, .path = path, .element = renderable.path};
         struct image pixels;
-        if (picture_draw(&job->painter, &subject, &pixels))
+        if (picture_draw(&job->painter, &subject, 1, &pixels))
             print_values(renderable.path, num_components(renderable.type), &pixels);
         image_finish(&pixels);
     }
@@ -467,7 +529,7 @@ static void tell_choice(const struct job *job, const mxg_document *document)
 static void render_file(struct job *job, const char *path)
 {
     mxg_document *document = load(job, path);
-    struct subject subject = {document, path, job->options.element};
+    struct subject subject = {.document = document, .path = path, .element = job->options.element};
     if (document && prepare(job)) {
         tell_choice(job, document);
         if (job->scene_kind == SCENE_GRID)
@@ -478,6 +540,24 @@ static void render_file(struct job *job, const char *path)
             draw_one(job, &subject);
     }
     mxg_document_destroy(document);
+}
+
+/* Renders the stage. `path` is the document of the look; NULL: the stage brings all. */
+static void render_stage(struct job *job, const char *path)
+{
+    mxg_document *own = path ? load(job, path) : NULL, *document = NULL;
+    if ((path && !own) || !prepare(job)) {
+        mxg_document_destroy(own);
+        return;
+    }
+    mxg_status status = mxg_document_with_materials(job->cli.context, job->cli.library, own,
+                                                    job->stage.scene, &document);
+    if (document)
+        report_list(&job->cli.report, mxg_document_diagnostics(document));
+    if (report_status(&job->cli.report, status))
+        draw_stage(job, document, path ? path : job->options.stage);
+    mxg_document_destroy(document);
+    mxg_document_destroy(own);
 }
 
 static void render_all(struct job *job)
@@ -542,6 +622,8 @@ static bool claim_inputs(struct job *job)
         good = outputs_read(&job->files, report, mxg_library_file(job->cli.library, i)) && good;
     if (job->painter.studio.environment)
         good = outputs_read(&job->files, report, job->painter.studio.environment) && good;
+    if (job->options.stage)
+        good = outputs_read(&job->files, report, job->options.stage) && good;
     if (files_is_regular(job->painter.studio.mesh))
         good = outputs_read(&job->files, report, job->painter.studio.mesh) && good;
     return good;
@@ -599,7 +681,8 @@ static unsigned find_facts(const struct job *job, bool is_grid, bool is_one)
            | fact(is_display || !is_one, FACT_DISPLAY) | fact(is_one, FACT_ONE_FILE)
            | fact(is_one && !options->frames, FACT_ONE_PICTURE) | fact(!options->frames, FACT_STILL)
            | fact(options->path_trace, FACT_TRACED) | fact(!options->path_trace, FACT_RASTER)
-           | fact(is_sampled(job), FACT_SAMPLED) | fact(!options->look, FACT_NO_LOOK);
+           | fact(is_sampled(job), FACT_SAMPLED) | fact(!options->look, FACT_NO_LOOK)
+           | fact(options->stage, FACT_STAGE) | fact(!options->stage, FACT_NO_STAGE);
 }
 
 static int run(struct job *job)
@@ -607,14 +690,16 @@ static int run(struct job *job)
     const struct arg_list *inputs = &job->cli.parser.inputs;
     if (job->options.baked && inputs->len == 0)
         return applies_to_bake(&job->cli.parser) ? bake(job) : EXIT_USAGE;
-    if (job->options.baked || inputs->len == 0) {
+    if (job->options.baked || (inputs->len == 0 && !job->options.stage)) {
         fputs(job->options.baked ? "usage: mxgen render --bake-environment FILE -o FOLDER\n"
                                  : "usage: mxgen render FILE|FOLDER... -o PICTURE.png\n",
               stderr);
         return EXIT_USAGE;
     }
     bool is_grid = !strcmp(job->options.scene, "grid"),
-         is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->options.look;
+         is_one = job->options.stage ? inputs->len < 2
+                                     : inputs->len == 1 && !files_is_folder(inputs->items[0])
+                                           && !job->options.look;
     if (!job->options.output && !is_grid) {
         fputs("mxgen: where to? say -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
@@ -627,7 +712,9 @@ static int run(struct job *job)
     if (can_write(job, job->options.output) && can_write(job, job->options.copy)
         && find_documents(job) && claim_outputs(job)) {
         compile_begin();
-        if (is_one)
+        if (job->options.stage)
+            render_stage(job, job->found.len ? job->found.items[0] : NULL);
+        else if (is_one)
             render_file(job, job->found.items[0]);
         else
             render_all(job);
@@ -635,6 +722,7 @@ static int run(struct job *job)
         gpu_close(&job->painter.gpu);
         mesh_finish(&job->painter.fine);
         scene_finish(&job->painter.scene);
+        stage_close(&job->stage);
     }
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }

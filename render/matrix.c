@@ -81,6 +81,18 @@ struct matrix matrix_rotation(const double axis[3], double degrees)
          {0, 0, 0, 1}}};
 }
 
+struct matrix matrix_orientation(const double q[4])
+{
+    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    double w = q[0] / length, x = q[1] / length, y = q[2] / length, z = q[3] / length;
+    if (!(length > 0))
+        return matrix_identity();
+    return (struct matrix){{{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y), 0},
+                            {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x), 0},
+                            {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y), 0},
+                            {0, 0, 0, 1}}};
+}
+
 struct matrix matrix_look_at(const double eye[3], const double at[3])
 {
     const double up[3] = {0, 1, 0};
@@ -113,4 +125,18 @@ void vector_cross(const double a[3], const double b[3], double out[3])
     out[0] = a[1] * b[2] - a[2] * b[1];
     out[1] = a[2] * b[0] - a[0] * b[2];
     out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+void matrix_direction(struct matrix m, const double direction[3], double out[3])
+{
+    const double d[3] = {direction[0], direction[1], direction[2]};
+    for (int r = 0; r < 3; ++r)
+        out[r] = m.m[0][r] * d[0] + m.m[1][r] * d[1] + m.m[2][r] * d[2];
+}
+
+void matrix_point(struct matrix m, const double point[3], double out[3])
+{
+    matrix_direction(m, point, out);
+    for (int r = 0; r < 3; ++r)
+        out[r] += m.m[3][r];
 }

@@ -203,6 +203,14 @@ bool mesh_complete(struct mesh *mesh, unsigned missing)
 
 /* ---- Changes of the whole ---- */
 
+void mesh_centre(const struct mesh *mesh, double out[3])
+{
+    memset(out, 0, 3 * sizeof *out);
+    for (uint32_t v = 0; v < mesh->num_vertices; ++v)
+        for (size_t i = 0; i < 3; ++i)
+            out[i] += (double)mesh->vertices[v].position[i] / mesh->num_vertices;
+}
+
 void mesh_fit(struct mesh *mesh)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY},
@@ -241,7 +249,7 @@ static struct vertex middle(const struct vertex *a, const struct vertex *b)
     return out;
 }
 
-static bool quarter(struct mesh *mesh)
+bool mesh_quarter(struct mesh *mesh)
 {
     struct mesh fine;
     if (!mesh_allocate(&fine, mesh->num_indices * 2, mesh->num_indices * 4)) {
@@ -263,10 +271,24 @@ static bool quarter(struct mesh *mesh)
     return true;
 }
 
+float (*mesh_quarter_values(const struct mesh *mesh, float (*values)[4]))[4]
+{
+    float(*out)[4] = malloc((size_t)mesh->num_indices * 2 * sizeof *out);
+    for (uint32_t first = 0; out && first + 2 < mesh->num_indices; first += 3)
+        for (uint32_t k = 0; k < 3; ++k)
+            for (size_t c = 0; c < 4; ++c) {
+                float from = values[mesh->indices[first + k]][c],
+                      to = values[mesh->indices[first + (k + 1) % 3]][c];
+                out[first * 2 + k][c] = from;
+                out[first * 2 + 3 + k][c] = 0.5f * (from + to);
+            }
+    return out;
+}
+
 bool mesh_subdivide(struct mesh *mesh, uint32_t wanted)
 {
     while (mesh->num_indices / 3 < wanted)
-        if (!quarter(mesh))
+        if (!mesh_quarter(mesh))
             return false;
     return true;
 }

@@ -35,9 +35,19 @@ bool mesh_complete(struct mesh *mesh, unsigned missing);
 /* The total area of the triangles. */
 double mesh_area(const struct mesh *mesh);
 
+/* The mean of the vertices. */
+void mesh_centre(const struct mesh *mesh, double out[3]);
+
 /* Moves and scales the mesh into the unit sphere about the origin. */
 void mesh_fit(struct mesh *mesh);
 
+/* Splits each triangle into four. false: out of memory. */
+bool mesh_quarter(struct mesh *mesh);
+/*
+ * What values of the vertices become where mesh_quarter splits this mesh; malloc. NULL: out of
+ * memory.
+ */
+float (*mesh_quarter_values(const struct mesh *mesh, float (*values)[4]))[4];
 /* Splits each triangle into four until there are `wanted` triangles. false: out of memory. */
 bool mesh_subdivide(struct mesh *mesh, uint32_t wanted);
 

@@ -2,27 +2,48 @@
 // A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), TRACER_SET and, where they
 // hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
 //
+// A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
+// kernel runs.
+//
 // Light comes from the environment, from bound lights and from what surfaces emit. Directions are drawn by closures and by the environment
 // alike, and weighed by the balance heuristic (Veach and Guibas 1995); src/closure/scatter.c tells how closures take part.
 
 struct Node { vec3 low; uint first; vec3 high; uint count; };
-struct Corner { vec4 position_s, normal_t, tangent, rest, moved; }; // at rest: before the surface was displaced
+struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
+struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
+struct Hit { float distance; uint triangle; vec2 weights; };
+struct Shadow { vec3 origin; float limit; vec3 direction; uint hits; vec4 light; }; // a ray to a light, and what it brings
+struct Path {
+    vec3 origin; float density;
+    vec3 direction; uint turns;
+    vec3 through; uint hits;
+    vec3 medium; uint num_shadows;
+    vec3 light; uint phase;
+    Hit hit;                                        // of a path that waits
+    uint waits_for, number, random, waits;          // number of the sample
+    Shadow shadows[2];
+};
 
 layout(set = TRACER_SET, binding = 0, std430) readonly buffer Nodes { Node nodes[]; };
 layout(set = TRACER_SET, binding = 1, std430) readonly buffer Corners { Corner corners[]; };
 layout(set = TRACER_SET, binding = 2, std430) buffer Film { vec4 film[]; };
 // Sums of the map's light: over rows (height + 1 of them, from 0 to 1), then for each row over its texels (width + 1).
 layout(set = TRACER_SET, binding = 3, std430) readonly buffer Sums { float sums[]; };
-layout(set = TRACER_SET, binding = 4) uniform sampler2D environment_map;
+layout(set = TRACER_SET, binding = 4, std430) readonly buffer Objects { Object objects[]; };
+layout(set = TRACER_SET, binding = 5, std430) readonly buffer Values { vec4 values[]; };
+layout(set = TRACER_SET, binding = 6, std430) buffer Paths { Path paths[]; };
+layout(set = TRACER_SET, binding = 7, std430) buffer Waiting { uint waiting[]; }; // how many paths wait for each shader
+layout(set = TRACER_SET, binding = 8) uniform sampler2D environment_map;
 layout(push_constant) uniform Camera {
     vec4 eye, right, up, forward;  // a ray through (x, y), each from -1 to 1, goes along forward + x * right + y * up
     vec4 environment[3];           // columns: from the world to the map
     uvec4 frame;                   // width, height, first sample, number of samples
 } camera;                          // eye.w: how often a path may turn; right.w: 1 where it goes as a drawn picture has it;
                                    // up.w: brightness of the environment; forward.w: 1 to displace the corners
+                                   // environment[0].w: a distance that nothing has; [1].w: number of this shader
 layout(local_size_x = 8, local_size_y = 8) in;
 
-const float NEAR = 1e-4;
+#define NEAR camera.environment[0].w
 const float FAR = 1e29;
 const float PI = 3.14159265;
 const int MAX_HITS = 64; // those that a path goes straight through, too
@@ -50,8 +71,6 @@ vec4 next_random()
 }
 
 // ---- Intersection ----
-
-struct Hit { float distance; uint triangle; vec2 weights; };
 
 float enter_box(uint node, vec3 origin, vec3 inverse, float limit)
 {
@@ -164,6 +183,17 @@ vec4 draw_environment(vec4 xi)
 
 // ---- Surfaces ----
 
+Hit met;           // where attributes are read
+
+// Attribute number i at the hit.
+vec4 hit_value(uint i)
+{
+    Corner corner = corners[met.triangle * 3u];
+    Object object = objects[corner.object];
+    uint at = object.first_value + (i * object.num_triangles + corner.triangle) * 3u;
+    return values[at] * (1.0 - met.weights.x - met.weights.y) + values[at + 1u] * met.weights.x + values[at + 2u] * met.weights.y;
+}
+
 vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 weights)
 {
     return a * (1.0 - weights.x - weights.y) + b * weights.x + c * weights.y;
@@ -219,6 +249,8 @@ Point shade(Hit hit, vec3 direction, vec4 light)
     vec3 rest = mixed(a.rest.xyz, b.rest.xyz, c.rest.xyz, hit.weights);
     vec3 moved = normalize(mixed(a.moved.xyz, b.moved.xyz, c.moved.xyz, hit.weights));
     find_differentials(a, b, c, point.facet, direction, hit.distance * length(camera.right.xyz) / float(camera.frame.x));
+    met = hit;
+    to_object = objects[a.object].to_object;
     fill_vertex_data(rest, normal, tangent, texcoord, -direction, next_random(), light, moved);
     scatter();
     return point;
@@ -226,45 +258,31 @@ Point shade(Hit hit, vec3 direction, vec4 light)
 
 // ---- Lights ----
 
-// Whether light comes to the point from there; what is behind `limit` is behind the light. A drawn picture has no shadows.
-bool is_visible(Point point, vec3 direction, float limit)
-{
-    vec3 origin = beside(point, direction);
-    Hit hit;
-    if (as_drawn() || !find_hit(origin, direction, limit, hit))
-        return true;
-#ifdef TRANSPARENT
-    for (int i = 0; i < MAX_HITS; ++i) {
-        origin = shade(hit, direction, vec4(0.0)).position + direction * NEAR;
-        limit -= hit.distance;
-        if (next_random().x < out1.a)
-            return false;
-        if (!find_hit(origin, direction, limit, hit))
-            return true;
-    }
-#endif
-    return false;
-}
-
 bool is_light(vec3 color)
 {
     float most = max(color.x, max(color.y, color.z));
     return most > 0.0 && most < FAR; // and a number
 }
 
-// Light that lights send to the point where scatter() has run, and that goes on from there.
-vec3 gather(Point point, vec4 light)
+// Light that comes to the point from there, unless something stands before it; what is behind `limit` is behind the light.
+void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 light)
 {
-    vec3 sum = vec3(0.0), around = out5.rgb * light.w * environment(light.xyz);
+    if (!is_light(light))
+        return;
+    if (as_drawn()) // it has no shadows
+        path.light += light;
+    else
+        path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, vec4(light, 0.0));
+}
+
+// Light that lights send to the point where scatter() has run, and that goes on from there.
+void gather(inout Path path, Point point, vec4 light)
+{
+    vec3 around = out5.rgb * light.w * environment(light.xyz);
+    add_light(path, point, light.xyz, FAR, path.through * around);
 #ifdef LIGHTS
-    vec4 to_light = out6;
-    vec3 bound = out7.rgb;
-    if (is_light(bound) && is_visible(point, to_light.xyz, min(to_light.w, FAR)))
-        sum += bound;
+    add_light(path, point, out6.xyz, min(out6.w, FAR), path.through * out7.rgb);
 #endif
-    if (is_light(around) && is_visible(point, light.xyz, FAR))
-        sum += around;
-    return sum;
 }
 
 // Light that escaped paths meet; `density`: of the closure that sent it there, 0 where lights could not have done so.
@@ -276,54 +294,145 @@ vec3 meet_environment(vec3 direction, float density)
 
 // ---- Paths ----
 
-// Where a path ends that has gone into a solid, as a drawn picture has it: it leaves at the other side, whole.
-vec3 cross_solid(vec3 origin, vec3 direction)
+// What a ray meets.
+const int NOTHING = 0, OURS = 1, ANOTHERS = 2;
+
+int meet(inout Path path, vec3 origin, vec3 direction, float limit, out Hit hit)
 {
-    Hit hit;
-    if (find_hit(origin, direction, FAR, hit)) {
-        for (int i = 0; i < 16; ++i) {
-            Point point = shade(hit, direction, vec4(0.0));
-            if (out2.w > 0.5 && dot(out2.xyz, point.facet) > 0.0)
-                return environment(out2.xyz);
-        }
+    if (path.waits != 0u) {
+        hit = path.hit;
+        path.waits = 0u;
+        return OURS;
     }
-    return environment(direction);
+    if (!find_hit(origin, direction, limit, hit))
+        return NOTHING;
+    path.waits_for = objects[corners[hit.triangle * 3u].object].shader;
+    return path.waits_for == uint(camera.environment[1].w) ? OURS : ANOTHERS;
 }
 
-// Light towards the origin, and whether the path met anything that it did not pass straight through.
-vec4 trace(vec3 origin, vec3 direction)
+// Stops the path until the kernel of another shader runs.
+bool wait(inout Path path, Hit hit)
 {
-    vec3 light = vec3(0.0), through = vec3(1.0), medium = vec3(1.0);
-    int turns = 0;
-    float density = 0.0;
-    for (int i = 0; i < MAX_HITS; ++i) {
-        Hit hit;
-        if ((as_drawn() && turns > 0) || turns >= int(camera.eye.w) || !find_hit(origin, direction, FAR, hit))
-            return turns > 0 ? vec4(light + through * meet_environment(direction, density), 1.0) : vec4(0.0);
-        vec4 towards = draw_environment(next_random());
-        Point point = shade(hit, direction, towards);
-        through *= pow(medium, vec3(hit.distance));
-        if (next_random().x >= out1.a) {
-            origin = point.position + direction * NEAR;
-            continue;
-        }
-        light += through * out1.rgb;
-        ++turns;
-        vec4 next = out2, weight = out3;
-        vec3 inside = out4.rgb;
-        light += through * gather(point, towards);
-        through *= weight.rgb;
-        if (!is_light(through))
+    path.hit = hit;
+    path.waits = 1u;
+    return false;
+}
+
+// Follows the ray to a light to its end, or false where it has to wait.
+bool follow_shadow(inout Path path)
+{
+    Hit hit;
+    Shadow ray = path.shadows[path.num_shadows - 1u];
+    for (; ray.hits < uint(MAX_HITS); ++ray.hits) {
+        int what = meet(path, ray.origin, ray.direction, ray.limit, hit);
+        if (what == NOTHING) {
+            path.light += ray.light.rgb;
             break;
-        direction = normalize(next.xyz);
-        density = weight.w;
-        origin = beside(point, direction);
-        if (next.w > 0.5 && as_drawn())
-            return vec4(light + through * inside * cross_solid(origin, direction), 1.0);
-        if (next.w > 0.5) // into a solid or out of it
-            medium = dot(point.facet, direction) < 0.0 ? inside : vec3(1.0);
+        }
+        if (objects[corners[hit.triangle * 3u].object].blocks_light != 0u)
+            break;
+        if (what == ANOTHERS) {
+            path.shadows[path.num_shadows - 1u] = ray;
+            return wait(path, hit);
+        }
+#ifdef TRANSPARENT
+        ray.origin = shade(hit, ray.direction, vec4(0.0)).position + ray.direction * NEAR;
+        ray.limit -= hit.distance;
+        if (next_random().x < out1.a)
+            break;
+#endif
     }
-    return vec4(light, turns > 0 ? 1.0 : 0.0);
+    --path.num_shadows;
+    return true;
+}
+
+// What a path does next. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole.
+const uint GOING = 0u, CROSSING = 1u, ENDED = 2u;
+
+// Where a path goes that has met a surface.
+void bounce(inout Path path, Point point, vec4 towards)
+{
+    path.light += path.through * out1.rgb;
+    ++path.turns;
+    vec4 next = out2, weight = out3;
+    vec3 inside = out4.rgb;
+    gather(path, point, towards);
+    path.through *= weight.rgb;
+    path.direction = normalize(next.xyz);
+    path.density = weight.w;
+    path.origin = beside(point, path.direction);
+    if (!is_light(path.through))
+        path.phase = ENDED;
+    else if (next.w > 0.5 && as_drawn()) {
+        path.phase = CROSSING;
+        path.through *= inside;
+    } else if (next.w > 0.5) // into a solid or out of it
+        path.medium = dot(point.facet, path.direction) < 0.0 ? inside : vec3(1.0);
+}
+
+// Goes to the next surface; false where it has to wait.
+bool follow_ray(inout Path path)
+{
+    Hit hit;
+    if (path.hits >= uint(MAX_HITS) || (as_drawn() && path.turns > 0u) || path.turns >= uint(camera.eye.w)) {
+        if (path.hits < uint(MAX_HITS) && path.turns > 0u)
+            path.light += path.through * meet_environment(path.direction, path.density);
+        path.phase = ENDED;
+        return true;
+    }
+    int what = meet(path, path.origin, path.direction, FAR, hit);
+    if (what == NOTHING) {
+        if (path.turns > 0u)
+            path.light += path.through * meet_environment(path.direction, path.density);
+        path.phase = ENDED;
+    }
+    if (what == ANOTHERS)
+        return wait(path, hit);
+    if (what != OURS)
+        return true;
+    ++path.hits;
+    vec4 towards = draw_environment(next_random());
+    Point point = shade(hit, path.direction, towards);
+    path.through *= pow(path.medium, vec3(hit.distance));
+    if (next_random().x >= out1.a)
+        path.origin = point.position + path.direction * NEAR;
+    else
+        bounce(path, point, towards);
+    return true;
+}
+
+bool cross_solid(inout Path path)
+{
+    Hit hit;
+    int what = meet(path, path.origin, path.direction, FAR, hit);
+    if (what == ANOTHERS)
+        return wait(path, hit);
+    vec3 behind = path.direction;
+    for (int i = 0; what == OURS && i < 16; ++i) {
+        Point point = shade(hit, path.direction, vec4(0.0));
+        if (out2.w > 0.5 && dot(out2.xyz, point.facet) > 0.0) {
+            behind = out2.xyz;
+            break;
+        }
+    }
+    path.light += path.through * environment(behind);
+    path.phase = ENDED;
+    return true;
+}
+
+// Follows the path to its end, or false where it has to wait. Paths beside each other take turns: all cast shadows, then all go on.
+bool follow(inout Path path)
+{
+    bool goes = true;
+    while (goes && (path.num_shadows > 0u || path.phase != ENDED)) {
+        while (goes && path.num_shadows > 0u)
+            goes = follow_shadow(path);
+        if (goes && path.phase == CROSSING)
+            goes = cross_solid(path);
+        else if (goes && path.phase == GOING)
+            goes = follow_ray(path);
+    }
+    return goes;
 }
 
 #ifdef DISPLACED
@@ -331,12 +440,34 @@ vec4 trace(vec3 origin, vec3 direction)
 void displace(uint i)
 {
     Corner c = corners[i];
-    fill_vertex_data(c.rest.xyz, c.normal_t.xyz, c.tangent.xyz, vec2(c.position_s.w, c.normal_t.w), c.normal_t.xyz, vec4(0.5),
+    if (objects[c.object].shader != uint(camera.environment[1].w))
+        return;
+    met = Hit(0.0, i / 3u, vec2(i % 3u == 1u ? 1.0 : 0.0, i % 3u == 2u ? 1.0 : 0.0));
+    to_object = objects[c.object].to_object;
+    fill_vertex_data(c.rest, c.normal_t.xyz, c.tangent, vec2(c.position_s.w, c.normal_t.w), c.normal_t.xyz, vec4(0.5),
                      vec4(c.normal_t.xyz, 0.0), c.normal_t.xyz);
     scatter();
-    film[i] = vec4(c.rest.xyz + out8.xyz, 0.0);
+    film[i] = vec4(out8.xyz, 0.0);
 }
 #endif
+
+// The path of sample number `number` through the pixel; a draw of random numbers per path.
+Path begin(uvec2 pixel, uint number)
+{
+    Path path;
+    random_state = uvec4(pixel, number, 0u);
+    vec2 at = (vec2(pixel) + next_random().xy) / vec2(camera.frame.xy) * 2.0 - 1.0;
+    path.origin = camera.eye.xyz;
+    path.direction = normalize(camera.forward.xyz + at.x * camera.right.xyz - at.y * camera.up.xyz);
+    path.through = vec3(1.0);
+    path.medium = vec3(1.0);
+    path.light = vec3(0.0);
+    path.density = 0.0;
+    path.turns = path.hits = path.num_shadows = path.waits = path.waits_for = 0u;
+    path.phase = GOING;
+    path.number = number;
+    return path;
+}
 
 void main()
 {
@@ -351,11 +482,30 @@ void main()
 #endif
     if (pixel.x >= camera.frame.x || pixel.y >= camera.frame.y)
         return;
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < camera.frame.w; ++i) {
-        random_state = uvec4(pixel, camera.frame.z + i, 0u);
-        vec2 at = (vec2(pixel) + next_random().xy) / vec2(camera.frame.xy) * 2.0 - 1.0;
-        sum += trace(camera.eye.xyz, normalize(camera.forward.xyz + at.x * camera.right.xyz - at.y * camera.up.xyz));
+    uint index = pixel.y * camera.frame.x + pixel.x, end = camera.frame.z + camera.frame.w;
+    // the first kernel of a batch begins the paths; others go on with those that wait for them
+    bool begins = camera.environment[2].w > 0.5;
+    if (!begins && (paths[index].waits == 0u || paths[index].waits_for != uint(camera.environment[1].w)))
+        return;
+    Path path;
+    if (begins)
+        path = begin(pixel, camera.frame.z);
+    else {
+        path = paths[index];
+        random_state = uvec4(pixel, path.number, path.random);
     }
-    film[pixel.y * camera.frame.x + pixel.x] += sum;
+    vec4 sum = vec4(0.0);
+    for (;;) {
+        if (!follow(path)) {
+            atomicAdd(waiting[path.waits_for], 1u);
+            break;
+        }
+        sum += vec4(path.light, path.turns > 0u ? 1.0 : 0.0);
+        if (path.number + 1u == end)
+            break;
+        path = begin(pixel, path.number + 1u);
+    }
+    path.random = random_state.w;
+    paths[index] = path;
+    film[index] += sum;
 }

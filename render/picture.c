@@ -11,7 +11,9 @@ static bool generate(struct painter *painter, const struct subject *subject, mxg
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
-    desc.element = subject->element;
+    desc.element = subject->bindings ? NULL : subject->element;
+    desc.bindings = subject->bindings;
+    desc.stack = subject->stack;
     desc.options = painter->cli->options;
     mxg_status status = mxg_generate(painter->cli->context, subject->document, &desc, out);
     if (*out)
@@ -21,18 +23,32 @@ static bool generate(struct painter *painter, const struct subject *subject, mxg
 
 /* ---- Drawing ---- */
 
+/* Objects of a stage with triangles small enough for displacement. */
+static bool refine_objects(struct part *part, const struct subject *subject)
+{
+    enum { FINE_TRIANGLES = 1 << 14 };
+    part->fine = calloc(subject->num_objects, sizeof *part->fine);
+    bool good = part->fine != NULL;
+    for (uint32_t i = 0; good && i < subject->num_objects; ++i, ++part->num_fine)
+        good = object_refine(&subject->objects[i], FINE_TRIANGLES, &part->fine[i]);
+    return good;
+}
+
 /* A displaced surface needs a mesh with small triangles. */
-static bool choose_mesh(struct painting *painting)
+static bool choose_mesh(struct painting *painting, struct part *part, const struct subject *subject)
 {
     struct painter *painter = painting->painter;
     mxg_shader_info info = {sizeof info};
-    mxg_result_info(painting->result, &info);
+    mxg_result_info(part->result, &info);
     if (!info.displaced || !painter->is_studio)
         return true;
+    if (subject->num_objects)
+        return refine_objects(part, subject)
+               || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
     if (!painter->fine.vertices
-        && !studio_refine(&painter->studio, &painter->scene.mesh, &painter->fine))
+        && !studio_refine(&painter->studio, &painter->scene.object.mesh, &painter->fine))
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
-    painting->scene.mesh = painter->fine;
+    painting->scene.object.mesh = painter->fine;
     return true;
 }
 
@@ -77,10 +93,9 @@ static void find_missing(struct missing *missing, mxg_context *context,
 
 /* Prints the textures of the shader that cannot be read, each once, with its place if it has one.
  */
-static void tell_textures(const struct painting *painting, const struct subject *subject)
+static void tell_textures(struct painter *painter, const struct bind *bind,
+                          const struct subject *subject)
 {
-    struct painter *painter = painting->painter;
-    const struct bind *bind = painting->bind;
     struct report *report = &painter->cli->report;
     struct missing missing = {0};
     for (size_t i = 0; i < bind->num_faults && !(painter->checker && report->quiet); ++i) {
@@ -115,11 +130,12 @@ static size_t count_files(const struct bind *bind)
     return count;
 }
 
-static bool fail_for_textures(const struct painting *painting, const struct subject *subject)
+static bool fail_for_textures(struct painter *painter, const struct bind *bind,
+                              const struct subject *subject)
 {
-    size_t count = count_files(painting->bind);
-    tell_textures(painting, subject);
-    report_error(&painting->painter->cli->report, painting->bind->id,
+    size_t count = count_files(bind);
+    tell_textures(painter, bind, subject);
+    report_error(&painter->cli->report, bind->id,
                  "%s: %zu texture file%s cannot be read; '--missing-texture checker' draws %s",
                  subject->element ? subject->element : subject->path, count, count == 1 ? "" : "s",
                  count == 1 ? "a checker in its place" : "checkers in their place");
@@ -152,91 +168,126 @@ static const char *closest_input(const mxg_result *result, const char *path)
     return near;
 }
 
-static const char *advice_on_value(const struct painting *painting)
+static const char *advice_on_value(const struct painter *painter, const struct part *part)
 {
-    for (size_t i = 0; i < painting->painter->num_values; ++i) {
+    for (size_t i = 0; i < painter->num_values; ++i) {
         uint32_t index;
-        const char *path = painting->painter->values[i].path;
-        if (!mxg_result_find_variable(painting->result, path, &index))
-            return closest_input(painting->result, path);
+        const char *path = painter->values[i].path;
+        if (!mxg_result_find_variable(part->result, path, &index))
+            return closest_input(part->result, path);
     }
     return NULL;
 }
 
-static bool fail_for_value(const struct painting *painting, const char *name)
+static bool fail_for_value(const struct painter *painter, const struct part *part, const char *name)
 {
-    const struct bind *bind = painting->bind;
-    const char *near = advice_on_value(painting);
-    report_error(&painting->painter->cli->report, bind->id,
+    const struct bind *bind = part->bind;
+    const char *near = advice_on_value(painter, part);
+    report_error(&painter->cli->report, bind->id,
                  near ? "%s: %s (did you mean '%s'?)"
                       : "%s: %s; the input is unused or compiled in, or the path is misspelled",
                  name, bind->reason, near);
     return false;
 }
 
-static bool fail(struct painting *painting, const struct subject *subject)
+static bool fail(struct painter *painter, const struct part *part, const struct subject *subject)
 {
-    const struct bind *bind = painting->bind;
+    const struct bind *bind = part->bind;
     if (bind && bind->id && strcmp(bind->id, "output-clash") == 0)
-        painting->painter->has_clash = true;
+        painter->has_clash = true;
     const char *name = subject->element ? subject->element : subject->path;
     if (bind && bind->id && strcmp(bind->id, "missing-texture") == 0)
-        return fail_for_textures(painting, subject);
+        return fail_for_textures(painter, bind, subject);
     if (bind && bind->id && strcmp(bind->id, "no-uniform") == 0)
-        return fail_for_value(painting, name);
-    report_error(&painting->painter->cli->report, bind && bind->id ? bind->id : "render-failed",
-                 "%s: %s", name, bind ? bind->reason : "out of memory");
+        return fail_for_value(painter, part, name);
+    report_error(&painter->cli->report, bind && bind->id ? bind->id : "render-failed", "%s: %s",
+                 name, bind ? bind->reason : "out of memory");
     return false;
 }
 
-static struct bind bind_of(const struct painting *painting, const struct subject *subject)
+static void init_bind(const struct painting *painting, const struct part *part,
+                      const struct subject *subject)
 {
     const struct painter *painter = painting->painter;
-    return (struct bind){.result = painting->result,
-                         .scene = &painting->scene,
-                         .document = subject->path,
-                         .files = painter->files,
-                         .values = painter->values,
-                         .num_values = painter->num_values,
-                         .checker = painter->checker};
+    *part->bind = (struct bind){.result = part->result,
+                                .scene = &painting->scene,
+                                .objects = part->fine ? part->fine : subject->objects,
+                                .num_objects = subject->num_objects,
+                                .document = subject->path,
+                                .files = painter->files,
+                                .values = painter->values,
+                                .num_values = painter->num_values,
+                                .checker = painter->checker};
 }
 
-static void tell_warning(const struct painting *painting, const struct subject *subject)
+/* "texcoord_1", "dirt": an attribute as materials name it. */
+static const char *property_of(const char *attribute)
 {
-    const struct bind *bind = painting->bind;
-    tell_textures(painting, subject); /* checkers replace them */
-    if (bind->reason[0])              /* a texture has bad pixels */
-        report_warning(&painting->painter->cli->report, bind->id, "%s", bind->reason);
+    return strncmp(attribute, "i_geomprop_", 11) == 0 ? attribute + 11 : attribute + 2;
 }
 
-bool painting_open(struct painter *painter, const struct subject *subject,
+static void tell_warning(struct painter *painter, const struct bind *bind,
+                         const struct subject *subject)
+{
+    if (bind->num_lacking)
+        report_warning(
+            &painter->cli->report, "missing-primvar",
+            "'%s' has no primvar for '%s', which '%s' reads%s; its default, or 0, stands "
+            "in",
+            bind->lacking, property_of(bind->lacked), subject->element,
+            bind->num_lacking > 1 ? " (and others)" : "");
+    tell_textures(painter, bind, subject); /* checkers replace them */
+    if (bind->reason[0])                   /* a texture has bad pixels */
+        report_warning(&painter->cli->report, bind->id, "%s", bind->reason);
+}
+
+/* Generates the shaders of the subjects, and chooses their meshes. */
+static bool make_parts(struct painting *painting, const struct subject *subjects, size_t count)
+{
+    painting->parts = calloc(count, sizeof *painting->parts);
+    bool good = painting->parts || report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
+    for (size_t i = 0; good && i < count; ++i, ++painting->num_parts) {
+        struct part *part = &painting->parts[i];
+        part->bind = calloc(1, sizeof *part->bind);
+        good = part->bind ? generate(painting->painter, &subjects[i], &part->result)
+                                && choose_mesh(painting, part, &subjects[i])
+                          : report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
+        if (good)
+            init_bind(painting, part, &subjects[i]);
+    }
+    return good;
+}
+
+bool painting_open(struct painter *painter, const struct subject *subjects, size_t count,
                    struct painting *painting)
 {
     *painting = (struct painting){.painter = painter, .scene = painter->scene};
-    if (!generate(painter, subject, &painting->result) || !choose_mesh(painting))
-        return false;
     uint32_t width = painter->width * painter->oversampling,
              height = painter->height * painter->oversampling;
+    if (!make_parts(painting, subjects, count))
+        return false;
     painting->samples = malloc((size_t)width * height * 4 * sizeof(float));
-    painting->bind = calloc(1, sizeof *painting->bind);
-    if (!painting->bind || !painting->samples)
-        return fail(painting, subject);
-    *painting->bind = bind_of(painting, subject);
-    if (!render_open(&painting->render, &painter->gpu, painting->bind, width, height))
-        return fail(painting, subject);
-    tell_warning(painting, subject);
+    if (!painting->samples)
+        return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    painting->canvas = draw_open_canvas(&painter->gpu, width, height);
+    for (size_t i = 0; i < count; ++i) {
+        struct part *part = &painting->parts[i];
+        if (!render_open(&part->render, painting->canvas, &painter->gpu, part->bind))
+            return fail(painter, part, &subjects[i]);
+        tell_warning(painter, part->bind, &subjects[i]);
+    }
     return true;
 }
 
 void painting_aim(struct painting *painting)
 {
-    struct mesh mesh = painting->scene.mesh;
+    struct scene_object object = painting->scene.object;
     painting->scene = painting->painter->scene;
-    painting->scene.mesh = mesh;
+    painting->scene.object = object;
 }
 
 /* A picture with such pixels is written, because it shows their place, but it is an error. */
-static void tell_bad_pixels(struct painter *painter, const mxg_result *result,
+static void tell_bad_pixels(struct painter *painter, const struct painting *painting,
                             const struct image *picture)
 {
     const float *value = picture->pixels;
@@ -247,12 +298,13 @@ static void tell_bad_pixels(struct painter *painter, const mxg_result *result,
         first = num_bad++ ? first : i;
     }
     mxg_shader_info info = {offsetof(mxg_shader_info, topology)};
-    mxg_result_info(result, &info);
+    mxg_result_info(painting->parts[0].result, &info);
     if (num_bad)
         report_error(&painter->cli->report, "bad-pixels",
                      "'%s': %zu of %zu pixels are NaN or infinite, the first at %zu,%zu from the "
                      "top left",
-                     info.path, num_bad, count, first % picture->width, first / picture->width);
+                     painting->num_parts > 1 ? "the stage" : info.path, num_bad, count,
+                     first % picture->width, first / picture->width);
 }
 
 /* Averages the samples of each pixel. */
@@ -282,28 +334,44 @@ bool painting_draw(struct painting *painting, struct image *out)
 {
     struct painter *painter = painting->painter;
     *out = (struct image){0};
-    if (!render_frame(&painting->render, painting->samples)) {
-        report_error(&painter->cli->report, painting->bind->id, "%s", painting->bind->reason);
+    struct render *renders = calloc(painting->num_parts + 1, sizeof *renders);
+    for (size_t i = 0; renders && i < painting->num_parts; ++i)
+        renders[i] = painting->parts[i].render;
+    bool drawn =
+        renders && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
+    free(renders);
+    if (!drawn) {
+        const struct bind *bind = painting->parts[0].bind;
+        report_error(&painter->cli->report, bind->id, "%s", bind->reason);
         return false;
     }
     if (!resolve(painter, painting->samples, out))
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
-    tell_bad_pixels(painter, painting->result, out);
+    tell_bad_pixels(painter, painting, out);
     return true;
 }
 
 void painting_close(struct painting *painting)
 {
-    render_close(&painting->render);
-    if (painting->bind)
-        bind_finish(painting->bind);
-    free(painting->bind);
+    for (size_t i = 0; i < painting->num_parts; ++i) {
+        struct part *part = &painting->parts[i];
+        render_close(&part->render);
+        if (part->bind)
+            bind_finish(part->bind);
+        free(part->bind);
+        mxg_result_destroy(part->result);
+        for (uint32_t k = 0; k < part->num_fine; ++k)
+            object_finish(&part->fine[k]);
+        free(part->fine);
+    }
+    draw_close_canvas(painting->canvas);
+    free(painting->parts);
     free(painting->samples);
-    mxg_result_destroy(painting->result);
 }
 
 /* Renders the same picture with the path tracer. */
-static bool picture_trace(struct painter *painter, const struct subject *subject, struct image *out)
+static bool picture_trace(struct painter *painter, const struct subject *subjects, size_t count,
+                          struct image *out)
 {
     struct painting painting = {.painter = painter, .scene = painter->scene};
     *out = (struct image){.width = painter->width,
@@ -311,34 +379,33 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
                           .is_float = true,
                           .pixels =
                               malloc((size_t)painter->width * painter->height * 4 * sizeof(float))};
-    painting.bind = calloc(1, sizeof *painting.bind);
-    bool good = generate(painter, subject, &painting.result) && choose_mesh(&painting);
-    if (good && painting.bind && out->pixels) {
-        *painting.bind = bind_of(&painting, subject);
-        good = trace_picture(&painter->gpu, painting.bind, painter->width, painter->height,
-                             &painter->trace, out->pixels);
-    }
-    if (good && painting.bind && out->pixels) {
-        tell_warning(&painting, subject);
-        tell_bad_pixels(painter, painting.result, out);
-    }
-    if (painting.result && !(good && painting.bind && out->pixels))
-        good = mxg_result_source(painting.result, MXG_STAGE_PIXEL, NULL) ? fail(&painting, subject)
-                                                                         : false;
-    if (painting.bind)
-        bind_finish(painting.bind);
-    free(painting.bind);
-    mxg_result_destroy(painting.result);
+    struct bind **binds = calloc(count + 1, sizeof(struct bind *));
+    bool good = (binds && out->pixels) || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    good = good && make_parts(&painting, subjects, count);
+    for (size_t i = 0; good && i < count; ++i)
+        binds[i] = painting.parts[i].bind;
+    size_t failed = 0;
+    if (good
+        && !trace_picture(&painter->gpu, binds, count, painter->width, painter->height,
+                          &painter->trace, out->pixels, &failed))
+        good = fail(painter, &painting.parts[failed], &subjects[failed]);
+    for (size_t i = 0; good && i < count; ++i)
+        tell_warning(painter, binds[i], &subjects[i]);
+    if (good)
+        tell_bad_pixels(painter, &painting, out);
+    painting_close(&painting);
+    free(binds);
     return good;
 }
 
-bool picture_draw(struct painter *painter, const struct subject *subject, struct image *out)
+bool picture_draw(struct painter *painter, const struct subject *subjects, size_t count,
+                  struct image *out)
 {
     if (painter->trace.paths)
-        return picture_trace(painter, subject, out);
+        return picture_trace(painter, subjects, count, out);
     struct painting painting;
     *out = (struct image){0};
-    bool good = painting_open(painter, subject, &painting) && painting_draw(&painting, out);
+    bool good = painting_open(painter, subjects, count, &painting) && painting_draw(&painting, out);
     painting_close(&painting);
     return good;
 }

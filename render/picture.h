@@ -39,22 +39,35 @@ struct painter {
 
 struct subject {
     const mxg_document *document;
-    const char *path;    /* of the file */
-    const char *element; /* NULL: the first renderable */
+    const char *path;             /* of the file */
+    const char *element;          /* NULL: the first renderable; of a stack, its name */
+    const mxg_bindings *bindings; /* of a stack; NULL: the element */
+    uint32_t stack;
+    const struct scene_object *objects; /* what has it */
+    uint32_t num_objects;               /* 0: the object of the scene */
 };
 
 /* A subject on the device. */
-struct painting {
-    struct painter *painter;
+struct part {
     mxg_result *result;
-    struct scene scene; /* the scene of the painter, with the mesh for this shader */
     struct bind *bind;
     struct render render;
+    struct scene_object *fine; /* the objects for displaced materials; NULL: those of the subject */
+    uint32_t num_fine;
+};
+
+/* Subjects in one picture. */
+struct painting {
+    struct painter *painter;
+    struct scene scene; /* the scene of the painter, with the mesh for this shader */
+    struct part *parts;
+    size_t num_parts;
+    struct draw_canvas *canvas;
     float *samples;
 };
 
 /* false after reporting an error. Call painting_close in any case. */
-bool painting_open(struct painter *painter, const struct subject *subject,
+bool painting_open(struct painter *painter, const struct subject *subjects, size_t count,
                    struct painting *painting);
 /* Call after moving the painter's camera. */
 void painting_aim(struct painting *painting);
@@ -66,7 +79,8 @@ bool painting_draw(struct painting *painting, struct image *out);
 void painting_close(struct painting *painting);
 
 /* Open, draw and close. */
-bool picture_draw(struct painter *painter, const struct subject *subject, struct image *out);
+bool picture_draw(struct painter *painter, const struct subject *subjects, size_t count,
+                  struct image *out);
 
 /* Converts the picture for display: exposure, background, sRGB. false: out of memory. */
 bool picture_develop(const struct painter *painter, const struct image *linear, struct image *out);

@@ -2,6 +2,8 @@
 #include "render/render.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Reports the first error of the shader compiler: generated shaders should have none. */
 static bool compile(struct bind *bind, struct compiled *compiled)
@@ -34,26 +36,39 @@ static bool copy_reason(struct render *render)
     return false;
 }
 
-bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint32_t width,
-                 uint32_t height)
+bool render_open(struct render *render, struct draw_canvas *canvas, struct gpu *gpu,
+                 struct bind *bind)
 {
     *render = (struct render){.gpu = gpu, .bind = bind};
+    if (!canvas)
+        return copy_reason(render);
     if (!compile(bind, &render->compiled) || !bind_shader(bind))
         return false;
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         bind->draw.code[stage] = render->compiled.stages[stage].words;
         bind->draw.code_words[stage] = render->compiled.stages[stage].num_words;
     }
-    bind->draw.width = width;
-    bind->draw.height = height;
-    render->program = draw_open(gpu, &bind->draw);
+    render->program = draw_open(canvas, &bind->draw);
     return render->program || copy_reason(render);
 }
 
-bool render_frame(struct render *render, float *out_pixels)
+bool render_frame(struct render *renders, size_t count, struct draw_canvas *canvas,
+                  float *out_pixels)
 {
-    return bind_scene(render->bind)
-           && (draw_frame(render->program, out_pixels) || copy_reason(render));
+    struct draw_program **programs = malloc((count + 1) * sizeof(struct draw_program *));
+    bool good = programs != NULL;
+    for (size_t i = 0; good && i < count; ++i) {
+        good = bind_scene(renders[i].bind);
+        programs[i] = renders[i].program;
+        if (!good) {
+            renders[0].bind->id = renders[i].bind->id;
+            memmove(renders[0].bind->reason, renders[i].bind->reason,
+                    sizeof renders[0].bind->reason);
+        }
+    }
+    good = good && (draw_frame(canvas, programs, count, out_pixels) || copy_reason(&renders[0]));
+    free(programs);
+    return good;
 }
 
 void render_close(struct render *render)
@@ -66,7 +81,10 @@ bool render_result(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t 
                    float *out_pixels)
 {
     struct render render;
-    bool good = render_open(&render, gpu, bind, width, height) && render_frame(&render, out_pixels);
+    struct draw_canvas *canvas = draw_open_canvas(gpu, width, height);
+    bool good =
+        render_open(&render, canvas, gpu, bind) && render_frame(&render, 1, canvas, out_pixels);
     render_close(&render);
+    draw_close_canvas(canvas);
     return good;
 }

@@ -15,18 +15,19 @@ struct render {
 };
 
 /*
- * Prepares to draw bind->result in bind->scene. `bind` has the result, scene, document and values,
- * and outlives `render`. false: see bind->id and bind->reason. Call render_close in any case, and
- * bind_finish after it.
+ * Prepares to draw bind->result in bind->scene. `bind` has the result, scene, objects, document and
+ * values, and outlives `render`. false: see bind->id and bind->reason. Call render_close in any
+ * case, and bind_finish after it.
  */
-bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint32_t width,
-                 uint32_t height);
+bool render_open(struct render *render, struct draw_canvas *canvas, struct gpu *gpu,
+                 struct bind *bind);
 
 /*
- * Draws the current scene: RGBA, top row first, cleared to 0. `out_pixels` has room for width *
- * height * 4.
+ * Draws the programs in the current scene: RGBA, top row first, cleared to 0. `out_pixels` has room
+ * for the canvas. false: see bind->id and bind->reason of the first one.
  */
-bool render_frame(struct render *render, float *out_pixels);
+bool render_frame(struct render *renders, size_t count, struct draw_canvas *canvas,
+                  float *out_pixels);
 
 void render_close(struct render *render);
 

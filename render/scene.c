@@ -2,6 +2,7 @@
 #include "render/scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,9 +51,45 @@ static const float *frame_attribute(const struct vertex *vertex, const char *nam
     return NULL;
 }
 
-bool scene_attribute(const struct scene *scene, const char *name, uint32_t index, float out[4])
+/* The name of the primvar that an attribute reads: "st1" of "i_texcoord_1". */
+static void primvar_name(const char *attribute, char out[64])
 {
-    const struct vertex *vertex = &scene->mesh.vertices[index];
+    static const struct {
+        const char *prefix, *first, *others;
+    } families[] = {{"i_texcoord_", "st", "st"}, {"i_color_", "displayColor", "displayColor"}};
+    for (size_t i = 0; i < sizeof families / sizeof *families; ++i) {
+        size_t len = strlen(families[i].prefix);
+        if (strncmp(attribute, families[i].prefix, len) != 0)
+            continue;
+        bool is_first = strcmp(attribute + len, "0") == 0;
+        snprintf(out, 64, "%s%s", is_first ? families[i].first : families[i].others,
+                 is_first ? "" : attribute + len);
+        return;
+    }
+    snprintf(out, 64, "%s",
+             strncmp(attribute, "i_geomprop_", 11) == 0 ? attribute + 11 : attribute);
+}
+
+static bool primvar_attribute(const struct scene_object *object, const char *name, uint32_t index,
+                              float out[4])
+{
+    char wanted[64];
+    primvar_name(name, wanted);
+    for (uint32_t i = 0; i < object->num_primvars; ++i) {
+        const struct primvar *primvar = &object->primvars[i];
+        if (strcmp(primvar->name, wanted) != 0)
+            continue;
+        memcpy(out, primvar->values[primvar->num == 1 ? 0 : index],
+               primvar->components * sizeof *out);
+        return true;
+    }
+    return false;
+}
+
+bool scene_attribute(const struct scene_object *object, const char *name, uint32_t index,
+                     float out[4])
+{
+    const struct vertex *vertex = &object->mesh.vertices[index];
     const float *frame = frame_attribute(vertex, name);
     if (frame) {
         memcpy(out, frame, 3 * sizeof *out);
@@ -62,6 +99,8 @@ bool scene_attribute(const struct scene *scene, const char *name, uint32_t index
         memcpy(out, vertex->texcoord, sizeof vertex->texcoord);
         return true;
     }
+    if (object->path)
+        return primvar_attribute(object, name, index, out);
     for (size_t i = 0; i < sizeof linear_attributes / sizeof *linear_attributes; ++i) {
         const struct linear *a = &linear_attributes[i];
         if (a->is_family ? strncmp(name, a->name, strlen(a->name)) != 0
@@ -94,15 +133,16 @@ static bool strip_end(const char *word, size_t *len, const char *end)
 }
 
 /* u_<world|view|projection and their products>[Inverse][Transpose]Matrix */
-static unsigned matrix_uniform(const struct scene *scene, const char *name, float out[16])
+static unsigned matrix_uniform(const struct scene *scene, const struct matrix *world,
+                               const char *name, float out[16])
 {
-    struct matrix world_view = matrix_multiply(scene->view, scene->world);
+    struct matrix world_view = matrix_multiply(scene->view, *world);
     struct matrix view_projection = matrix_multiply(scene->projection, scene->view);
     const struct {
         const char *name;
         struct matrix matrix;
     } matrices[] = {
-        {"world", scene->world},
+        {"world", *world},
         {"view", scene->view},
         {"projection", scene->projection},
         {"worldView", world_view},
@@ -131,7 +171,8 @@ static unsigned store_vector(const double v[3], float out[3])
     return 3;
 }
 
-unsigned scene_uniform(const struct scene *scene, const char *name, float out[16])
+unsigned scene_uniform(const struct scene *scene, const struct scene_object *object,
+                       const char *name, float out[16])
 {
     const struct {
         const char *name;
@@ -164,12 +205,20 @@ unsigned scene_uniform(const struct scene *scene, const char *name, float out[16
         return store_vector(direction, out);
     if (strcmp(name, "u_envMatrix") == 0)
         return store_matrix(scene->environment, out);
+    if (object->path && strncmp(name, "u_geomprop_", 11) == 0) {
+        float value[4] = {0};
+        char attribute[80];
+        snprintf(attribute, sizeof attribute, "i_%s", name + 2);
+        primvar_attribute(object, attribute, 0, value);
+        memcpy(out, value, sizeof value);
+        return 4;
+    }
     if (strncmp(name, "u_geomprop_", 11) == 0) {
         for (size_t i = 0; i < 4; ++i)
             out[i] = 1.0f;
         return 4;
     }
-    return matrix_uniform(scene, name, out);
+    return matrix_uniform(scene, &object->world, name, out);
 }
 
 /* ---- Lights ---- */
@@ -188,21 +237,30 @@ static const struct light lights[SCENE_NUM_LIGHTS] = {
     {LIGHT_POINT, {-1.4, -1.1, -2.2}, {1.4, 1.1, 2.2}, {1.0, 0.8, 0.6}, 9.0, 2.0},
 };
 
-unsigned scene_light(uint32_t index, const char *member, float out[3])
+/* How much larger the world is than the studio. */
+static double studio_scale(const struct scene *scene)
+{
+    const double *column = scene->studio.m[0];
+    return sqrt(column[0] * column[0] + column[1] * column[1] + column[2] * column[2]);
+}
+
+unsigned scene_light(const struct scene *scene, uint32_t index, const char *member, float out[3])
 {
     const struct light *light = &lights[index];
-    double direction[3] = {light->direction[0], light->direction[1], light->direction[2]};
+    double direction[3], position[3], scale = studio_scale(scene);
+    matrix_direction(scene->studio, light->direction, direction);
     vector_normalize(direction);
+    matrix_point(scene->studio, light->position, position);
     if (strcmp(member, "direction") == 0)
         return store_vector(direction, out);
     if (strcmp(member, "position") == 0)
-        return store_vector(light->position, out);
+        return store_vector(position, out);
     if (strcmp(member, "color") == 0)
         return store_vector(light->color, out);
     if (strcmp(member, "type") == 0)
         out[0] = (float)light->type;
     else if (strcmp(member, "intensity") == 0)
-        out[0] = (float)light->intensity;
+        out[0] = (float)(light->intensity * pow(scale, light->decay_rate));
     else if (strcmp(member, "decay_rate") == 0)
         out[0] = (float)light->decay_rate;
     else
@@ -228,18 +286,12 @@ void scene_set_camera(struct scene *scene, const double eye[3], const double tar
     scene->view = matrix_look_at(eye, target);
 }
 
-static void transform_direction(struct matrix m, const double d[3], double out[3])
-{
-    for (size_t r = 0; r < 3; ++r)
-        out[r] = m.m[0][r] * d[0] + m.m[1][r] * d[1] + m.m[2][r] * d[2];
-}
-
 void scene_backdrop(const struct scene *scene, double x, double y, double out[3])
 {
     const double ray[3] = {x / scene->projection.m[0][0], y / scene->projection.m[1][1], -1};
     double world[3], d[3];
-    transform_direction(matrix_transpose(scene->view), ray, world); /* the inverse of a rotation */
-    transform_direction(scene->environment, world, d);
+    matrix_direction(matrix_transpose(scene->view), ray, world); /* the inverse of a rotation */
+    matrix_direction(scene->environment, world, d);
     vector_normalize(d);
     environment_lookup(&scene->radiance, d, out);
 }
@@ -255,13 +307,15 @@ bool scene_init_sphere(struct scene *scene, double aspect)
     *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS,
                             .environment_samples = 64,
                             .frame = SCENE_FRAME,
+                            .studio = matrix_identity(),
+                            .near = SCENE_NEAR,
                             .environment = half_turn()};
     scene_set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
     scene->projection = matrix_perspective(40.0, aspect, 0.1, 20.0);
-    scene->world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
-                                   matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
+    scene->object.world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
+                                          matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
     return environment_make(&scene->radiance, &scene->irradiance)
-           && shape_make("sphere", 1, &scene->mesh);
+           && shape_make("sphere", 1, &scene->object.mesh);
 }
 
 /* A quad by (s, t), with linear parts. The tangent is (n.z, 0, -n.x). */
@@ -328,7 +382,8 @@ static struct matrix quad_projection(const struct scene *scene, const double pos
         plane.m[3][i] = origin[i];
     }
     struct matrix to_clip = {{{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 0.25, 0}, {-1, -1, 0.5, 1}}};
-    struct matrix from_plane = matrix_multiply(scene->view, matrix_multiply(scene->world, plane));
+    struct matrix from_plane =
+        matrix_multiply(scene->view, matrix_multiply(scene->object.world, plane));
     return matrix_multiply(to_clip, matrix_inverse(from_plane));
 }
 
@@ -339,16 +394,20 @@ bool scene_init_grid(struct scene *scene)
         .normal = {{-0.25, 0.61, 0.07}, {0.35, -0.11, -0.53}, {0.91, 0.08, -0.05}},
         .texcoord = {{0.0313, 0.9371, 0.0129}, {0.0217, 0.0171, 0.9331}},
     };
-    *scene =
-        (struct scene){.environment_samples = 64, .frame = SCENE_FRAME, .environment = half_turn()};
+    *scene = (struct scene){.environment_samples = 64,
+                            .frame = SCENE_FRAME,
+                            .studio = matrix_identity(),
+                            .near = SCENE_NEAR,
+                            .environment = half_turn()};
     const double axis[3] = {1, 2, 3}, target[3] = {0.4, -0.3, 0.7};
-    scene->world =
+    scene->object.world =
         matrix_multiply(matrix_translation(target[0], target[1], target[2]),
                         matrix_multiply(matrix_rotation(axis, 40.0), matrix_scale(1.3, 0.8, 1.6)));
     scene_set_camera(scene, (const double[3]){1.1, 0.9, 4.3}, target);
     scene->projection = quad_projection(scene, grid.position);
     return environment_make(&scene->radiance, &scene->irradiance)
-           && environment_make_test_texture(&scene->texture) && make_quad(&grid, &scene->mesh);
+           && environment_make_test_texture(&scene->texture)
+           && make_quad(&grid, &scene->object.mesh);
 }
 
 bool scene_init_plane(struct scene *scene)
@@ -362,17 +421,20 @@ bool scene_init_plane(struct scene *scene)
     *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS,
                             .environment_samples = 64,
                             .frame = SCENE_FRAME,
-                            .world = matrix_identity(),
+                            .object.world = matrix_identity(),
+                            .studio = matrix_identity(),
+                            .near = SCENE_NEAR,
                             .environment = half_turn()};
     scene_set_camera(scene, (const double[3]){0, 0, 3.4}, (const double[3]){0, 0, 0});
     scene->projection = quad_projection(scene, plane.position);
     return environment_make(&scene->radiance, &scene->irradiance)
-           && environment_make_test_texture(&scene->texture) && make_quad(&plane, &scene->mesh);
+           && environment_make_test_texture(&scene->texture)
+           && make_quad(&plane, &scene->object.mesh);
 }
 
 void scene_finish(struct scene *scene)
 {
-    mesh_finish(&scene->mesh);
+    object_finish(&scene->object);
     image_finish(&scene->radiance);
     image_finish(&scene->irradiance);
     image_finish(&scene->albedo);

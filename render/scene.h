@@ -13,11 +13,36 @@
 
 #define SCENE_NUM_LIGHTS 3
 #define SCENE_FRAME 33
+#define SCENE_NEAR 1e-4 /* of a scene of size 1 */
+
+/* Values of a geometric property. */
+struct primvar {
+    char *name;
+    unsigned components;
+    bool is_integer;
+    uint32_t num;       /* 1: constant; otherwise those of the mesh's vertices */
+    float (*values)[4]; /* malloc; an integer is a whole number */
+};
+
+/* What a draw call draws. */
+struct scene_object {
+    struct mesh mesh;
+    struct matrix world; /* from the mesh to the world */
+    struct primvar *primvars;
+    uint32_t num_primvars;
+    /*
+     * its path on a stage: attributes that it lacks are 0. NULL: an object for comparisons, with
+     * stand-ins for all attributes
+     */
+    const char *path;
+};
 
 struct scene {
-    struct matrix world, view, projection;
+    struct scene_object object;
+    struct matrix view, projection;
     double eye[3], target[3];
-    struct mesh mesh;
+    struct matrix studio; /* from the studio, where lights are, to the world */
+    double near;          /* a distance that nothing has */
     uint32_t num_lights;
     uint32_t environment_samples;
     int32_t frame;
@@ -45,27 +70,32 @@ bool scene_init_grid(struct scene *scene);
 bool scene_init_plane(struct scene *scene);
 
 void scene_finish(struct scene *scene);
+void object_finish(struct scene_object *object);
+/* A copy of an object with at least so many triangles. false: out of memory; object_finish(out). */
+bool object_refine(const struct scene_object *object, uint32_t wanted, struct scene_object *out);
 
 /* Moves the camera, and points it at the target. */
 void scene_set_camera(struct scene *scene, const double eye[3], const double target[3]);
 
 /*
- * Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; keeps other components. false: the scene
+ * Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; keeps other components. false: the object
  * has no such attribute.
  */
-bool scene_attribute(const struct scene *scene, const char *name, uint32_t vertex, float out[4]);
+bool scene_attribute(const struct scene_object *object, const char *name, uint32_t vertex,
+                     float out[4]);
 
 /*
  * Private uniform "u_worldMatrix"…; returns the number of written components, 0 if the scene has
  * none.
  */
-unsigned scene_uniform(const struct scene *scene, const char *name, float out[16]);
+unsigned scene_uniform(const struct scene *scene, const struct scene_object *object,
+                       const char *name, float out[16]);
 
 /*
  * Member "direction"… of light `index` below num_lights; returns the number of written components,
  * 0 if a light has none.
  */
-unsigned scene_light(uint32_t index, const char *member, float out[3]);
+unsigned scene_light(const struct scene *scene, uint32_t index, const char *member, float out[3]);
 
 /* Texture "u_envRadiance"…; NULL if the scene has none. */
 const struct image *scene_image(const struct scene *scene, const char *name);

@@ -55,6 +55,7 @@ static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *o
                       struct studio_fault *fault)
 {
     *out_made = 0;
+    *out = (struct mesh){0};
     if (is_shape(studio->mesh))
         return shape_make(studio->mesh, 1, out)
                || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
@@ -113,15 +114,28 @@ static bool open_environment(const struct studio *studio, struct scene *scene,
     return true;
 }
 
+bool studio_open_light(const struct studio *studio, struct scene *scene, struct studio_fault *fault)
+{
+    *scene = (struct scene){.num_lights = studio->environment ? 0 : SCENE_NUM_LIGHTS,
+                            .object.world = matrix_identity(),
+                            .studio = matrix_identity(),
+                            .near = SCENE_NEAR,
+                            .environment = matrix_identity()};
+    return open_environment(studio, scene, fault);
+}
+
 bool studio_open(const struct studio *studio, double aspect, struct scene *scene,
                  unsigned *out_made, struct studio_fault *fault)
 {
-    *scene = (struct scene){.num_lights = studio->environment ? 0 : SCENE_NUM_LIGHTS,
-                            .world = matrix_identity(),
-                            .environment = matrix_identity()};
-    studio_aim(studio, aspect, 0, scene);
-    return open_mesh(studio, &scene->mesh, out_made, fault)
-           && open_environment(studio, scene, fault);
+    struct mesh mesh;
+    *scene = (struct scene){0};
+    *out_made = 0;
+    bool good = open_mesh(studio, &mesh, out_made, fault);
+    good = good && studio_open_light(studio, scene, fault);
+    scene->object.mesh = mesh;
+    if (good)
+        studio_aim(studio, aspect, 0, scene);
+    return good;
 }
 
 void studio_aim(const struct studio *studio, double aspect, double turn, struct scene *scene)

@@ -4,6 +4,8 @@
 #define MXG_RENDER_TRACE_H
 
 #include "render/bind.h"
+#include "render/inputs.h"
+#include "compile/compile.h"
 
 /* path.glsl, as lines in pieces; ends with NULL. */
 extern const char *const trace_source[];
@@ -22,10 +24,37 @@ struct trace_options {
 };
 
 /*
- * Traces paths to RGBA, top row first. `bind` as for render_open. false: see bind->id and
- * bind->reason. Call bind_finish in any case.
+ * Traces paths through all objects of the shaders to RGBA, top row first. `binds` as for
+ * render_open. false: see id and reason of binds[*out_failed]. Call bind_finish in any case.
  */
-bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height,
-                   const struct trace_options *options, float *out_pixels);
+bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count, uint32_t width,
+                   uint32_t height, const struct trace_options *options, float *out_pixels,
+                   size_t *out_failed);
+
+/* kernel.c: the shader of one `bind`, with the path tracer around it. */
+struct kernel {
+    struct bind *bind;
+    mxg_shader_info info;
+    struct compiled compiled;
+    struct inputs inputs;
+    VkPipelineLayout layout;
+    VkShaderModule module;
+    VkPipeline pipeline;
+    uint32_t first_shader, num_shaders; /* numbers: one, or one for each object */
+};
+/* Binds the shader and finds its numbers: from `first_shader` on. false: see bind->reason. */
+bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, struct kernel *out);
+/* Compiles it; the tracer's set comes after the sets of the shader. */
+bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
+                    uint32_t push_size);
+void kernel_close(struct gpu *gpu, struct kernel *kernel);
+/*
+ * The values that the shader reads from an object (hit_value() in path.glsl): for each attribute
+ * those of all corners. `out` has room for kernel_num_values of four floats.
+ */
+size_t kernel_num_values(const struct kernel *kernel, uint32_t object);
+void kernel_values(const struct kernel *kernel, uint32_t object, float (*out)[4]);
+/* Keeps the first reason of a failure. */
+bool kernel_fail(struct kernel *kernel, const char *id, const char *text);
 
 #endif

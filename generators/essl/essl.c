@@ -13,6 +13,7 @@ const struct target target_essl = {
     .base = &target_glsl,
     .brief = "GLSL ES 3.00 for OpenGL ES and WebGL 2",
     .caps = GLSL_CAPS | CAP_BLOCK_OPTION | CAP_PRECISION,
+    .max_textures = 16, /* OpenGL ES 3.0, table 6.32: MAX_TEXTURE_IMAGE_UNITS */
     .versions = versions,
     .syntax = &glsl_syntax,
     .stage_suffix = {"vert", "frag"},

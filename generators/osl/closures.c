@@ -100,15 +100,21 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
     }
 }
 
-static ir_ref closure_of(struct osl_tree *t, ir_ref root)
+/* Notes whether a surface is a thin-walled shell. */
+static void set_thin(struct osl_tree *t, ir_ref surface)
+{
+    bool is_thin = ir_get(t->graph, surface)->op == IR_SURFACE_SHADER
+                   && !osl_is_false(t, ir_arg(t->graph, surface, 3));
+    t->thin = is_thin ? ir_arg(t->graph, surface, 3) : 0;
+}
+
+/* The closure of a closure or shader. */
+static ir_ref closure_below(struct osl_tree *t, ir_ref root)
 {
     if (!root)
         return 0;
     t->of = ARENA_ARRAY(t->shader->arena, ir_ref, root + 1);
     t->slabs = ARENA_ARRAY(t->shader->arena, uint8_t, root + 1);
-    bool is_thin = ir_get(t->graph, root)->op == IR_SURFACE_SHADER
-                   && !osl_is_false(t, ir_arg(t->graph, root, 3));
-    t->thin = is_thin ? ir_arg(t->graph, root, 3) : 0;
     uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++) {
         if (!needed[ref] || !(ir_get(t->graph, ref)->flags & IR_NODE_CLOSURE))
@@ -120,6 +126,42 @@ static ir_ref closure_of(struct osl_tree *t, ir_ref root)
         assert(!t->of[ref] || ir_type_is_closure(ir_type_of(t->graph, t->of[ref])));
     }
     return t->of[root];
+}
+
+static ir_ref closure_of(struct osl_tree *t, ir_ref root)
+{
+    if (root)
+        set_thin(t, root);
+    return closure_below(t, root);
+}
+
+/* ---- Stacks ---- */
+
+static ir_ref parts_of(struct osl_tree *t, const struct closure_surface *s)
+{
+    ir_ref closure = osl_sum(t, closure_below(t, s->bsdf), closure_below(t, s->edf));
+    ir_ref glow = s->unlit ? osl_emission(t, ir_convert(t->graph, IR_TYPE_VEC3, s->unlit)) : 0;
+    return osl_sum(t, closure, glow);
+}
+
+/* All layers, weighted, and what is left is transparent. */
+static ir_ref blended(struct osl_tree *t, ir_ref slots)
+{
+    struct ir_graph *g = t->graph;
+    const struct closure_surface *layers = closure_slot_surfaces(t->shader, t->host, slots);
+    ir_ref sum = 0, alpha = ir_arg(g, slots, 0);
+    for (unsigned i = 0; i < ir_num_slots(g, slots); i++) {
+        struct ir_slot slot = ir_slot(g, slots, i);
+        if (!slot.surface || ir_slot_is_vertical(g, &slot) || ir_const_is(g, slot.weight, 0.0f))
+            continue;
+        struct closure_surface layer = closure_weighted(g, layers[i], slot.weight);
+        set_thin(t, slot.surface);
+        sum = osl_sum(t, sum, parts_of(t, &layer));
+    }
+    if (ir_const_is(g, alpha, 1.0f))
+        return sum;
+    t->shader->transparent = true;
+    return osl_sum(t, sum, osl_scaled(t, osl_transparent(t), closure_one_minus(g, alpha)));
 }
 
 /* ---- Effects ---- */
@@ -175,35 +217,80 @@ static ir_ref or_black(struct osl_tree *t, ir_ref closure)
     return closure ? closure : osl_emission(t, black);
 }
 
-/* Counts the remaining leaves; weights of 0 have removed some. */
-static void add_closures(const struct osl_tree *t, const ir_ref *roots, uint32_t num_roots)
+/* True if the leaf is counted for the first time. */
+static bool is_new(struct osl_tree *t, ir_ref leaf)
 {
-    const uint8_t *needed = ir_mark(t->graph, roots, num_roots, t->shader->arena);
-    for (ir_ref ref = 1; ref < t->graph->nodes.len; ref++)
-        if (needed[ref] && ir_get(t->graph, ref)->op == IR_LEAF)
+    for (uint32_t at = leaf, found; (found = table_next(&t->counted, leaf, &at));)
+        if (found == leaf)
+            return false;
+    table_add(&t->counted, t->shader->arena, leaf, leaf);
+    return true;
+}
+
+/* Counts the remaining leaves; weights of 0 have removed some. */
+static void add_closures(struct osl_tree *t, ir_ref root)
+{
+    const uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
+    for (ir_ref ref = 1; ref <= root; ref++)
+        if (needed[ref] && ir_get(t->graph, ref)->op == IR_LEAF && is_new(t, ref))
             shader_add_closure(t->shader, ref);
+}
+
+static void put_closure(struct osl_tree *t, uint32_t out, ir_ref closure, ir_ref condition)
+{
+    closure = or_black(t, closure);
+    add_closures(t, closure);
+    if (condition)
+        effect(t, EFFECT_IF, 0, condition);
+    effect(t, EFFECT_OUTPUT, out, closure);
+    if (condition)
+        effect(t, EFFECT_END, 0, 0);
+}
+
+/* The layer that a number picks, which the renderer gives: a hash of the point. */
+static void emit_picked(struct osl_tree *t, uint32_t out, ir_ref slots)
+{
+    struct closure_choices choices = {0};
+    ir_ref number = shader_read(
+        t->shader, shader_private_uniform(t->shader, STR_u_layerSample, IR_TYPE_FLOAT, 0));
+    closure_choose(t->shader, t->host, slots, number, &choices);
+    for (uint32_t i = 0; i < choices.items.len; i++) {
+        const struct closure_choice *choice = &choices.items.items[i];
+        put_closure(t, out, parts_of(t, &choice->layer), choice->is_it);
+    }
+    if (!choices.covered)
+        return;
+    t->shader->transparent = true;
+    put_closure(t, out, osl_transparent(t), ir_op2(t->graph, IR_GE, number, choices.covered));
+}
+
+static void emit_side(struct osl_tree *t, uint32_t out, ir_ref surface)
+{
+    bool is_stack = surface && ir_get(t->graph, surface)->op == IR_SLOTS;
+    if (is_stack)
+        surface = closure_shade_slots(t->shader, surface, 0);
+    if (is_stack && t->shader->picks)
+        emit_picked(t, out, surface);
+    else
+        put_closure(t, out, is_stack ? blended(t, surface) : closure_of(t, surface), 0);
 }
 
 static void emit_sides(struct osl_tree *t, ir_ref front, ir_ref back)
 {
     struct ir_graph *g = t->graph;
     uint32_t out = output(t, str_intern_z(t->shader->strings, "Ci"), IR_TYPE_BSDF, 0);
-    front = or_black(t, closure_of(t, front));
     if (!back) {
-        add_closures(t, &front, 1);
-        effect(t, EFFECT_OUTPUT, out, front);
+        emit_side(t, out, front);
         return;
     }
     str_id name = str_intern_z(t->shader->strings, "u_backfacing");
     ir_ref behind =
         shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
-    back = or_black(t, closure_of(t, back));
-    add_closures(t, (ir_ref[]){front, back}, 2);
     effect(t, EFFECT_IF, 0, ir_op1(g, IR_NOT, behind));
-    effect(t, EFFECT_OUTPUT, out, front);
+    emit_side(t, out, front);
     effect(t, EFFECT_END, 0, 0);
     effect(t, EFFECT_IF, 0, behind);
-    effect(t, EFFECT_OUTPUT, out, back);
+    emit_side(t, out, back);
     effect(t, EFFECT_END, 0, 0);
 }
 
@@ -308,7 +395,7 @@ bool osl_emit_node(struct shader *shader, const struct closure_host *host,
     }
     const struct effect_list *effects = &shader->stages[STAGE_PIXEL].effects;
     for (uint32_t i = 0; i < effects->len; i++)
-        add_closures(&t, &effects->items[i].value, 1);
+        add_closures(&t, effects->items[i].value);
     *out_unknown = t.unknown;
     return good && !t.unknown;
 }

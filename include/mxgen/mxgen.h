@@ -192,8 +192,8 @@ typedef struct mxg_context_desc {
     const char *const *include_roots; /* folders; num_include_roots of them */
     size_t num_include_roots;
     /*
-     * Folders to search for the source files of implementations, after the folder of the referring
-     * file and the folders of libraries; num_source_paths of them
+     * Folders to search for the source files of implementations and for included documents, after
+     * the folder of the referring file and the folders of libraries; num_source_paths of them
      */
     const char *const *source_paths;
     size_t num_source_paths;
@@ -466,6 +466,12 @@ typedef struct mxg_generate_desc {
      * the steps that it leaves out cannot fail.
      */
     bool only_diagnostics;
+    /*
+     * A stack of bindings (mxgen/scene.h) to generate in the place of an element: its layers as one
+     * shader. The bindings are those of the document. NULL: an element.
+     */
+    const mxg_bindings *bindings;
+    uint32_t stack; /* less than mxg_bindings_num_stacks */
 } mxg_generate_desc;
 #define MXG_GENERATE_DESC_INIT MXG_INIT(mxg_generate_desc)
 
@@ -567,6 +573,8 @@ typedef struct mxg_variable {
     bool advanced;   /* uiadvanced */
     bool flat;       /* not interpolated between vertices */
     int32_t integer; /* the exact default of an integer */
+    /* of a stack: the slot or vertical layer that the input belongs to: "050", "000|010" */
+    const char *slot;
 } mxg_variable;
 MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
 MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);

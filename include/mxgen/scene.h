@@ -45,6 +45,8 @@ typedef struct mxg_primitive {
     uint32_t parent, first_child, next_sibling;
     const char *name; /* name_len bytes, without a NUL */
     size_t name_len;
+    const char *type; /* of USD: "Mesh", type_len bytes; "": unknown */
+    size_t type_len;
 } mxg_primitive;
 /* Primitives have numbers from 0 on; a parent has a lower one than its children. */
 MXG_API uint32_t mxg_scene_num_primitives(const mxg_scene *scene);
@@ -54,6 +56,59 @@ MXG_API uint32_t mxg_scene_find(const mxg_scene *scene, const char *path);
 /* Writes a path like mxg_slot_encode. */
 MXG_API size_t mxg_scene_path(const mxg_scene *scene, uint32_t index, char *buffer,
                               size_t capacity);
+
+/* ---- Properties of USD ---- */
+
+/* The primitives of a list have none. Texts are those of the file, and have no NUL. */
+typedef struct mxg_property {
+    size_t size; /* in */
+    const char *name;
+    size_t name_len;
+    const char *type; /* "point3f[]"; "rel" of a relationship */
+    size_t type_len;
+    const char *interpolation; /* "faceVarying"; "": not said */
+    size_t interpolation_len;
+    const char *value; /* "[(0, 0, 0), (1, 0, 0)]", of time samples the first; "": none */
+    size_t value_len;
+    const char *file;
+    uint32_t line, column;
+} mxg_property;
+/* An instance of a reference has the properties of its prototype that it does not set itself. */
+MXG_API uint32_t mxg_scene_num_properties(const mxg_scene *scene, uint32_t primitive);
+MXG_API mxg_status mxg_scene_property(const mxg_scene *scene, uint32_t primitive, uint32_t index,
+                                      mxg_property *out);
+/* false: the primitive has no property of this name. */
+MXG_API bool mxg_scene_find_property(const mxg_scene *scene, uint32_t primitive, const char *name,
+                                     mxg_property *out);
+/*
+ * The numbers of a property in a row; true is 1. Writes at most `capacity` of them, and returns
+ * how many there are.
+ */
+MXG_API size_t mxg_scene_numbers(const mxg_scene *scene, uint32_t primitive, const char *name,
+                                 double *out, size_t capacity);
+/*
+ * Word `index` of a property: a string or token without quotes, or a path. Writes like
+ * mxg_slot_encode; 0: there is none.
+ */
+MXG_API size_t mxg_scene_word(const mxg_scene *scene, uint32_t primitive, const char *name,
+                              uint32_t index, char *buffer, size_t capacity);
+/* The primitive that word `index` of a relationship names; UINT32_MAX: none. */
+MXG_API uint32_t mxg_scene_target(const mxg_scene *scene, uint32_t primitive, const char *name,
+                                  uint32_t index);
+/* 'Y' or 'Z'. */
+MXG_API char mxg_scene_up_axis(const mxg_scene *scene);
+/* Metres in a unit of the scene; 0.01 if a file of USD does not say it, 0 of a list. */
+MXG_API double mxg_scene_meters_per_unit(const mxg_scene *scene);
+
+/*
+ * A copy of a document with the materials of a stage of USD that it lacks, as nodes and nodegraphs.
+ * A UsdShade network becomes a nodegraph for the patterns and nodes for the shaders; inputs of the
+ * Material become the interface of the nodegraph. NULL as document: only these materials.
+ * *out_document is set like that of mxg_document_parse.
+ */
+MXG_API mxg_status mxg_document_with_materials(mxg_context *context, mxg_library *library,
+                                               const mxg_document *document, const mxg_scene *scene,
+                                               mxg_document **out_document);
 
 /* ---- Bindings ---- */
 
@@ -108,11 +163,19 @@ MXG_API mxg_status mxg_bindings_layer(const mxg_bindings *bindings, uint32_t pri
 /* Primitives with equal layers have the same stack. UINT32_MAX: there is no such primitive. */
 MXG_API uint32_t mxg_bindings_num_stacks(const mxg_bindings *bindings);
 MXG_API uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive);
+/*
+ * The name of a stack, which follows from its content: "stack_8a5f7a0f9c2f6f0e". Writes like
+ * mxg_slot_encode. mxg_generate makes its shader: members `bindings` and `stack` of
+ * mxg_generate_desc. Stacks whose shaders have one topology can share a program.
+ */
+MXG_API size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t stack, char *buffer,
+                                       size_t capacity);
 
 typedef enum mxg_bindings_format {
     MXG_BINDINGS_TABLE, /* a line for each primitive */
     MXG_BINDINGS_TABLE_COLOUR,
     MXG_BINDINGS_JSON,
+    MXG_BINDINGS_USDA, /* slot bindings; MXG_ERROR_DOCUMENT after all is written: some are lost */
     MXG_BINDINGS_FORMAT_MAX_ENUM = 0x7fffffff
 } mxg_bindings_format;
 /* Writes all bindings as text, in pieces. Stops when `write` returns false. */

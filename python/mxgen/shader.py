@@ -131,6 +131,8 @@ class Variable:
     flat: bool
     #: the exact default of an integer
     integer: int
+    #: of a stack: the slot that the input belongs to
+    slot: str
     _shader: Shader = field(repr=False, compare=False)
     _index: int = field(repr=False, compare=False)
 

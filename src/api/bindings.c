@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Bindings: the layers of the primitives of a scene under a look. */
 #include "api/scene.h"
+#include "bind/drive.h"
 
 #include <assert.h>
-
-struct mxg_bindings {
-    struct object object; /* keeps the document alive */
-    mxg_scene *scene;
-    const mxg_document *document;
-    struct bindings bindings;
-    bool is_resolved; /* a look was found */
-};
 
 struct bind_job {
     mxg_bindings *result;
@@ -29,12 +22,17 @@ static void resolve(void *arg)
                                          .num_solo = job->desc.num_solo,
                                          .num_mute = job->desc.num_mute};
     struct diag_list *diags = &object->diagnostics.list;
-    bool needs_look = job->desc.look || look_exists(doc) || !result->scene->scene.bindings.len;
+    const struct scene *scene = &result->scene->scene;
+    /* a stage of USD says itself what is bound, and may bind nothing */
+    bool needs_look =
+        job->desc.look || look_exists(doc) || (!scene->bindings.len && !scene->layer.prims.len);
     elem_id look = needs_look ? look_choose(doc, job->desc.look, diags) : 0;
     if (needs_look && !look)
         return;
     bind_resolve(&result->bindings, doc, look, &result->scene->scene, &options, &object->arena,
                  &job->scratch, diags);
+    if (!options.num_solo && !options.num_mute)
+        bind_check_drives(&result->bindings, &result->document->layer, &job->scratch, diags);
     result->is_resolved = true;
 }
 
@@ -151,6 +149,16 @@ uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive)
     return state ? state->stack : UINT32_MAX;
 }
 
+size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t stack, char *buffer,
+                               size_t capacity)
+{
+    char name[BIND_STACK_NAME_SIZE];
+    if (stack >= mxg_bindings_num_stacks(bindings))
+        return 0;
+    bind_stack_name(&bindings->bindings, stack, name);
+    return text_copy(name, strlen(name), buffer, capacity);
+}
+
 /* ---- Texts ---- */
 
 struct write_job {
@@ -160,6 +168,7 @@ struct write_job {
     bool (*write)(void *user_data, const char *data, size_t size);
     void *user_data;
     bool is_stopped;
+    uint32_t num_lost;
 };
 
 static void flush_text(void *user_data, struct text *out)
@@ -182,10 +191,11 @@ static void write_all(void *arg, struct arena *scratch)
                                  .user_data = job,
                                  .colour = job->format == MXG_BINDINGS_TABLE_COLOUR};
     bind_writer_init(&writer);
-    if (job->format == MXG_BINDINGS_JSON)
-        bind_write_json(&writer);
-    else
-        bind_write_table(&writer);
+    switch (job->format) {
+    case MXG_BINDINGS_JSON: bind_write_json(&writer); break;
+    case MXG_BINDINGS_USDA: job->num_lost = bind_write_usda(&writer); break;
+    default: bind_write_table(&writer); break;
+    }
     flush_text(job, &out);
 }
 
@@ -193,10 +203,11 @@ mxg_status mxg_bindings_write(const mxg_bindings *bindings, mxg_bindings_format 
                               bool (*write)(void *user_data, const char *data, size_t size),
                               void *user_data)
 {
-    if (!bindings || !bindings->is_resolved || !write || (unsigned)format > MXG_BINDINGS_JSON)
+    if (!bindings || !bindings->is_resolved || !write || (unsigned)format > MXG_BINDINGS_USDA)
         return MXG_ERROR_ARGUMENT;
-    struct write_job job = {bindings, format, 0, write, user_data, false};
-    return context_run(bindings->object.context, write_all, &job);
+    struct write_job job = {bindings, format, 0, write, user_data, false, 0};
+    mxg_status status = context_run(bindings->object.context, write_all, &job);
+    return status == MXG_OK && job.num_lost ? MXG_ERROR_DOCUMENT : status;
 }
 
 static void write_reasons(void *arg, struct arena *scratch)
@@ -214,6 +225,6 @@ mxg_status mxg_bindings_explain(const mxg_bindings *bindings, uint32_t primitive
 {
     if (!state_of(bindings, primitive) || !write)
         return MXG_ERROR_ARGUMENT;
-    struct write_job job = {bindings, MXG_BINDINGS_TABLE, primitive, write, user_data, false};
+    struct write_job job = {bindings, MXG_BINDINGS_TABLE, primitive, write, user_data, false, 0};
     return context_run(bindings->object.context, write_reasons, &job);
 }

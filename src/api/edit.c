@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Edits: a copy of a document that changes until it becomes a document. */
-#include "api/api.h"
+#include "api/scene.h"
+#include "bind/materials.h"
 
 #include <assert.h>
 #include <math.h>
@@ -638,6 +639,43 @@ mxg_status mxg_edit_end(mxg_edit *edit, mxg_document **out_document)
         *out_document = edit->document;
         status = object_status(object);
     }
+    mxg_edit_cancel(edit);
+    return status;
+}
+
+/* ---- Materials of a stage ---- */
+
+struct materials_job {
+    mxg_document *document;
+    const mxg_scene *scene;
+    struct arena scratch;
+};
+
+static void add_materials(void *arg)
+{
+    struct materials_job *job = arg;
+    bind_add_materials(&job->scene->scene, &job->document->layer, &job->scratch,
+                       &job->document->object.diagnostics.list);
+}
+
+mxg_status mxg_document_with_materials(mxg_context *context, mxg_library *library,
+                                       const mxg_document *document, const mxg_scene *scene,
+                                       mxg_document **out_document)
+{
+    mxg_edit *edit;
+    if (out_document)
+        *out_document = NULL;
+    if (!scene || !out_document)
+        return MXG_ERROR_ARGUMENT;
+    mxg_status status = mxg_edit_begin(context, library, document, "<stage>", &edit);
+    if (status != MXG_OK)
+        return status;
+    struct materials_job job = {.document = edit->document, .scene = scene};
+    arena_init(&job.scratch, &edit->document->object.mem);
+    status = object_run(&edit->document->object, add_materials, &job);
+    arena_finish(&job.scratch);
+    if (status == MXG_OK)
+        return mxg_edit_end(edit, out_document);
     mxg_edit_cancel(edit);
     return status;
 }

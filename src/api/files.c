@@ -70,14 +70,36 @@ static bool open_file(struct file_source *source, const char *from, const char *
     return source->is_open;
 }
 
+/* ---- Search paths ---- */
+
+struct source_path {
+    struct source_path *next;
+    size_t size;
+    char folder[]; /* with a '/' at the end, so that it can stand for a file in the folder */
+};
+
+/* In the folders of the context. */
+static bool open_in_paths(struct file_source *source, const char *ref, const char **out_reason)
+{
+    for (const struct source_path *path = source->object->context->source_paths; path;
+         path = path->next)
+        if (open_file(source, path->folder, ref, out_reason))
+            return true;
+    return false;
+}
+
+/* An include is beside the including file, or in a folder of the context. */
 static bool open_for_xml(void *user_data, const char *from, const char *ref, const char **out_name,
                          const char **out_data, size_t *out_size, void **out_handle,
                          const char **out_reason)
 {
     struct file_source *source = user_data;
+    const char *unused;
     if (!open_file(source, from, ref, out_reason)) {
+        bool is_include = from && *from, is_missing = !source->blob.name;
         *out_name = source->blob.name;
-        return false;
+        if (!is_include || !is_missing || !open_in_paths(source, ref, &unused))
+            return false;
     }
     *out_name = file_source_remember(source, source->blob.name);
     *out_data = source->blob.data;
@@ -98,14 +120,6 @@ struct xml_files file_source_for_xml(struct file_source *source)
     return (struct xml_files){
         .user_data = source, .open = open_for_xml, .release = release_for_xml};
 }
-
-/* ---- Source files ---- */
-
-struct source_path {
-    struct source_path *next;
-    size_t size;
-    char folder[]; /* with a '/' at the end, so that it can stand for a file in the folder */
-};
 
 /*
  * Adds a path in front of the others. The sandbox admits its files.
@@ -134,6 +148,8 @@ void source_paths_finish(struct mxg_context *context)
         context->mem.realloc(context->mem.user_data, path, path->size, 0);
     }
 }
+
+/* ---- Source files ---- */
 
 static const char *with_slash(struct arena *arena, const char *folder, size_t len)
 {
@@ -169,11 +185,7 @@ static bool open_source(struct file_source *source, const char *from, const char
     for (uint32_t i = 0; i < source->folders.len && is_missing; i++)
         if (open_file(source, source->folders.items[i], ref, &unused))
             return true;
-    for (const struct source_path *path = source->object->context->source_paths; path && is_missing;
-         path = path->next)
-        if (open_file(source, path->folder, ref, &unused))
-            return true;
-    return false;
+    return is_missing && open_in_paths(source, ref, &unused);
 }
 
 /*

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/generation.h"
+#include "api/scene.h"
 
 #include <assert.h>
 
@@ -132,7 +133,7 @@ static str_id value_type(const struct generation *g)
     return doc_attr_value(&g->document->layer.doc, g->element, STR_type);
 }
 
-static void name_shader(struct generation *g)
+static void name_element(struct generation *g)
 {
     const struct document *doc = &g->document->layer.doc;
     const struct element *element = doc_element(doc, g->element);
@@ -146,11 +147,39 @@ static void name_shader(struct generation *g)
     shader->element_type = element->category;
     shader->path = str_intern(shader->strings, path.data, path.len);
     shader->value_type = value_type(g);
+}
+
+static void name_stack(struct generation *g)
+{
+    struct shader *shader = &g->result->shader;
+    char name[BIND_STACK_NAME_SIZE];
+    bind_stack_name(&g->desc.bindings->bindings, g->desc.stack, name);
+    shader->name = shader->path = str_intern_z(shader->strings, name);
+    shader->element_type = str_intern_z(shader->strings, "stack");
+}
+
+static void name_shader(struct generation *g)
+{
+    struct shader *shader = &g->result->shader;
+    if (g->desc.bindings)
+        name_stack(g);
+    else
+        name_element(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
     lang_style_init(shader->style, g->result->target->syntax, shader->arena);
     for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
         shader->source_language = t->source;
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
+}
+
+/* The place of messages about a stack: its base, or the look. */
+static elem_id element_of_stack(const struct generation *g)
+{
+    const struct bindings *b = &g->desc.bindings->bindings;
+    const struct bind_state *state = &b->states.items[b->stacks.items[g->desc.stack].state];
+    if (state->num_items)
+        return b->look.assigns.items[b->items.items[state->first_item].assign].target;
+    return b->look.element ? b->look.element : g->document->layer.doc.root;
 }
 
 bool generation_start(struct generation *g)
@@ -160,8 +189,9 @@ bool generation_start(struct generation *g)
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena);
         good = check_version(g);
     }
-    g->element = document_find_element(g->document, g->desc.element, diags_of(g), &g->output_name,
-                                       &g->output);
+    g->element = g->desc.bindings ? element_of_stack(g)
+                                  : document_find_element(g->document, g->desc.element, diags_of(g),
+                                                          &g->output_name, &g->output);
     if (!good || !g->element)
         return false;
     g->result->options = options_hash(g->options);
@@ -215,7 +245,8 @@ bool generation_build(struct generation *g)
         build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
     if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
-    g->root = build_element(g->builder, g->element, g->output);
+    g->root = g->desc.bindings ? build_stack(g->builder, &g->desc.bindings->bindings, g->desc.stack)
+                               : build_element(g->builder, g->element, g->output);
     assert(g->root < g->result->graph.nodes.len);
     ir_assert_valid(&g->result->graph, "after build");
     if (!is_good(g))
@@ -229,38 +260,9 @@ bool generation_build(struct generation *g)
 
 /* ---- Emit ---- */
 
-static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
-{
-    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR
-                       && (int)LEAF_WAY == FAMILY_WAY,
-                   "leaf functions are the first members of a family");
-    return build_leaf_family(user_data, callee)->functions;
-}
-
-static const char *leaf_input(void *user_data, uint32_t callee, unsigned index)
-{
-    return build_leaf_input(user_data, callee, index);
-}
-
-struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point)
-{
-    return (struct closure_host){.user_data = builder,
-                                 .point = point,
-                                 .leaf_functions = leaf_functions,
-                                 .leaf_input = leaf_input,
-                                 .lang = build_lang_host(builder)};
-}
-
-static ir_ref slab_lobes(void *user_data, const ir_ref *inputs, const struct slab_place *place)
-{
-    return build_slab_lobes(user_data, inputs, place);
-}
-
 void generation_walk_slabs(struct generation *g)
 {
-    struct slabs_host host = {
-        .user_data = g->builder, .lobes = slab_lobes, .closures = &g->closure_host};
-    g->root = slabs_walk(&g->result->shader, &host, g->root);
+    g->root = build_walk_slabs(g->builder, &g->closure_host, g->root);
     ir_assert_valid(&g->result->graph, "after the walk of slabs");
 }
 
@@ -269,7 +271,7 @@ void generation_start_closures(struct generation *g)
     const struct option_value *lights = &g->options[OPTION_lights];
     if (!g->result->target->closures) /* otherwise the renderer has the lights */
         build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
-    g->closure_host = generation_closure_host(g->builder, &g->point);
+    g->closure_host = build_closure_host(g->builder, &g->point);
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
         .environment = g->options[OPTION_environment].number != 0,
@@ -317,6 +319,7 @@ bool generation_emit(struct generation *g)
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
+    g->result->shader.picks = g->options[OPTION_slots].number != 0;
     if (g->result->shader.scatters && g->result->shader.source_leaves.len) {
         generation_report_not_renderable(
             g, "a path tracer cannot sample closures whose source is for one target");
@@ -341,6 +344,39 @@ bool generation_finish(struct generation *g)
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(&g->result->shader, &rules);
     return is_good(g);
+}
+
+/* The slots of the textures that the shader reads, each once. */
+static const char *list_slots(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    struct text list;
+    str_id last = 0;
+    text_init(&list, &g->scratch);
+    for (uint32_t i = 0; i < shader->interface.len; i++) {
+        const struct shader_variable *v = &shader->variables.items[shader->interface.items[i]];
+        if (v->block != BLOCK_TEXTURES || !v->slot || v->slot == last)
+            continue;
+        last = v->slot;
+        text_fmt(&list, "%s'%s'", list.len ? ", " : "", str_text(shader->strings, last));
+    }
+    return text_cstr(&list);
+}
+
+/* A stack may have more textures than a target can read; reports that. */
+static bool check_textures(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    const struct target *target = g->result->target;
+    uint32_t first = shader->first_of_block[BLOCK_TEXTURES],
+             num = shader->first_of_block[BLOCK_TEXTURES + 1] - first;
+    while (target && !target->max_textures)
+        target = target->base;
+    if (!g->desc.bindings || !target || num <= target->max_textures)
+        return true;
+    diag_add(diags_of(g), DIAG_ID_texture_limit, doc_place(&g->document->layer.doc, g->element),
+             (unsigned)num, (unsigned)target->max_textures, g->result->target->name, list_slots(g));
+    return false;
 }
 
 /* ---- Spell ---- */
@@ -461,6 +497,15 @@ bool generation_names_target(const mxg_generate_desc *desc)
     return desc && struct_read(&known, sizeof known, desc) && known.target;
 }
 
+/* True if the description names no stack, or one of the document. */
+static bool is_stack_of(const mxg_generate_desc *desc, const mxg_document *document)
+{
+    const mxg_bindings *bindings = desc->bindings;
+    return !bindings
+           || (bindings->document == document && !desc->element
+               && desc->stack < mxg_bindings_num_stacks(bindings));
+}
+
 mxg_status generation_run(mxg_context *context, const mxg_document *document,
                           const mxg_generate_desc *desc, void (*steps)(struct generation *),
                           void *user_data, mxg_result **out_result)
@@ -470,7 +515,8 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     if (out_result)
         *out_result = NULL;
     if (!context || !document || !out_result
-        || (desc && !struct_read(&g->desc, sizeof g->desc, desc)))
+        || (desc && !struct_read(&g->desc, sizeof g->desc, desc))
+        || !is_stack_of(&g->desc, document))
         return MXG_ERROR_ARGUMENT;
     /* only its reference count changes */
     struct object *below = (struct object *)(uintptr_t)&document->object;
@@ -511,9 +557,10 @@ static void generate(struct generation *g)
     if (g->result->network.arena)
         g->result->has_shader = built && generation_make_network(g);
     else
-        g->result->has_shader = built && generation_emit(g) && !g->desc.only_diagnostics
-                                && generation_finish(g)
-                                && (g->desc.without_source || generation_spell(g));
+        g->result->has_shader =
+            built && generation_emit(g) && (!g->desc.only_diagnostics || g->desc.bindings)
+            && generation_finish(g) && check_textures(g) && !g->desc.only_diagnostics
+            && (g->desc.without_source || generation_spell(g));
     if (!g->result->has_shader)
         drop_source(g->result);
     assert(!g->result->has_shader || diags_of(g)->num_errors == 0);

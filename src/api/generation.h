@@ -94,7 +94,6 @@ bool generation_spell(struct generation *g);  /* source */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* generation.c: shared with network.c. */
-struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point);
 struct shader_layout_rules generation_layout_rules(const struct generation *g);
 struct spell_options generation_spell_options(const struct generation *g);
 void generation_report_not_renderable(struct generation *g, const char *why);

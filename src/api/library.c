@@ -62,6 +62,8 @@ static void map_image(void *arg)
     }
     library->image = data;
     library->image_size = size;
+    library_report_foreign(&library->layer, &load->files.scratch,
+                           &library->object.diagnostics.list);
 }
 
 static void read_file(struct load *load, const char *path)
@@ -125,6 +127,8 @@ static void read_paths(void *arg)
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     library->layer.digest = load->files.digest;
     report_deferred(library);
+    library_report_foreign(&library->layer, &load->files.scratch,
+                           &library->object.diagnostics.list);
     library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
     lang_make_canonical(&library->layer.unit);
 }
@@ -292,11 +296,11 @@ static bool serves(const struct library *lib, const struct implementation *impl,
 static bool has_implementation(const struct library *lib, uint32_t id, const struct target *target)
 {
     for (const struct library *layer = lib; id < layer->base_nodedefs; layer = layer->base)
-        for (uint32_t i = 0; i < layer->overrides.len; i++) {
-            assert(layer->overrides.items[i] < layer->impls.len);
-            const struct implementation *impl = &layer->impls.items[layer->overrides.items[i]];
-            if (impl->nodedef == id && serves(lib, impl, target))
+        for (uint32_t i = library_first_override(layer, id); i != LIBRARY_NONE;) {
+            const struct implementation *impl = library_impl(lib, i, NULL);
+            if (serves(lib, impl, target))
                 return true;
+            i = impl->next;
         }
     for (uint32_t i = library_nodedef(lib, id)->first_impl; i != LIBRARY_NONE;) {
         const struct implementation *impl = library_impl(lib, i, NULL);

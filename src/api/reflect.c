@@ -126,6 +126,7 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
         .type = lang_syntax_type(result->target->syntax, v->type),
         .document_type = text_of(result, v->doc_type),
         .path = text_of(result, v->path),
+        .slot = text_of(result, v->slot),
         .semantic = text_of(result, v->semantic),
         .colorspace = text_of(result, v->colorspace),
         .unit = text_of(result, v->unit),

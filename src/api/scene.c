@@ -89,11 +89,12 @@ static void read_scene(void *arg)
     size_t size;
     if (!file_source_read(&load->files, load->path, &data, &size, diags))
         return;
-    if (is_usda(load->path))
+    if (is_usda(load->path)) { /* the scene keeps the text */
         scene_read_usda(&load->scene->scene, load->path, data, size, load->purpose,
                         &load->files.scratch, diags);
-    else
-        scene_read_list(&load->scene->scene, load->path, data, size, diags);
+        return;
+    }
+    scene_read_list(&load->scene->scene, load->path, data, size, diags);
     /* the scene keeps the names */
     arena_release(&load->scene->object.arena, (void *)(uintptr_t)data, size + 1);
 }
@@ -183,7 +184,15 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
                           .first_child = number_of(prim->first_child),
                           .next_sibling = number_of(prim->next),
                           .name = prim->name,
-                          .name_len = prim->name_len};
+                          .name_len = prim->name_len,
+                          .type = ""};
+    for (uint32_t i = scene_source(&scene->scene, index + 1); i && !full.type_len;
+         i = scene->scene.sources.items[i - 1].next) {
+        const struct text_word type =
+            scene->scene.layer.prims.items[scene->scene.sources.items[i - 1].prim].type;
+        full.type = type.len ? type.bytes : "";
+        full.type_len = type.len;
+    }
     return struct_write(out, &full, sizeof full);
 }
 

@@ -12,4 +12,12 @@ struct mxg_scene {
     bool is_bound; /* bindings refer to it, so it must not change */
 };
 
+struct mxg_bindings {
+    struct object object; /* keeps the document alive */
+    mxg_scene *scene;
+    const mxg_document *document;
+    struct bindings bindings;
+    bool is_resolved; /* a look was found */
+};
+
 #endif

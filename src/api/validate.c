@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Validates a whole document against its library, and the files that it names. */
 #include "api/generation.h"
+#include "base/hash.h"
+#include "bind/look.h"
 
 /*
  * ---- Textures: reports missing files, if the host lists folders ----
@@ -124,9 +126,59 @@ static void check_textures(struct generation *g)
             check_texture(&c, e);
 }
 
+/* ---- Looks ---- */
+
+/* The places that have a message, so that a look and those that inherit it say everything once. */
+struct told {
+    struct table table;
+    struct arena *arena;
+};
+
+/* True if nothing is told of the place so far. */
+static bool tell_place(struct told *told, struct diag_place place)
+{
+    uint32_t hash = hash_pair(place.line, place.column);
+    for (uint32_t at = hash, found; (found = table_next(&told->table, hash, &at));)
+        if (found == place.line)
+            return false;
+    if (place.line)
+        table_add(&told->table, told->arena, hash, place.line);
+    return true;
+}
+
+/* Slots, patterns and collections, without a scene. */
+static void check_look(struct generation *g, elem_id element, struct told *told)
+{
+    struct diag_list *diags = &g->result->object.diagnostics.list, found;
+    struct bind_look look = {0};
+    struct scene scene;
+    scene_init(&scene, &g->scratch);
+    diag_list_init(&found, diags->arena);
+    look_read(&look, &g->document->layer.doc, element, &scene, &g->scratch, &found);
+    look_finish(&look);
+    for (uint32_t i = 0; i < found.items.len; i++) {
+        const struct diag *d = &found.items.items[i];
+        if (tell_place(told, d->place))
+            diag_repeat(diags, d);
+    }
+}
+
+static void check_looks(struct generation *g)
+{
+    const struct document *doc = &g->document->layer.doc;
+    const struct diag_list *diags = &g->result->object.diagnostics.list;
+    struct told told = {.arena = &g->scratch};
+    for (uint32_t i = 0; i < diags->items.len; i++)
+        tell_place(&told, diags->items.items[i].place);
+    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_LOOK)
+            check_look(g, e, &told);
+}
+
 static void validate(struct generation *g)
 {
     library_validate(&g->document->layer, &g->scratch, &g->result->object.diagnostics.list);
+    check_looks(g);
     check_textures(g);
 }
 

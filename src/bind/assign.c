@@ -237,12 +237,18 @@ void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal)
 
 /* The materials of a scene are those of the documents, by the names of their prims. */
 static bool find_bound(struct bind_look *look, struct look_assign *assign,
-                       const struct scene_binding *binding)
+                       const struct scene_binding *binding, bool is_override)
 {
     const char *material = binding->material;
     str_id name = str_find(look->doc->strings, material, strlen(material));
     if (!*material || (name && set_material(look, assign, name)))
         return true;
+    elem_id graph = name && is_override ? doc_top_level(look->doc, KIND_NODEGRAPH, name) : 0;
+    if (graph) {
+        assign->target = graph;
+        assign->kind = ASSIGN_GRAPH;
+        return true;
+    }
     struct diag_guess guess;
     const char *near = "";
     if (diag_guess_begin(&guess, look->diags, material)) {
@@ -253,25 +259,56 @@ static bool find_bound(struct bind_look *look, struct look_assign *assign,
     return false;
 }
 
+/* A new matcher without patterns: 1 + its number. */
+static uint32_t add_matcher(struct bind_look *look, uint32_t owner, enum matcher_kind kind)
+{
+    vec_push(look->arena, &look->matchers,
+             (struct look_matcher){.owner = owner, .kind = (uint8_t)kind});
+    return look->matchers.len;
+}
+
+/* The matcher matches at the path of a primitive. */
+static void match_prim(struct bind_look *look, uint32_t matcher, prim_id prim)
+{
+    struct text path;
+    text_init(&path, look->arena);
+    scene_path(look->scene, prim, &path);
+    pattern_add(&look->patterns, path.data, path.len, matcher - 1);
+}
+
+/* The collection that a binding of the scene uses: its number from 1. */
+static uint32_t add_usd_collection(struct bind_look *look, const struct scene_binding *binding)
+{
+    uint32_t number = look->collections.len;
+    struct look_collection added = {.first_nested = look->nested.len};
+    added.include = add_matcher(look, number, MATCHER_INCLUDE);
+    added.exclude = add_matcher(look, number, MATCHER_EXCLUDE);
+    added.owner = add_matcher(look, number, MATCHER_INCLUDE);
+    match_prim(look, added.owner, binding->prim);
+    const struct scene_member *members = &look->scene->members.items[binding->first_member];
+    for (uint32_t i = 0; i < binding->num_members; i++)
+        match_prim(look, members[i].is_excluded ? added.exclude : added.include, members[i].prim);
+    vec_push(look->arena, &look->collections, added);
+    return number + 1;
+}
+
 void look_read_binding(struct bind_look *look, uint32_t number)
 {
     const struct scene_binding *binding = &look->scene->bindings.items[number];
     struct look_assign assign = {.binding = number + 1, .kind = ASSIGN_REMOVAL};
     struct slot_name name;
     const char *text = binding->name;
-    struct text path;
     slot_parse(text, strlen(text), &name); /* the reader of the scene has checked it */
-    if (!find_bound(look, &assign, binding))
+    if (!find_bound(look, &assign, binding, name.parts[SLOT_OVERRIDE].len != 0))
         return;
-    if (name.parts[SLOT_OVERRIDE].len && assign.target)
+    if (name.parts[SLOT_OVERRIDE].len && assign.target && assign.kind != ASSIGN_GRAPH)
         assign.kind = ASSIGN_LAYER;
     if (assign.kind == ASSIGN_VOLUME || assign.kind == ASSIGN_LIGHT)
         move_beside(look, &assign, &name, &text);
-    text_init(&path, look->arena);
-    scene_path(look->scene, binding->prim, &path);
-    struct look_matcher matcher = {.owner = look->assigns.len, .kind = MATCHER_ASSIGN};
-    vec_push(look->arena, &look->matchers, matcher);
-    pattern_add(&look->patterns, path.data, path.len, look->matchers.len - 1);
+    if (binding->num_members)
+        assign.collection = add_usd_collection(look, binding);
+    else
+        match_prim(look, add_matcher(look, look->assigns.len, MATCHER_ASSIGN), binding->prim);
     assign.name = intern_name(look, &name, text, strlen(text));
     vec_push(look->arena, &look->assigns, assign);
 }

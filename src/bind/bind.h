@@ -123,6 +123,10 @@ void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *
 
 /* ---- explain.c, report.c ---- */
 
+/* "stack_8a5f7a0f9c2f6f0e" and a NUL */
+enum { BIND_STACK_NAME_SIZE = 6 + 16 + 1 };
+void bind_stack_name(const struct bindings *b, uint32_t stack, char out[BIND_STACK_NAME_SIZE]);
+
 /* Writes why each assignment that was considered for a primitive won, lost, removes or sleeps. */
 void bind_explain(const struct bindings *b, prim_id prim, struct arena *scratch, struct text *out);
 
@@ -142,5 +146,10 @@ struct bind_writer {
 void bind_writer_init(struct bind_writer *writer);
 void bind_write_table(struct bind_writer *writer);
 void bind_write_json(struct bind_writer *writer);
+/*
+ * write_usda.c: returns how often a primitive has something that slot bindings cannot hold:
+ * products of weaker assignments, variants, a volume beside a layer.
+ */
+uint32_t bind_write_usda(struct bind_writer *writer);
 
 #endif

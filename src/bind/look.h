@@ -59,6 +59,7 @@ struct look_collection {
     elem_id element;
     uint32_t first_nested, num_nested; /* in `nested` */
     uint32_t include, exclude;         /* 1 + matcher; 0: none */
+    uint32_t owner; /* of a collection of USD: 1 + matcher of the prim whose binding uses it */
 };
 
 /* What a matcher of the patterns says about a path. */

@@ -133,11 +133,21 @@ void bind_write_table(struct bind_writer *w)
 
 /* ---- JSON ---- */
 
-static void put_stack_name(struct bind_writer *w, const struct bind_stack *stack)
+void bind_stack_name(const struct bindings *b, uint32_t stack, char out[BIND_STACK_NAME_SIZE])
 {
-    text_str(w->out, "\"stack_");
-    text_hex64(w->out, stack->hash);
-    text_char(w->out, '"');
+    static const char prefix[] = "stack_", digits[] = "0123456789abcdef";
+    uint64_t hash = b->stacks.items[stack].hash;
+    memcpy(out, prefix, sizeof prefix - 1);
+    for (unsigned i = 0; i < 16; i++)
+        out[sizeof prefix - 1 + i] = digits[hash >> (60 - 4 * i) & 15];
+    out[BIND_STACK_NAME_SIZE - 1] = '\0';
+}
+
+static void put_stack_name(struct bind_writer *w, uint32_t stack)
+{
+    char name[BIND_STACK_NAME_SIZE];
+    bind_stack_name(w->b, stack, name);
+    text_fmt(w->out, "\"%s\"", name);
 }
 
 static void put_path(struct bind_writer *w, prim_id prim)
@@ -268,7 +278,7 @@ static void put_primitive(struct bind_writer *w, struct json *json, prim_id prim
     json_key(json, "path");
     put_path(w, prim);
     json_key(json, "stack");
-    put_stack_name(w, &w->b->stacks.items[bind_state_of(w->b, prim)->stack]);
+    put_stack_name(w, bind_state_of(w->b, prim)->stack);
     json_key(json, "layers");
     json_open(json, '[');
     for (uint32_t i = 0; i < place.num_items; i++) {
@@ -310,7 +320,7 @@ static void put_stack(struct bind_writer *w, struct json *json, const struct mem
     json_item(json);
     json_open_flat(json, '{');
     json_key(json, "name");
-    put_stack_name(w, stack);
+    put_stack_name(w, number);
     json_key(json, "primitives");
     json_open(json, '[');
     for (uint32_t i = members->ends[number] - stack->num_prims; i < members->ends[number]; i++) {

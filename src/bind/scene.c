@@ -66,10 +66,9 @@ prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_
     return added;
 }
 
-prim_id scene_find(const struct scene *scene, const char *path, size_t len)
+prim_id scene_find_below(const struct scene *scene, prim_id prim, const char *path, size_t len)
 {
     const char *end = path + len;
-    prim_id prim = 0;
     while (path < end) {
         path += *path == '/';
         const char *slash = memchr(path, '/', (size_t)(end - path));
@@ -80,6 +79,11 @@ prim_id scene_find(const struct scene *scene, const char *path, size_t len)
         path += name;
     }
     return prim;
+}
+
+prim_id scene_find(const struct scene *scene, const char *path, size_t len)
+{
+    return scene_find_below(scene, 0, path, len);
 }
 
 uint32_t scene_depth(const struct scene *scene, prim_id prim)

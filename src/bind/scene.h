@@ -7,6 +7,7 @@
 
 #include "base/table.h"
 #include "diag/diag.h"
+#include "usda/usda.h"
 
 typedef uint32_t prim_id; /* 0: the root "/", which is no primitive of its own */
 
@@ -25,6 +26,23 @@ struct scene_binding {
     struct diag_place place;
     bool is_strong;  /* it beats the bindings of the scene below it */
     bool is_purpose; /* it is for the asked purpose, and beats those for all purposes */
+    uint32_t first_member, num_members; /* of its collection; 0: it has none */
+};
+
+/* A path that a collection of USD names. */
+struct scene_member {
+    prim_id prim;
+    bool is_excluded;
+};
+
+/*
+ * A prim of the USD layer whose properties a primitive has; the strongest comes first. Paths at or
+ * below `from` lead to primitives at or below `to`: an instance of an internal reference.
+ */
+struct scene_source {
+    usda_prim_id prim, from;
+    prim_id to;
+    uint32_t next; /* 1 + index; 0: none */
 };
 
 struct scene {
@@ -33,7 +51,11 @@ struct scene {
     struct table table;           /* (parent, name) → primitive */
     VEC(prim_id) last; /* the levels of the path that was added last; the next often shares some */
     VEC(struct scene_binding) bindings;
-    const char *slot_order; /* with commas; NULL: the scene has none */
+    VEC(struct scene_member) members;
+    struct usda_layer layer; /* of a stage of USD; otherwise without prims */
+    VEC(struct scene_source) sources;
+    VEC(uint32_t) first_source; /* by primitive: 1 + index; shorter than prims: 0 */
+    const char *slot_order;     /* with commas; NULL: the scene has none */
     struct diag_place slot_order_place;
     char *names; /* free part of the block of names */
     size_t names_left;
@@ -48,6 +70,9 @@ prim_id scene_find_child(const struct scene *scene, prim_id parent, const char *
 
 /* The primitive at a path, "/a/b"; 0: none. */
 prim_id scene_find(const struct scene *scene, const char *path, size_t len);
+
+/* The same for the rest of a path below a primitive, "/b". */
+prim_id scene_find_below(const struct scene *scene, prim_id prim, const char *path, size_t len);
 
 /* Writes the path of a primitive: "/a/b"; "/" for 0. */
 void scene_path(const struct scene *scene, prim_id prim, struct text *out);
@@ -73,9 +98,24 @@ void scene_read_list(struct scene *scene, const char *file, const char *text, si
 
 /*
  * stage.c: adds the primitives of a USD text layer, with their bindings. Instances of an internal
- * reference are primitives of their own. purpose: "full", "preview", or "" for all purposes.
+ * reference are primitives of their own. purpose: "full", "preview", or "" for all purposes. Keeps
+ * `text`, which ends with a NUL and lives as long as the scene.
  */
 void scene_read_usda(struct scene *scene, const char *file, const char *text, size_t len,
                      const char *purpose, struct arena *scratch, struct diag_list *diags);
+
+/* The strongest prim of the layer that a primitive comes from: 1 + index in `sources`; 0: none. */
+static inline uint32_t scene_source(const struct scene *scene, prim_id prim)
+{
+    return prim < scene->first_source.len ? scene->first_source.items[prim] : 0;
+}
+/*
+ * The strongest property of a name (usda_find_attribute), and its source in *out_source, which may
+ * be NULL; NULL: none.
+ */
+const struct usda_property *scene_property(const struct scene *scene, prim_id prim,
+                                           const char *name, uint32_t *out_source);
+/* The primitive that a path in a property of a source names; 0: none. */
+prim_id scene_target(const struct scene *scene, uint32_t source, struct text_word path);
 
 #endif

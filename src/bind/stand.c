@@ -22,11 +22,25 @@ static uint32_t level_of(const struct bindings *b, const struct bind_state *stat
     return low < state->num_entries && entries[low].matcher == matcher ? entries[low].level : 0;
 }
 
+/*
+ * Membership in a collection of USD is what the deepest of its paths says, and an exclusion beats
+ * an inclusion of the same path (UsdCollectionMembershipQuery). The binding stands at its own prim.
+ */
+static uint32_t level_of_usd(const struct bindings *b, const struct bind_state *state,
+                             const struct look_collection *c)
+{
+    uint32_t include = level_of(b, state, c->include - 1),
+             exclude = level_of(b, state, c->exclude - 1);
+    return include > exclude ? level_of(b, state, c->owner - 1) : 0;
+}
+
 /* The level of one collection, from those of its nested ones, which stand before it. */
 static uint32_t level_of_collection(const struct bindings *b, const struct bind_state *state,
                                     uint32_t number, const uint32_t *levels)
 {
     const struct look_collection *c = &b->look.collections.items[number];
+    if (c->owner)
+        return level_of_usd(b, state, c);
     if (c->exclude && level_of(b, state, c->exclude - 1))
         return 0;
     uint32_t level = c->include ? level_of(b, state, c->include - 1) : 0;
@@ -230,5 +244,5 @@ void bind_stands(const struct bindings *b, const struct bind_state *state, struc
 bool bind_is_excluded(const struct bindings *b, const struct bind_state *state, uint32_t collection)
 {
     const struct look_collection *c = &b->look.collections.items[collection - 1];
-    return c->exclude && level_of(b, state, c->exclude - 1);
+    return c->exclude && !c->owner && level_of(b, state, c->exclude - 1);
 }

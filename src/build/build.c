@@ -137,22 +137,41 @@ const struct lang_host *build_lang_host(struct builder *b)
     return &b->host;
 }
 
+/* The port that gives a shader to an input of a material, by a drive or by itself; 0: none. */
+static elem_id shader_port(const struct builder *b, elem_id node, elem_id input)
+{
+    const struct element *e = doc_element(build_doc(b), input);
+    doc_type type = library_type(b->lib, doc_attr_value(build_doc(b), input, STR_type));
+    if (e->kind != KIND_INPUT || !type || !ir_type_is_shader(library_type_ir(b->lib, type)))
+        return 0;
+    elem_id driver = library_driver(b->resolved.drives, node, e->name);
+    return driver ? driver : input;
+}
+
+static void publish_shader(struct builder *b, elem_id port)
+{
+    struct diag_list ignored; /* the resolution of the node itself reports them */
+    diag_list_init(&ignored, b->arena);
+    struct binding binding =
+        library_resolve_driven(b->lib, port, DOC_TYPE_NONE, b->resolved.drives, &ignored);
+    if (binding.kind == BIND_NODE)
+        vec_push(b->arena, &b->public_nodes, binding.ref);
+}
+
 /* The interface of a material is the interface of its shaders. */
 static void publish_nodes(struct builder *b, elem_id node)
 {
+    const struct library_drives *drives = b->resolved.drives;
     vec_push(b->arena, &b->public_nodes, node);
-    struct diag_list ignored; /* the resolution of the node itself reports them */
-    diag_list_init(&ignored, b->arena);
     for (elem_id e = doc_element(build_doc(b), node)->first_child; e;
          e = doc_element(build_doc(b), e)->next) {
-        doc_type type = library_type(b->lib, doc_attr_value(build_doc(b), e, STR_type));
-        if (doc_element(build_doc(b), e)->kind != KIND_INPUT || !type
-            || !ir_type_is_shader(library_type_ir(b->lib, type)))
-            continue;
-        struct binding binding = library_resolve_connection(b->lib, e, type, &ignored);
-        if (binding.kind == BIND_NODE)
-            vec_push(b->arena, &b->public_nodes, binding.ref);
+        elem_id port = shader_port(b, node, e);
+        if (port)
+            publish_shader(b, port);
     }
+    for (uint32_t i = 0; drives && i < drives->items.len; i++)
+        if (drives->items.items[i].owner == node)
+            publish_shader(b, drives->items.items[i].source);
 }
 
 static ir_ref build_node_element(struct builder *b, elem_id node, unsigned output)
@@ -194,5 +213,12 @@ ir_ref build_element(struct builder *b, elem_id element, unsigned output)
 {
     assert(b->frames.len == 0);
     bool is_node = doc_element(build_doc(b), element)->kind == KIND_NODE;
-    return is_node ? build_node_element(b, element, output) : build_output_element(b, element);
+    ir_ref root =
+        is_node ? build_node_element(b, element, output) : build_output_element(b, element);
+    bool is_substance = root && ir_get(b->graph, root)->op == IR_SUBSTANCE;
+    if (is_substance && b->recorder) {
+        diag_add(b->diags, DIAG_ID_network_slots, doc_place(build_doc(b), element));
+        return 0;
+    }
+    return is_substance && !b->slot ? build_lone_substance(b, root) : root;
 }

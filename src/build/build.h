@@ -72,6 +72,13 @@ struct builder *build_start(const struct library *lib, const struct build_option
 ir_ref build_element(struct builder *builder, elem_id element, unsigned output);
 
 /*
+ * stack.c: the material of a stack: all its layers as one; of a primitive without layers the
+ * default substance. 0 after an error. `bindings` are those of the builder's document.
+ */
+struct bindings;
+ir_ref build_stack(struct builder *builder, const struct bindings *bindings, uint32_t stack);
+
+/*
  * network.c: makes the builder record layers in `network`. The value of build_element then depends
  * on sources that stand for the layers.
  */
@@ -100,9 +107,10 @@ const struct family *build_leaf_family(struct builder *builder, uint32_t callee)
 /* The input name of operand `index` + 1 of a LEAF node; NULL after the last. */
 const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned index);
 
-/* slab.c: the lobes of a slab at a place, by the definition ND_slab_lobes of the library. */
-ir_ref build_slab_lobes(struct builder *builder, const ir_ref *inputs,
-                        const struct slab_place *place);
+/* closures.c: what the closure room asks. */
+struct closure_host build_closure_host(struct builder *builder, struct closure_point *point);
+/* slabs_walk with the library's slabs. */
+ir_ref build_walk_slabs(struct builder *builder, const struct closure_host *closures, ir_ref root);
 
 /* Matches a path: '*' is any run without '/', '**' any run, '?' one character except '/'. */
 bool build_glob_matches(const char *glob, const char *path);

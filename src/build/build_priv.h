@@ -83,6 +83,7 @@ struct builder {
     elem_id called;            /* the node whose implementation is lowered; 0: none */
     ir_ref missing_texel;      /* the current node's texel outside all tiles of its image */
     struct recorder *recorder; /* network.c; NULL: one shader is built */
+    str_id slot;               /* the name of the layer that is built, for names of variables; 0 */
     bool has_colorspace;       /* the library has transforms to the option's colour space */
     bool has_distance_unit;    /* the library has the option's unit */
     bool cancelled;
@@ -258,8 +259,20 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family);
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
 
+/* struct.c */
+
+/* The type of a graph's nodes for a type of the document. */
+ir_type_id build_type(const struct builder *b, doc_type type);
+/* The value of a struct type: its text, or without text its default. Poison after a report. */
+ir_ref build_struct(struct builder *b, const struct port *port, str_id text, elem_id element);
+
 /* verbatim.c: calls source for one target. Source that mxgen cannot call is an error. */
 void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *results);
+/*
+ * The arguments of a portable function for one target: a string is the index of its word where the
+ * parameter is an int, and extra inputs follow.
+ */
+const ir_ref *build_function_arguments(struct builder *b, const struct frame *frame);
 /* True if the source is the function of a light shader. */
 bool build_is_light_source(const struct builder *b, const struct implementation *impl);
 /* Adds the function of a light shader to the shader; UINT32_MAX after a diagnostic. */
@@ -268,7 +281,9 @@ uint32_t build_light_source(struct builder *b, const struct implementation *impl
 /* film.c: a thin film on a BSDF, as inputs of its microfacet leaves. `node` is the film node. */
 ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, elem_id node);
 
-/* slab.c: the definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
+/* slab.c: the lobes of a slab at a place, by the definition ND_slab_lobes of the library. */
+ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place);
+/* The definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
 uint32_t build_slab_definition(const struct builder *b);
 
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
@@ -297,6 +312,26 @@ struct ir_value build_network_default(struct builder *b, const struct port *port
  * closures below it are no values. For targets with closures this holds for all shaders.
  */
 bool build_is_combined(const struct builder *b, const struct frame *frame);
+/* compose.c: the parts of a layer of a stack. */
+struct build_part {
+    const char *slot; /* for names of values; "" if it is in no stack */
+    ir_ref sides[2];  /* surface and back */
+    ir_ref displacement, normal;
+    ir_ref mask, cutout; /* floats; 0: 1 */
+    enum ir_slot_mode displacement_mode, normal_mode;
+    bool is_vertical;
+    ir_ref hides, presence; /* of the side at hand */
+};
+/* The parts of a built material. */
+struct build_part build_part_of(struct builder *b, ir_ref material);
+/* Layers, base first, as one MATERIAL. */
+ir_ref build_compose(struct builder *b, struct build_part *parts, uint32_t num);
+/* A SUBSTANCE, which is not in a stack, as a MATERIAL. */
+ir_ref build_lone_substance(struct builder *b, ir_ref substance);
+/* The attr of a SUBSTANCE; the mode of a word, -1: it is none. */
+uint32_t build_modes(unsigned displacement, unsigned normal);
+int build_mode(const char *word);
+
 /* lang_host.too_large and bad_index. */
 void build_report_large(void *user_data);
 void build_report_index(void *user_data, int32_t index, uint32_t length);

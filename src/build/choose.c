@@ -32,11 +32,11 @@ const struct implementation *build_best_implementation(const struct builder *b, 
     unsigned best_fitness = 0;
     /* Higher layers first: a document's implementation wins over the library's of equal fitness. */
     for (const struct library *layer = b->lib; layer; layer = layer->base) {
-        for (uint32_t i = 0; nodedef < layer->base_nodedefs && i < layer->overrides.len; i++) {
-            assert(layer->overrides.items[i] < layer->impls.len);
-            const struct implementation *impl = &layer->impls.items[layer->overrides.items[i]];
-            if (impl->nodedef == nodedef)
-                consider(b, impl, &best, &best_fitness);
+        for (uint32_t i = library_first_override(layer, nodedef); i != LIBRARY_NONE;) {
+            const struct implementation *impl = library_impl(b->lib, i, NULL);
+            assert(impl->nodedef == nodedef);
+            consider(b, impl, &best, &best_fitness);
+            i = impl->next;
         }
     }
     for (uint32_t i = library_nodedef(b->lib, nodedef)->first_impl; i != LIBRARY_NONE;) {
@@ -83,9 +83,9 @@ static void report_missing(struct builder *b, uint32_t nodedef, elem_id node)
     text_init(&targets, b->arena);
     text_init(&end, b->arena);
     for (const struct library *layer = b->lib; layer; layer = layer->base)
-        for (uint32_t i = 0; nodedef < layer->base_nodedefs && i < layer->overrides.len; i++)
-            if (layer->impls.items[layer->overrides.items[i]].nodedef == nodedef)
-                add_target(b, &layer->impls.items[layer->overrides.items[i]], &targets);
+        for (uint32_t i = library_first_override(layer, nodedef); i != LIBRARY_NONE;
+             i = library_impl(b->lib, i, NULL)->next)
+            add_target(b, library_impl(b->lib, i, NULL), &targets);
     for (uint32_t i = def->first_impl; i != LIBRARY_NONE;) {
         const struct implementation *impl = library_impl(b->lib, i, NULL);
         add_target(b, impl, &targets);

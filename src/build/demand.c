@@ -372,7 +372,7 @@ void build_apply_definition(struct builder *b, uint32_t nodedef, elem_id where, 
         return;
     }
     for (uint32_t i = 0; i < def->num_outputs; i++)
-        results[i] = ir_poison(b->graph, library_type_ir(b->lib, outputs[i].type));
+        results[i] = ir_poison(b->graph, build_type(b, outputs[i].type));
     if (!frame.impl)
         return;
     struct instance *inner = build_new_instance(b, b->document, frame.impl->ref);

@@ -409,6 +409,39 @@ static ir_ref build_surfacematerial(const struct call *c)
     return build_op(c, IR_MATERIAL, args, 4);
 }
 
+/* The argument of an input that the node sets; 0: it does not. */
+static ir_ref said(const struct call *c, str_id name)
+{
+    for (unsigned i = 0; c->frame->bindings && i < c->def->num_inputs; i++)
+        if (c->ports[i].name == name && c->frame->bindings[i].kind == BIND_DEFAULT)
+            return 0;
+    return arg(c, name);
+}
+
+static int mode(const struct call *c, str_id name)
+{
+    struct ir_value value;
+    if (!build_initial(c->b, arg(c, name), &value))
+        return -1;
+    return build_mode(build_text(c->b, value.w[0].u));
+}
+
+static ir_ref build_substance(const struct call *c)
+{
+    ir_ref material = build_surfacematerial(c),
+           args[4] = {material, said(c, STR_normal), arg(c, STR_mask), arg(c, STR_cutout)};
+    int displacement = mode(c, STR_displacement_mode), normal = mode(c, STR_normal_mode);
+    if (displacement < 0 || normal < 0)
+        return not_constant(c, displacement < 0 ? STR_displacement_mode : STR_normal_mode);
+    for (unsigned i = 2; i < 4; i++)
+        if (ir_const_is(c->b->graph, args[i], 1.0f))
+            args[i] = 0;
+    bool is_plain = !args[1] && !args[2] && !args[3] && displacement == IR_SLOT_MIX;
+    return is_plain ? material
+                    : ir_build(c->b->graph, IR_SUBSTANCE, c->type,
+                               build_modes((unsigned)displacement, (unsigned)normal), args, 4);
+}
+
 static ir_ref build_volumematerial(const struct call *c)
 {
     ir_ref args[4] = {0, 0, 0, arg(c, STR_volumeshader)};
@@ -542,6 +575,17 @@ static const struct dynamic_node {
      {{STR_surfaceshader, OF(SURFACE)},
       {STR_backsurfaceshader, OF(SURFACE)},
       {STR_displacementshader, OF(DISPLACEMENT)}}},
+    {STR_substance,
+     build_substance,
+     OF(MATERIAL),
+     {{STR_surfaceshader, OF(SURFACE)},
+      {STR_backsurfaceshader, OF(SURFACE)},
+      {STR_displacementshader, OF(DISPLACEMENT)},
+      {STR_normal, OF(VEC3)},
+      {STR_mask, OF(FLOAT)},
+      {STR_cutout, OF(FLOAT)},
+      {STR_displacement_mode, OF(STRING)},
+      {STR_normal_mode, OF(STRING)}}},
     {STR_volumematerial, build_volumematerial, OF(MATERIAL), {{STR_volumeshader, OF(VOLUME)}}},
     {STR_chosen_input, build_chosen_input, ~0u, {{0}}},
 };

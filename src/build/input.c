@@ -18,13 +18,17 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
                       const struct port *port, elem_id element, bool outermost)
 {
     str_id name = doc_element(build_doc(b), element)->name;
-    ir_type_id type = library_type_ir(b->lib, port->type);
+    ir_type_id type = build_type(b, port->type);
     if (type == IR_TYPE_SAMPLER)
         return texture(b, scope, owner, port, element, name);
     if (ir_type_is_closure(type) || ir_type_is_shader(type))
         return 0; /* documents write value="" for "no value" */
-    ir_ref value =
-        build_constant(b, port, doc_attr_value(build_doc(b), element, STR_value), element);
+    str_id text = doc_attr_value(build_doc(b), element, STR_value);
+    if (type >= IR_NUM_TYPES) {
+        build_compile_in(b, owner, port, element);
+        return build_struct(b, port, text, element);
+    }
+    ir_ref value = build_constant(b, port, text, element);
     if (outermost)
         value = build_publish(b, owner, port, element, name, value, true);
     else if (ir_is_const(b->graph, value))
@@ -43,10 +47,10 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
 static ir_ref unset(struct builder *b, const struct instance *scope, elem_id owner,
                     const struct port *port, elem_id element, bool outermost)
 {
-    if (library_type_ir(b->lib, port->type) == IR_TYPE_SAMPLER)
+    if (build_type(b, port->type) == IR_TYPE_SAMPLER)
         return texture(b, scope, owner, port, element, port->name);
     ir_ref value = build_default(b, port);
-    if (!value || port->geomprop)
+    if (!value || port->geomprop || ir_type_of(b->graph, value) >= IR_NUM_TYPES)
         return value;
     if (!outermost) {
         if (ir_is_const(b->graph, value))
@@ -81,7 +85,7 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
     int index =
         library_resolve_interface(b->lib, binding->element, nodedef, binding, port, b->diags);
     if (index < 0)
-        return ir_poison(b->graph, library_type_ir(b->lib, port->type));
+        return ir_poison(b->graph, build_type(b, port->type));
     const struct port *have = library_ports(b->lib, nodedef, NULL) + index;
     assert(have->name == binding->ref);
     return alone ? unset(b, scope, alone, have, 0, true) : scope->args[index];
@@ -129,7 +133,7 @@ ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, cons
     switch ((enum binding_kind)binding->kind) {
     case BIND_NODE: return build_result(b, scope, binding->ref, binding->output, port->type);
     case BIND_INTERFACE: return interface_arg(b, scope, port, binding);
-    case BIND_ERROR: return ir_poison(b->graph, library_type_ir(b->lib, port->type));
+    case BIND_ERROR: return ir_poison(b->graph, build_type(b, port->type));
     case BIND_VALUE:
     case BIND_DEFAULT: break;
     }

@@ -84,14 +84,16 @@ static bool stays_variable(const struct builder *b, elem_id node, bool authored,
 
 /*
  * A variable name: the last two names of the path, "SR_gold_base_color"; with short names
- * "base_color", if it is unique.
+ * "base_color", if it is unique; in a stack with its slot, "050_SR_gold_base_color".
  */
 static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {
-    if (b->options->short_names && shader_name_is_free(b->shader, input))
+    if (!b->slot && b->options->short_names && shader_name_is_free(b->shader, input))
         return input;
     struct text *name = &b->scratch;
     name->len = 0;
+    if (b->slot) /* layers may share nodes */
+        text_fmt(name, "%s_", build_text(b, b->slot));
     text_fmt(name, "%s_%s", build_text(b, doc_element(build_doc(b), node)->name),
              build_text(b, input));
     return str_intern(b->shader->strings, name->data, name->len);
@@ -107,9 +109,10 @@ struct shader_variable build_describe(struct builder *b, elem_id node, const str
 {
     return (struct shader_variable){
         .name = variable_name(b, node, input),
-        .type = library_type_ir(b->lib, port->type),
+        .type = build_type(b, port->type),
         .doc_type = library_type_name(b->lib, port->type),
         .path = path,
+        .slot = b->slot,
         .element = element ? element : node,
         .definition = port->element,
         .colorspace = element ? doc_inherited_attr(build_doc(b), element, STR_colorspace) : 0,

@@ -38,7 +38,7 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
     unsigned n = 1;
     operands[0] = ir_const_float(b->graph, 1.0f);
     for (unsigned i = 0; i < def->num_inputs; i++) {
-        if (ir_type_is_closure(library_type_ir(b->lib, ports[i].type)))
+        if (ir_type_is_closure(build_type(b, ports[i].type)))
             base = args[i];
         else if (ports[i].name == STR_weight)
             operands[0] = args[i];
@@ -53,7 +53,7 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
         operands[n++] = base;
     }
     uint32_t callee = build_leaf_callee(b, impl->ref);
-    ir_type_id type = library_type_ir(b->lib, ports[def->num_inputs].type);
+    ir_type_id type = build_type(b, ports[def->num_inputs].type);
     results[0] = ir_const_is(b->graph, operands[0], 0.0f)
                      ? 0
                      : ir_build(b->graph, IR_LEAF, type, callee, operands, n);
@@ -70,8 +70,8 @@ const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
     uint32_t nodedef = build_leaf_family(b, callee)->nodedef;
     const struct port *ports = library_ports(b->lib, nodedef, NULL);
     for (unsigned i = 0; i < library_nodedef(b->lib, nodedef)->num_inputs; i++) {
-        bool is_operand = ports[i].name != STR_weight
-                          && !ir_type_is_closure(library_type_ir(b->lib, ports[i].type));
+        bool is_operand =
+            ports[i].name != STR_weight && !ir_type_is_closure(build_type(b, ports[i].type));
         if (is_operand && index-- == 0)
             return build_text(b, ports[i].name);
     }
@@ -113,7 +113,7 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
     const struct implementation *impl = frame->impl;
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     ir_type_id type =
-        library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type);
+        build_type(b, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type);
     bool is_usable = impl->kind != IMPL_VERBATIM || build_is_light_source(b, impl);
     if (type == IR_TYPE_LIGHT && is_usable) {
         results[0] = dark_light(b);
@@ -126,7 +126,8 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
     if (impl->kind == IMPL_EXPRESSION)
         call_expressions(b, impl, frame->args, results);
     else if (impl->kind == IMPL_FUNCTION)
-        lang_lower_call(b->shader->unit, b->graph, &b->host, impl->ref, frame->args, results);
+        lang_lower_call(b->shader->unit, b->graph, &b->host, impl->ref,
+                        build_function_arguments(b, frame), results);
     else
         build_verbatim(b, frame, results);
     if (has_tiles)
@@ -142,6 +143,8 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     switch ((enum impl_kind)impl->kind) {
     case IMPL_VERBATIM:
         if (build_is_combined(b, frame)) {
+            diag_add(b->diags, DIAG_ID_builtin_operator, doc_place(&b->lib->doc, impl->element),
+                     build_text(b, def->node), build_text(b, impl->name));
             if (build_dynamic(b, frame, results))
                 return;
             break;
@@ -160,7 +163,7 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     case IMPL_BROKEN: break;
     }
     for (uint32_t i = 0; i < def->num_outputs; i++)
-        results[i] = ir_poison(b->graph, library_type_ir(b->lib, ports[def->num_inputs + i].type));
+        results[i] = ir_poison(b->graph, build_type(b, ports[def->num_inputs + i].type));
 }
 
 void build_node(struct builder *b, const struct frame *frame, ir_ref *results)

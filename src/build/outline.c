@@ -25,7 +25,7 @@ static bool gives_numbers(const struct builder *b, const struct nodedef *def,
                           const struct port *outputs)
 {
     for (uint32_t i = 0; i < def->num_outputs; i++)
-        if (!build_is_number(library_type_ir(b->lib, outputs[i].type)))
+        if (!build_is_number(build_type(b, outputs[i].type)))
             return false;
     return true;
 }
@@ -85,10 +85,9 @@ void build_call_function(struct builder *b, const struct frame *frame, uint32_t 
     for (uint32_t i = 0; i < def->num_inputs; i++)
         if (is_parameter(b, frame->args[i]))
             args[n++] = frame->args[i];
-    results[0] = ir_build(b->graph, IR_GRAPH_CALL, library_type_ir(b->lib, outputs[0].type),
-                          function, args, n);
+    results[0] =
+        ir_build(b->graph, IR_GRAPH_CALL, build_type(b, outputs[0].type), function, args, n);
     ir_ref call = results[0];
     for (uint32_t i = 1; i < def->num_outputs; i++)
-        results[i] =
-            ir_build(b->graph, IR_RESULT, library_type_ir(b->lib, outputs[i].type), i, &call, 1);
+        results[i] = ir_build(b->graph, IR_RESULT, build_type(b, outputs[i].type), i, &call, 1);
 }

@@ -26,7 +26,7 @@ ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, uns
 {
     uint32_t slot = *build_slot(scope, node);
     if (slot < SLOT_RESULTS)
-        return ir_poison(b->graph, library_type_ir(b->lib, type));
+        return ir_poison(b->graph, build_type(b, type));
     assert(slot - SLOT_RESULTS + output < b->results.len);
     return b->results.items[slot - SLOT_RESULTS + output];
 }

@@ -112,11 +112,29 @@ static bool reads_alike(const struct shader_variable *a, const struct shader_var
            && (!has_literal || memcmp(&a->value, &b->value, sizeof a->value) == 0);
 }
 
+/*
+ * The texture of another layer of the stack that reads this file in the same way, because targets
+ * have few samplers; UINT32_MAX: there is none.
+ */
+static uint32_t shared_texture(const struct builder *b, const struct shader_variable *wanted)
+{
+    for (uint32_t i = 0; b->slot && wanted->file && i < b->shader->variables.len; i++) {
+        const struct shader_variable *v = &b->shader->variables.items[i];
+        if (v->block == BLOCK_TEXTURES && v->has_reader && v->file == wanted->file
+            && v->type == wanted->type && reads_alike(v, wanted))
+            return i;
+    }
+    return UINT32_MAX;
+}
+
 /* Two nodes that read one file in different ways have one variable each, with the same path. */
 static uint32_t variable_for(struct builder *b, uint32_t index,
                              const struct shader_variable *wanted)
 {
     assert(index < b->shader->variables.len);
+    uint32_t shared = shared_texture(b, wanted);
+    if (shared != UINT32_MAX)
+        return shared;
     struct shader_variable *first = &b->shader->variables.items[index];
     if (!first->has_reader) {
         *first = *wanted;

@@ -122,6 +122,7 @@ static void add_listed(struct builder *b, const struct tile_token *token, elem_i
                        tile_list *tiles)
 {
     str_id list = doc_attr_value(&b->lib->doc, property, STR_value);
+    struct diag_place place = doc_attr_place(&b->lib->doc, property, STR_value);
     for (const char *p = build_text(b, list); *p;) {
         struct shader_tile tile;
         p += strspn(p, ", ");
@@ -129,7 +130,7 @@ static void add_listed(struct builder *b, const struct tile_token *token, elem_i
         if (end && end != p && strchr(", ", *end))
             vec_push(b->arena, tiles, tile);
         else if (*p)
-            diag_add(b->diags, DIAG_ID_bad_tile, doc_attr_place(&b->lib->doc, property, STR_value),
+            diag_add(b->diags, DIAG_ID_bad_tile, place,
                      arena_strndup(b->arena, p, strcspn(p, ", ")), token->text);
         p += strcspn(p, ", ");
     }

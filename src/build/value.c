@@ -40,7 +40,7 @@ static bool parse(struct builder *b, doc_type type, str_id text, const struct po
 
 ir_ref build_constant(struct builder *b, const struct port *port, str_id text, elem_id element)
 {
-    ir_type_id ir = library_type_ir(b->lib, port->type);
+    ir_type_id ir = build_type(b, port->type);
     struct ir_value value;
     if (ir == IR_TYPE_STRING) {
         library_check_enum(b->lib, port, text, doc_attr_place(build_doc(b), element, STR_value),
@@ -104,7 +104,7 @@ static ir_ref property_stream(struct builder *b, const struct geomprop *prop)
     text_init(&name, b->arena);
     text_fmt(&name, "geomprop_%s", build_text(b, prop->name));
     return shader_stream(b->shader, str_intern(b->shader->strings, name.data, name.len),
-                         library_type_ir(b->lib, prop->type));
+                         build_type(b, prop->type));
 }
 
 /*
@@ -120,7 +120,7 @@ static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
     if (nodedef == LIBRARY_NONE)
         nodedef = build_definition_of(b, "geompropvalue", library_type_name(b->lib, prop->type));
     if (nodedef == LIBRARY_NONE)
-        return ir_poison(b->graph, library_type_ir(b->lib, prop->type));
+        return ir_poison(b->graph, build_type(b, prop->type));
     const struct nodedef *def = library_nodedef(b->lib, nodedef);
     const struct port *ports = library_ports(b->lib, nodedef, NULL);
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
@@ -142,7 +142,7 @@ ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag
     const struct geomprop *prop = library_geomprop(b->lib, name);
     if (!prop) {
         diag_add(b->diags, DIAG_ID_unknown_geomprop, place, build_text(b, name), "");
-        return ir_poison(b->graph, library_type_ir(b->lib, type));
+        return ir_poison(b->graph, build_type(b, type));
     }
     ir_ref value = make_geomprop(b, prop);
     vec_push(b->arena, &b->geomprops, name);
@@ -161,10 +161,12 @@ ir_ref build_default(struct builder *b, const struct port *port)
     if (port->geomprop)
         return build_geomprop(b, port->geomprop, port->type,
                               doc_attr_place(build_doc(b), port->element, STR_defaultgeomprop));
-    ir_type_id type = library_type_ir(b->lib, port->type);
+    ir_type_id type = build_type(b, port->type);
     if (type == IR_TYPE_STRING)
         return ir_const_string(b->graph, port->value);
-    if (type >= IR_NUM_TYPES || !ir_type_info(type)->components) /* the type has no values */
+    if (type >= IR_NUM_TYPES)
+        return build_struct(b, port, port->value, port->element);
+    if (!ir_type_info(type)->components) /* the type has no values */
         return 0;
     return port->flags & PORT_HAS_VALUE && port->value
                ? build_constant(b, port, port->value, port->element)

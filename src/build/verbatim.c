@@ -18,7 +18,7 @@ struct source_call {
 
 static ir_type_id type_of(const struct source_call *c, unsigned port)
 {
-    return library_type_ir(c->b->lib, c->ports[port].type);
+    return build_type(c->b, c->ports[port].type);
 }
 
 /* True for a function with a calling convention of closures in hardware targets. */
@@ -198,6 +198,17 @@ static ir_ref number_of_string(const struct source_call *c, const struct port *p
     return ir_const_int(c->b->graph, index < 0 ? 0 : index);
 }
 
+/* The extra inputs of these bits. Returns their number. */
+static unsigned put_extra(struct ir_graph *graph, uint32_t extra, ir_ref *out)
+{
+    unsigned n = 0;
+    for (unsigned i = 0; i < LIBRARY_NUM_EXTRA_INPUTS; i++)
+        if (extra >> i & 1)
+            out[n++] =
+                ir_const_splat(graph, library_extra_inputs[i].type, library_extra_inputs[i].value);
+    return n;
+}
+
 /* The inputs in order, then the extra inputs. Returns their number. */
 static unsigned put_arguments(const struct source_call *c, ir_ref *out)
 {
@@ -207,11 +218,29 @@ static unsigned put_arguments(const struct source_call *c, ir_ref *out)
         out[n++] =
             is_number ? number_of_string(c, &c->ports[i], c->frame->args[i]) : c->frame->args[i];
     }
-    for (unsigned i = 0; i < LIBRARY_NUM_EXTRA_INPUTS; i++)
-        if (c->verbatim->extra >> i & 1)
-            out[n++] = ir_const_splat(c->b->graph, library_extra_inputs[i].type,
-                                      library_extra_inputs[i].value);
-    return n;
+    return n + put_extra(c->b->graph, c->verbatim->extra, out + n);
+}
+
+const ir_ref *build_function_arguments(struct builder *b, const struct frame *frame)
+{
+    const struct implementation *impl = frame->impl;
+    struct source_call c = {.b = b,
+                            .frame = frame,
+                            .impl = impl,
+                            .def = library_nodedef(b->lib, impl->nodedef),
+                            .ports = library_ports(b->lib, impl->nodedef, NULL)};
+    const struct lang_unit *unit;
+    const struct lang_function *fn = lang_function(b->shader->unit, impl->ref, &unit);
+    if (!impl->target)
+        return frame->args;
+    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, c.def->num_inputs + LIBRARY_NUM_EXTRA_INPUTS);
+    for (unsigned i = 0; i < c.def->num_inputs; i++) {
+        bool is_number = type_of(&c, i) == IR_TYPE_STRING
+                         && unit->slots.items[fn->first_slot + i].type == IR_TYPE_INT;
+        args[i] = is_number ? number_of_string(&c, &c.ports[i], frame->args[i]) : frame->args[i];
+    }
+    put_extra(b->graph, impl->count, args + c.def->num_inputs);
+    return args;
 }
 
 /* ---- Expressions ---- */

@@ -105,6 +105,46 @@ struct closure_lighting {
 bool closure_emit(struct shader *shader, const struct closure_host *host,
                   const struct closure_lighting *lighting, ir_ref root);
 
+/* The parts of a surface, each 0 where absent: shaders.c. */
+struct closure_surface {
+    ir_ref bsdf, edf;
+    ir_ref unlit;       /* colour that does not depend on lights */
+    ir_ref alpha;       /* 0 = 1 */
+    bool premultiplied; /* alpha already scales the parts */
+    bool is_matter;     /* and alpha is what the throughput of the bsdf says */
+};
+/* The parts of a surface shader, which may be made of others. root 0: a black one. */
+struct closure_surface closure_surface_of(struct shader *shader, const struct closure_host *host,
+                                          ir_ref root);
+/* Its alpha alone, for stacks: the rest of the surface need not be complete. */
+ir_ref closure_surface_alpha(struct shader *shader, ir_ref root);
+/* The layers of a SLOTS node with their vertical ones, by slot; a vertical one itself is empty. */
+struct closure_surface *closure_slot_surfaces(struct shader *shader,
+                                              const struct closure_host *host, ir_ref slots);
+/* A layer of a stack times its own opacity and its weight. */
+struct closure_surface closure_weighted(struct ir_graph *graph, struct closure_surface layer,
+                                        ir_ref weight);
+/* A layer without its opacity, as it is where it is picked. */
+struct closure_surface closure_picked(struct ir_graph *graph, struct closure_surface layer);
+/* The layers of a stack from the top down, for a number that picks one. */
+struct closure_choice {
+    struct closure_surface layer; /* closure_picked */
+    ir_ref low, high;             /* the numbers of the layer: from low to below high */
+    ir_ref share;                 /* high - low */
+    ir_ref is_it;                 /* a bool; 0: always */
+};
+struct closure_choices {
+    VEC(struct closure_choice) items;
+    ir_ref covered; /* the numbers from it on pick none; 0: all pick a layer */
+};
+void closure_choose(struct shader *shader, const struct closure_host *host, ir_ref slots,
+                    ir_ref number, struct closure_choices *out);
+/*
+ * slots.c: a SLOTS node whose layers are shaded with their normals, and no longer have any. moved:
+ * the normal of the displaced surface; 0: the stream's.
+ */
+ir_ref closure_shade_slots(struct shader *shader, ir_ref slots, ir_ref moved);
+
 /* True if the root is lit as a surface; closure_emit then succeeds. */
 bool closure_is_surface(const struct shader *shader, ir_ref root);
 

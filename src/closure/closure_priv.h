@@ -66,12 +66,25 @@ ir_ref closure_environment_way(struct shader *shader, const struct closure_host 
 ir_ref closure_operator_throughput(struct ir_graph *graph, ir_ref operator_, ir_ref a, ir_ref b);
 
 /*
- * scatter.c: writes the function for path tracers. Emission and alpha may be 0: black and 1.
- * premultiplied: both the list and the emission already have the alpha.
+ * scatter.c: writes the function for path tracers, of a surface, or of the layers of a stack, of
+ * which one is picked.
  */
-void closure_scatter(struct shader *shader, const struct closure_host *host,
-                     const struct closure_list *list, const struct closure_lighting *lighting,
-                     ir_ref emission, ir_ref alpha, bool premultiplied);
+struct closure_scatter;
+struct closure_scatter_layer {
+    struct closure_list list;
+    ir_ref emission; /* 0: black */
+    ir_ref alpha;    /* that the list and the emission have, but the tracer applies; 0: none */
+    ir_ref is_it;    /* a bool: this layer is picked; 0: always */
+    ir_ref chance;   /* a random number that picks a leaf; 0: that of the path tracer */
+};
+struct closure_scatter *closure_scatter_begin(struct shader *shader,
+                                              const struct closure_host *host,
+                                              const struct closure_lighting *lighting);
+void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatter_layer *layer);
+/* alpha 0: 1 */
+void closure_scatter_end(struct closure_scatter *s, ir_ref alpha);
+/* A random number from 0 to below alpha. */
+ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha);
 
 /* volume.c: a volume behind the shaded point. */
 struct closure_volume {
@@ -124,6 +137,24 @@ struct closure_lit {
  */
 ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface,
                         ir_ref displacement);
+
+/* pick.c: one layer of a stack. */
+
+/* A number from 0 to below 1 that picks a layer at a point. */
+ir_ref closure_layer_number(struct shader *shader, ir_ref point);
+/*
+ * A stack whose layers read textures with explicit derivatives, so that not all neighbours need to
+ * run a layer; except textures that the weights read, too.
+ */
+ir_ref closure_own_textures(struct shader *shader, ir_ref slots);
+/*
+ * The value in another loop over the lights or samples: 0 is the first one. The current light of
+ * one loop is not that of another.
+ */
+ir_ref closure_in_loop(struct shader *shader, ir_ref root, uint32_t loop);
+
+/* shaders.c: 0 is 1. */
+bool closure_is_opaque(const struct ir_graph *graph, ir_ref opacity);
 
 /* differentials.c: rewrites screen derivatives in `root` as differences, for path tracers. */
 ir_ref closure_differentials(struct shader *shader, ir_ref root);

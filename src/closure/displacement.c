@@ -51,6 +51,11 @@ static ir_ref mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
     return bg || fg ? ir_op3(g, IR_MIX, bg ? bg : nothing, fg ? fg : nothing, mix) : 0;
 }
 
+static ir_ref sum(struct ir_graph *g, ir_ref a, ir_ref b)
+{
+    return a && b ? ir_op2(g, IR_ADD, a, b) : a ? a : b;
+}
+
 /* Operands precede their node, so one pass finds nested mixes. */
 ir_ref closure_offset(struct shader *shader, ir_ref root)
 {
@@ -70,6 +75,10 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
         else if (node.op == IR_SHADER_MIX)
             known[ref] =
                 mixed(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)], ir_arg(g, ref, 2));
+        else if (node.op == IR_CLOSURE_ADD)
+            known[ref] = sum(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)]);
+        else if (node.op == IR_CLOSURE_SCALE && known[ir_arg(g, ref, 0)])
+            known[ref] = ir_op2(g, IR_MUL, known[ir_arg(g, ref, 0)], ir_arg(g, ref, 1));
         ir_pop_origin(g);
     }
     assert(!known[root] || ir_type_of(g, known[root]) == IR_TYPE_VEC3);
@@ -139,8 +148,9 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
 {
     struct ir_graph *g = shader->graph;
     ir_ref offset = displacement ? closure_offset(shader, displacement) : 0;
+    bool is_stack = surface && ir_get(g, surface)->op == IR_SLOTS;
     if (!offset)
-        return surface;
+        return is_stack ? closure_shade_slots(shader, surface, 0) : surface;
     shader->displaced = true;
     struct closure_point *point = host->point;
     ir_ref before = stream(shader, STR_positionWorld);
@@ -157,6 +167,8 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
         output_offset(shader, offset);
     else
         move_vertices(shader, point->position);
+    if (is_stack)
+        return closure_shade_slots(shader, surface, point->normal);
     return surface ? ir_replace(g, surface, stream(shader, STR_normalWorld), point->normal,
                                 shader->arena)
                    : 0;

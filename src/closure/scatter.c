@@ -32,77 +32,86 @@
 
 #include <assert.h>
 
-struct scatter {
+struct closure_scatter {
     struct shader *shader;
     struct ir_graph *graph;
     const struct closure_host *host;
-    const struct closure_list *list;
+    const struct closure_lighting *lighting;
+    const struct closure_list *list; /* of the layer at hand */
     /* p of each leaf; 0: never picked */
     ir_ref *shares;
     uint32_t pick, direction, is_inside, weight, density, medium; /* locals */
     ir_ref total;
     /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
     ir_ref scale;
+    uint32_t loop; /* number of the layer, whose light loop is its own */
+    /* of a stack: locals for what the picked layer gives; of a surface: what it gives */
+    bool is_stack;
+    uint32_t emission_local, seen_local, lit_local, to_light, away;
+    ir_ref emission, seen, lit;
 };
 
-static void effect(struct scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
+static void effect(struct closure_scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
 {
+    value = closure_in_loop(s->shader, value, s->loop);
     shader_effect(s->shader, STAGE_PIXEL,
                   (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
-static uint32_t local(struct scatter *s, str_id name, ir_ref value)
+static uint32_t local(struct closure_scatter *s, str_id name, ir_ref value)
 {
     uint32_t index = shader_add_local(s->shader, name, ir_type_of(s->graph, value));
     effect(s, EFFECT_VAR, index, value);
     return index;
 }
 
-static ir_ref read(struct scatter *s, uint32_t index)
+static ir_ref read(struct closure_scatter *s, uint32_t index)
 {
     assert(index < s->shader->locals.len);
     return ir_build(s->graph, IR_LOCAL, s->shader->locals.items[index].type, index, NULL, 0);
 }
 
-static ir_ref number(struct scatter *s, float value)
+static ir_ref number(struct closure_scatter *s, float value)
 {
     return ir_const_float(s->graph, value);
 }
 
-static ir_ref grey(struct scatter *s, float value)
+static ir_ref grey(struct closure_scatter *s, float value)
 {
     return ir_const_splat(s->graph, IR_TYPE_VEC3, value);
 }
 
-static ir_ref op2(struct scatter *s, enum ir_op op, ir_ref a, ir_ref b)
+static ir_ref op2(struct closure_scatter *s, enum ir_op op, ir_ref a, ir_ref b)
 {
     return ir_op2(s->graph, op, a, b);
 }
 
-static ir_ref mean_of(struct scatter *s, ir_ref color)
+static ir_ref mean_of(struct closure_scatter *s, ir_ref color)
 {
     return op2(s, IR_DOT, color, grey(s, 1.0f / 3.0f));
 }
 
 /* The weight for light on a way through the media above. */
-static ir_ref weight_along(struct scatter *s, const struct closure_leaf *leaf, ir_ref way)
+static ir_ref weight_along(struct closure_scatter *s, const struct closure_leaf *leaf, ir_ref way)
 {
     ir_ref weight = closure_mul(s->graph, closure_weight(s->shader, leaf, way), s->scale);
     return ir_convert(s->graph, IR_TYPE_VEC3, weight);
 }
 
 /* The weight for light from a direction. */
-static ir_ref weight_from(struct scatter *s, const struct closure_leaf *leaf, ir_ref direction)
+static ir_ref weight_from(struct closure_scatter *s, const struct closure_leaf *leaf,
+                          ir_ref direction)
 {
     return weight_along(s, leaf, leaf->decay ? closure_way(s->shader, s->host, direction) : 0);
 }
 
-static bool has(const struct scatter *s, const struct closure_leaf *leaf, enum leaf_function which)
+static bool has(const struct closure_scatter *s, const struct closure_leaf *leaf,
+                enum leaf_function which)
 {
     return closure_has(s->shader, s->host, leaf->leaf, which);
 }
 
-static bool refracts(struct scatter *s, const struct closure_leaf *leaf)
+static bool refracts(struct closure_scatter *s, const struct closure_leaf *leaf)
 {
     ir_ref any = closure_view(s->shader, s->host);
     ir_ref refraction = has(s, leaf, LEAF_REFRACTION)
@@ -116,7 +125,7 @@ static bool refracts(struct scatter *s, const struct closure_leaf *leaf)
  * that paths keep their weight. An albedo covers only reflection; refraction loses no light. The
  * tenth is a reserve, because albedos are fits.
  */
-static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
+static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *leaf)
 {
     struct ir_graph *g = s->graph;
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
@@ -130,14 +139,14 @@ static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
 }
 
 /* True if the light from L comes from the visible side. */
-static ir_ref is_in_front(struct scatter *s, ir_ref direction)
+static ir_ref is_in_front(struct closure_scatter *s, ir_ref direction)
 {
     ir_ref normal = closure_normal(s->shader, s->host), view = closure_view(s->shader, s->host);
     ir_ref sides = op2(s, IR_MUL, op2(s, IR_DOT, normal, view), op2(s, IR_DOT, normal, direction));
     return op2(s, IR_GT, sides, number(s, 0.0f));
 }
 
-static void sample(struct scatter *s, const struct closure_leaf *leaf, ir_ref share)
+static void sample(struct closure_scatter *s, const struct closure_leaf *leaf, ir_ref share)
 {
     struct ir_graph *g = s->graph;
     ir_ref pick = read(s, s->pick), nothing = number(s, 0.0f), one = number(s, 1.0f);
@@ -162,7 +171,7 @@ static void sample(struct scatter *s, const struct closure_leaf *leaf, ir_ref sh
     effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(g, IR_NEG, share));
 }
 
-static void find_shares(struct scatter *s)
+static void find_shares(struct closure_scatter *s)
 {
     s->shares = ARENA_ARRAY(s->shader->arena, ir_ref, s->list->leaves.len);
     s->total = number(s, 0.0f);
@@ -177,15 +186,23 @@ static void find_shares(struct scatter *s)
     }
 }
 
-static void sample_leaves(struct scatter *s)
+static ir_ref random_number(struct shader *shader)
 {
-    ir_ref chance = ir_component(s->graph, shader_stream(s->shader, STR_random, IR_TYPE_VEC4), 3);
-    s->pick = local(s, STR_pick, op2(s, IR_MUL, chance, s->total));
+    return ir_component(shader->graph, shader_stream(shader, STR_random, IR_TYPE_VEC4), 3);
+}
+
+static void declare_locals(struct closure_scatter *s, ir_ref pick)
+{
+    s->pick = local(s, STR_pick, pick);
     s->direction = local(s, STR_L, grey(s, 0.0f));
     s->is_inside = local(s, STR_inside, number(s, 0.0f));
     s->weight = local(s, STR_weight, grey(s, 0.0f));
     s->density = local(s, STR_density, number(s, 0.0f));
     s->medium = local(s, STR_medium, grey(s, 1.0f));
+}
+
+static void sample_leaves(struct closure_scatter *s)
+{
     for (uint32_t i = 0; i < s->list->leaves.len; i++)
         if (s->shares[i])
             sample(s, &s->list->leaves.items[i], s->shares[i]);
@@ -195,7 +212,7 @@ static void sample_leaves(struct scatter *s)
  * The response of all leaves to light from a direction. solid_angle 0: the light of a point, which
  * no sample finds.
  */
-static ir_ref response(struct scatter *s, ir_ref direction, ir_ref solid_angle)
+static ir_ref response(struct closure_scatter *s, ir_ref direction, ir_ref solid_angle)
 {
     struct ir_graph *g = s->graph;
     ir_ref sum = grey(s, 0.0f);
@@ -218,7 +235,7 @@ static ir_ref response(struct scatter *s, ir_ref direction, ir_ref solid_angle)
     return sum;
 }
 
-static void write_output(struct scatter *s, str_id name, ir_ref rgb, ir_ref a)
+static void write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_ref a)
 {
     uint32_t out = shader_add_variable(
         s->shader,
@@ -239,15 +256,18 @@ static void write_output(struct scatter *s, str_id name, ir_ref rgb, ir_ref a)
  *     out6 = vec4(L, distance)
  *     out7 = vec4(kept · sum, 0)
  */
-static void light_up(struct scatter *s)
+static void light_up(struct closure_scatter *s)
 {
     struct ir_graph *g = s->graph;
-    ir_ref nothing = number(s, 0.0f),
-           random = ir_component(g, shader_stream(s->shader, STR_random, IR_TYPE_VEC4), 3);
+    ir_ref nothing = number(s, 0.0f), random = random_number(s->shader);
     uint32_t chance =
         local(s, STR_chance, ir_op1(g, IR_FRACT, op2(s, IR_MUL, random, number(s, 4096.0f))));
     uint32_t sum = local(s, STR_sum, nothing), kept = local(s, STR_light, grey(s, 0.0f));
-    uint32_t to_light = local(s, STR_L, grey(s, 0.0f)), away = local(s, STR_distance, nothing);
+    uint32_t to_light = s->to_light, away = s->away;
+    if (!s->is_stack) {
+        to_light = s->to_light = local(s, STR_L, grey(s, 0.0f));
+        away = s->away = local(s, STR_distance, nothing);
+    }
     effect(s, EFFECT_LIGHTS, 0, 0);
     struct closure_light light;
     closure_sample_light(s->shader, s->host, &light);
@@ -267,37 +287,119 @@ static void light_up(struct scatter *s)
     effect(s, EFFECT_ASSIGN, chance, rest);
     effect(s, EFFECT_END, 0, 0);
     effect(s, EFFECT_END, 0, 0);
-    write_output(s, STR_out6, read(s, to_light), read(s, away));
-    write_output(s, STR_out7, op2(s, IR_MUL, read(s, kept), read(s, sum)), nothing);
+    s->lit = op2(s, IR_MUL, read(s, kept), read(s, sum));
     s->shader->lit = true;
 }
 
-void closure_scatter(struct shader *shader, const struct closure_host *host,
-                     const struct closure_list *list, const struct closure_lighting *lighting,
-                     ir_ref emission, ir_ref alpha, bool premultiplied)
+ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha)
 {
-    struct scatter s = {.shader = shader, .graph = shader->graph, .host = host, .list = list};
-    ir_ref one = number(&s, 1.0f), nothing = number(&s, 0.0f);
-    assert(!alpha || ir_type_of(s.graph, alpha) == IR_TYPE_FLOAT);
-    if (premultiplied && alpha && !ir_const_is(s.graph, alpha, 1.0f)) {
-        s.scale = op2(&s, IR_DIV, one, op2(&s, IR_MAX, alpha, number(&s, 1e-6f)));
-        emission = closure_mul(s.graph, emission, emission ? s.scale : 0);
+    return ir_op2(shader->graph, IR_MUL, random_number(shader), alpha);
+}
+
+struct closure_scatter *closure_scatter_begin(struct shader *shader,
+                                              const struct closure_host *host,
+                                              const struct closure_lighting *lighting)
+{
+    struct closure_scatter *s = ARENA_NEW(shader->arena, struct closure_scatter);
+    *s = (struct closure_scatter){
+        .shader = shader, .graph = shader->graph, .host = host, .lighting = lighting};
+    return s;
+}
+
+/* The locals that the layers of a stack fill; before the first one. */
+static void declare_layers(struct closure_scatter *s)
+{
+    ir_ref black = grey(s, 0.0f), nothing = number(s, 0.0f);
+    declare_locals(s, nothing);
+    s->emission_local = local(s, STR_emission, black);
+    s->seen_local = local(s, STR_response, black);
+    if (s->lighting->lights) {
+        s->lit_local = local(s, STR_light, black);
+        s->to_light = local(s, STR_L, black);
+        s->away = local(s, STR_distance, nothing);
     }
-    find_shares(&s);
-    sample_leaves(&s);
-    write_output(&s, STR_out1,
-                 emission ? ir_convert(s.graph, IR_TYPE_VEC3, emission) : grey(&s, 0.0f),
-                 alpha ? alpha : one);
-    write_output(&s, STR_out2, read(&s, s.direction), read(&s, s.is_inside));
-    write_output(&s, STR_out3, read(&s, s.weight), read(&s, s.density));
-    write_output(&s, STR_out4, read(&s, s.medium), nothing);
-    ir_ref light = shader_stream(shader, STR_lightWorld, IR_TYPE_VEC4), direction[3];
+    s->is_stack = true;
+}
+
+/* The response to the light of the host's direction. */
+static ir_ref seen_of(struct closure_scatter *s)
+{
+    ir_ref light = shader_stream(s->shader, STR_lightWorld, IR_TYPE_VEC4), direction[3];
     for (unsigned i = 0; i < 3; i++)
-        direction[i] = ir_component(s.graph, light, i);
-    ir_ref seen = response(&s, ir_construct(s.graph, IR_TYPE_VEC3, direction, 3),
-                           ir_component(s.graph, light, 3));
-    write_output(&s, STR_out5, seen, nothing);
-    if (lighting->lights)
-        light_up(&s);
-    shader->transparent = alpha && !ir_const_is(s.graph, alpha, 1.0f);
+        direction[i] = ir_component(s->graph, light, i);
+    return response(s, ir_construct(s->graph, IR_TYPE_VEC3, direction, 3),
+                    ir_component(s->graph, light, 3));
+}
+
+/* Moves what the layer gives to the locals of the stack. */
+static void keep_layer(struct closure_scatter *s)
+{
+    effect(s, EFFECT_ASSIGN, s->emission_local, s->emission);
+    effect(s, EFFECT_ASSIGN, s->seen_local, seen_of(s));
+    if (!s->lighting->lights)
+        return;
+    light_up(s);
+    effect(s, EFFECT_ASSIGN, s->lit_local, s->lit);
+}
+
+static ir_ref scale_of(struct closure_scatter *s, ir_ref alpha)
+{
+    if (closure_is_opaque(s->graph, alpha))
+        return 0;
+    return op2(s, IR_DIV, number(s, 1.0f), op2(s, IR_MAX, alpha, number(s, 1e-6f)));
+}
+
+void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatter_layer *layer)
+{
+    s->list = &layer->list;
+    s->scale = scale_of(s, layer->alpha);
+    s->emission = layer->emission
+                      ? ir_convert(s->graph, IR_TYPE_VEC3,
+                                   closure_mul(s->graph, layer->emission, s->scale))
+                      : grey(s, 0.0f);
+    find_shares(s);
+    if (!layer->chance) {
+        declare_locals(s, op2(s, IR_MUL, random_number(s->shader), s->total));
+        sample_leaves(s);
+        return;
+    }
+    if (!s->is_stack)
+        declare_layers(s);
+    if (layer->is_it)
+        effect(s, EFFECT_IF, 0, layer->is_it);
+    effect(s, EFFECT_ASSIGN, s->pick, op2(s, IR_MUL, layer->chance, s->total));
+    sample_leaves(s);
+    keep_layer(s);
+    s->loop++;
+    if (layer->is_it)
+        effect(s, EFFECT_END, 0, 0);
+}
+
+static void write_lit(struct closure_scatter *s)
+{
+    write_output(s, STR_out6, read(s, s->to_light), read(s, s->away));
+    write_output(s, STR_out7, s->lit, number(s, 0.0f));
+}
+
+void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
+{
+    ir_ref one = number(s, 1.0f), nothing = number(s, 0.0f);
+    assert(!alpha || ir_type_of(s->graph, alpha) == IR_TYPE_FLOAT);
+    s->loop = 0;
+    if (!s->list) /* a stack of nothing */
+        declare_layers(s);
+    if (s->is_stack)
+        s->emission = read(s, s->emission_local);
+    write_output(s, STR_out1, s->emission, alpha ? alpha : one);
+    write_output(s, STR_out2, read(s, s->direction), read(s, s->is_inside));
+    write_output(s, STR_out3, read(s, s->weight), read(s, s->density));
+    write_output(s, STR_out4, read(s, s->medium), nothing);
+    write_output(s, STR_out5, s->is_stack ? read(s, s->seen_local) : seen_of(s), nothing);
+    if (s->lighting->lights && !s->is_stack)
+        light_up(s);
+    else if (s->lighting->lights)
+        s->lit = read(s, s->lit_local);
+    if (s->lighting->lights)
+        write_lit(s);
+    s->shader->transparent = alpha && !ir_const_is(s->graph, alpha, 1.0f);
 }

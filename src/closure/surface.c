@@ -21,10 +21,12 @@ struct emitter {
     const struct closure_host *host;
     const struct closure_lighting *lighting;
     struct closure_lit lit;
+    uint32_t loop; /* number of the layer that is lit, if one is picked */
 };
 
 static void effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
 {
+    value = closure_in_loop(e->shader, value, e->loop);
     shader_effect(e->shader, STAGE_PIXEL,
                   (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
@@ -335,11 +337,6 @@ static void alpha_test(struct emitter *e, ir_ref alpha)
     e->shader->alpha = (uint8_t)closure_alpha(e->shader, alpha);
 }
 
-static bool is_opaque(const struct emitter *e, ir_ref opacity)
-{
-    return !opacity || ir_const_is(e->graph, opacity, 1.0f);
-}
-
 static ir_ref final_color(struct emitter *e)
 {
     if (e->lit.color != UINT32_MAX)
@@ -349,17 +346,10 @@ static ir_ref final_color(struct emitter *e)
 
 /* ---- surfaces ---- */
 
-struct surface { /* parts of a surface, each 0 where absent */
-    ir_ref bsdf, edf;
-    ir_ref unlit;       /* colour that does not depend on lights */
-    ir_ref alpha;       /* 0 = 1 */
-    bool premultiplied; /* alpha already scales the parts */
-};
-
-static void finish_surface(struct emitter *e, const struct surface *s)
+static void finish_surface(struct emitter *e, const struct closure_surface *s)
 {
     ir_ref alpha = s->alpha;
-    if (is_opaque(e, alpha)) {
+    if (closure_is_opaque(e->graph, alpha)) {
         write_output(e, final_color(e), ir_const_float(e->graph, 1.0f));
         return;
     }
@@ -367,86 +357,6 @@ static void finish_surface(struct emitter *e, const struct surface *s)
     alpha_test(e, alpha);
     ir_ref color = final_color(e);
     write_output(e, s->premultiplied ? color : ir_op2(e->graph, IR_MUL, color, alpha), alpha);
-}
-
-static ir_ref scaled_closure(struct ir_graph *g, ir_ref closure, ir_ref factor)
-{
-    ir_ref args[2] = {closure, factor};
-    return closure ? ir_build(g, IR_CLOSURE_SCALE, ir_type_of(g, closure), 0, args, 2) : 0;
-}
-
-static struct surface premultiplied(struct emitter *e, struct surface s)
-{
-    if (s.premultiplied || is_opaque(e, s.alpha))
-        return s;
-    assert(ir_type_of(e->graph, s.alpha) == IR_TYPE_FLOAT);
-    s.bsdf = scaled_closure(e->graph, s.bsdf, s.alpha);
-    s.edf = scaled_closure(e->graph, s.edf, s.alpha);
-    if (s.unlit)
-        s.unlit = ir_op2(e->graph, IR_MUL, vec3_of(e, s.unlit), s.alpha);
-    s.premultiplied = true;
-    return s;
-}
-
-static struct surface mixed(struct emitter *e, struct surface bg, struct surface fg, ir_ref mix)
-{
-    struct ir_graph *g = e->graph;
-    bg = premultiplied(e, bg);
-    fg = premultiplied(e, fg);
-    ir_ref one = ir_const_float(g, 1.0f), black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-    struct surface s = {.bsdf = closure_mixed(g, bg.bsdf, fg.bsdf, mix),
-                        .edf = closure_mixed(g, bg.edf, fg.edf, mix),
-                        .premultiplied = true};
-    if (bg.unlit || fg.unlit)
-        s.unlit = ir_op3(g, IR_MIX, bg.unlit ? vec3_of(e, bg.unlit) : black,
-                         fg.unlit ? vec3_of(e, fg.unlit) : black, mix);
-    s.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
-    return s;
-}
-
-/*
- * Its transmission shows the background (MaterialX PBR specification, <surface_unlit>).
- */
-static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref transmitted,
-                                    ir_ref opacity)
-{
-    struct ir_graph *g = e->graph;
-    ir_ref through =
-        ir_op2(g, IR_DOT, vec3_of(e, transmitted), ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
-    return (struct surface){.unlit = ir_op2(g, IR_MUL, emitted, opacity),
-                            .alpha = ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)),
-                            .premultiplied = true};
-}
-
-/* Operands precede their node, so one pass finds nested mixes. */
-static struct surface surface_of(struct emitter *e, ir_ref root)
-{
-    assert(ir_type_of(e->graph, root) == IR_TYPE_SURFACE);
-    struct ir_graph *g = e->graph;
-    if (ir_get(g, root)->op == IR_SURFACE_SHADER)
-        return (struct surface){.bsdf = ir_arg(g, root, 0),
-                                .edf = ir_arg(g, root, 1),
-                                .alpha = ir_arg(g, root, 2),
-                                .premultiplied = ir_get(g, root)->attr != 0};
-    struct surface *known = ARENA_ARRAY(e->shader->arena, struct surface, root + 1);
-    uint8_t *needed = ir_mark(g, &root, 1, e->shader->arena);
-    for (ir_ref ref = 1; ref <= root; ref++) {
-        if (!needed[ref])
-            continue;
-        ir_ref args[4] = {0};
-        const struct ir_node *node = ir_get(g, ref);
-        memcpy(args, ir_args(g, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *args);
-        if (node->op == IR_SURFACE_SHADER)
-            known[ref] = (struct surface){.bsdf = args[0],
-                                          .edf = args[1],
-                                          .alpha = args[2],
-                                          .premultiplied = node->attr != 0};
-        else if (node->op == IR_SURFACE_UNLIT)
-            known[ref] = unlit_surface(e, args[0], args[1], args[2]);
-        else if (node->op == IR_SHADER_MIX && node->type == IR_TYPE_SURFACE)
-            known[ref] = mixed(e, known[args[0]], known[args[1]], args[2]);
-    }
-    return known[root];
 }
 
 /* Finds the parts under lights and environment. Returns which leaves contribute there. */
@@ -458,35 +368,121 @@ static const bool *find_parts(struct emitter *e, ir_ref bsdf, const struct closu
     return emitted;
 }
 
-/* Emits lights, environment and emission; false if a path tracer computes them. */
-static bool light_surface(struct emitter *e, const struct surface *s)
+/* The leaves and the emission of a surface. */
+static void flatten_surface(struct emitter *e, const struct closure_surface *s,
+                            struct closure_list *out)
 {
-    struct closure_list list;
     /* most environment light arrives at the mirror of the viewer's angle */
     struct closure_host host = *e->host;
     ir_ref view = e->lighting->two_sided ? closure_view(e->shader, e->host) : 0;
     host.way_in = view ? &view : NULL;
     host.context = SOURCE_INDIRECT;
-    closure_flatten(e->shader, &host, s->bsdf, &list);
+    closure_flatten(e->shader, &host, s->bsdf, out);
     e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
-    e->lit.base = add(e, e->lit.base, emission_of(e, &list));
-    if (e->shader->scatters) {
-        closure_scatter(e->shader, e->host, &list, e->lighting, e->lit.base, s->alpha,
-                        s->premultiplied);
-        return false;
-    }
+    e->lit.base = add(e, e->lit.base, emission_of(e, out));
+}
+
+static void find_scattering(struct emitter *e, const struct closure_surface *s,
+                            struct closure_scatter_layer *out)
+{
+    *out = (struct closure_scatter_layer){0};
+    flatten_surface(e, s, &out->list);
+    out->emission = e->lit.base;
+    out->alpha = s->premultiplied ? s->alpha : 0;
+}
+
+/* Finds the parts under lights and environment, and the emission. */
+static void light_surface(struct emitter *e, const struct closure_surface *s)
+{
+    struct closure_list list;
+    flatten_surface(e, s, &list);
     const bool *emitted = find_parts(e, s->bsdf, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++)
         if (emitted[i])
             shader_add_closure(e->shader, list.leaves.items[i].leaf);
-    return true;
+}
+
+/* ---- one layer of a stack ---- */
+
+/* A path tracer always picks. */
+static void scatter_stack(struct emitter *e, ir_ref slots)
+{
+    struct closure_scatter_layer layer;
+    struct closure_choices choices = {0};
+    ir_ref alpha = ir_arg(e->graph, slots, 0), number = closure_scatter_number(e->shader, alpha);
+    closure_choose(e->shader, e->host, slots, number, &choices);
+    struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
+    for (uint32_t i = 0; i < choices.items.len; i++) {
+        const struct closure_choice *choice = &choices.items.items[i];
+        find_scattering(e, &choice->layer, &layer);
+        layer.is_it = choice->is_it;
+        layer.chance =
+            ir_op2(e->graph, IR_DIV, ir_op2(e->graph, IR_SUB, number, choice->low), choice->share);
+        closure_scatter_layer(scatter, &layer);
+    }
+    closure_scatter_end(scatter, alpha);
+}
+
+static bool is_dark(const struct emitter *e, const struct closure_surface *s)
+{
+    return !s->bsdf && !s->edf && (!s->unlit || ir_const_is(e->graph, s->unlit, 0.0f));
+}
+
+static void emit_layer(struct emitter *e, const struct closure_choice *choice)
+{
+    if (is_dark(e, &choice->layer))
+        return;
+    if (choice->is_it)
+        effect(e, EFFECT_IF, 0, choice->is_it);
+    e->lit = (struct closure_lit){.color = e->lit.color};
+    light_surface(e, &choice->layer);
+    if (e->lit.base)
+        effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, e->lit.base));
+    emit_lit(e);
+    e->loop++;
+    if (choice->is_it)
+        effect(e, EFFECT_END, 0, 0);
+}
+
+static void emit_picked(struct emitter *e, ir_ref slots)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref one = ir_const_float(g, 1.0f), nothing = ir_const_float(g, 0.0f);
+    ir_ref number = closure_layer_number(e->shader, closure_position(e->shader, e->host));
+    struct closure_choices choices = {0};
+    closure_choose(e->shader, e->host, closure_own_textures(e->shader, slots), number, &choices);
+    declare_color(e);
+    for (uint32_t i = 0; i < choices.items.len; i++)
+        emit_layer(e, &choices.items.items[i]);
+    e->loop = 0;
+    e->lit.base = 0;
+    struct closure_surface whole = {.premultiplied = true};
+    if (choices.covered)
+        whole.alpha = ir_op3(g, IR_SELECT, ir_op2(g, IR_LT, number, choices.covered), one, nothing);
+    finish_surface(e, &whole);
 }
 
 static void emit_surface(struct emitter *e, ir_ref root)
 {
-    struct surface s = root ? surface_of(e, root) : (struct surface){0};
-    if (!light_surface(e, &s))
+    bool is_stack = root && ir_get(e->graph, root)->op == IR_SLOTS;
+    if (is_stack && e->shader->scatters) {
+        scatter_stack(e, root);
         return;
+    }
+    if (is_stack && e->shader->picks) {
+        emit_picked(e, root);
+        return;
+    }
+    struct closure_surface s = closure_surface_of(e->shader, e->host, root);
+    if (e->shader->scatters) {
+        struct closure_scatter_layer layer;
+        find_scattering(e, &s, &layer);
+        struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
+        closure_scatter_layer(scatter, &layer);
+        closure_scatter_end(scatter, s.alpha);
+        return;
+    }
+    light_surface(e, &s);
     emit_lit(e);
     finish_surface(e, &s);
 }
@@ -622,7 +618,7 @@ void closure_describe(struct shader *shader, const struct closure_host *host, ir
     if (!root)
         return;
     ir_type_id type = ir_type_of(e.graph, root);
-    struct surface s = type == IR_TYPE_SURFACE ? surface_of(&e, root) : (struct surface){0};
+    struct closure_surface s = closure_surface_of(shader, host, type == IR_TYPE_SURFACE ? root : 0);
     if (type == IR_TYPE_BSDF)
         s.bsdf = root;
     if (type == IR_TYPE_EDF)

@@ -7,6 +7,8 @@
 enum {
     LINE_SHOWN = 160, /* maximum of code points of a source line */
     LINE_BEFORE = 80, /* of these, before the column, if the line is longer */
+    LINE_SEARCHED =
+        1 << 15, /* a message further right shows no source: the way there is too long */
 };
 
 static const char *const colours[] = {[DIAG_ERROR] = "\x1b[1;31m",
@@ -60,10 +62,21 @@ static bool begins_code_point(char byte)
     return (byte & 0xc0) != 0x80;
 }
 
+/* How many of eight bytes begin a code point: the bytes other than 10xxxxxx. */
+static unsigned begins_in(uint64_t bytes)
+{
+    uint64_t continues = bytes >> 7 & ~bytes >> 6 & 0x0101010101010101u;
+    return 8 - (unsigned)(continues * 0x0101010101010101u >> 56);
+}
+
 /* The bytes of the first `count` code points, or all. */
 static size_t bytes_of(struct line line, uint32_t count)
 {
     size_t at = 0;
+    for (uint64_t word; line.len - at >= sizeof word && count >= sizeof word; at += sizeof word) {
+        memcpy(&word, line.text + at, sizeof word);
+        count -= begins_in(word);
+    }
     for (; at < line.len; at++)
         if (begins_code_point(line.text[at]) && count-- == 0)
             break;
@@ -101,8 +114,10 @@ static void render_source(const struct diag_place *place, struct line line, bool
                           struct text *out)
 {
     uint32_t before = place->column - 1, near = before > LINE_BEFORE ? before - LINE_BEFORE : 0;
-    struct line rest = behind(line, near);
     const char *ellipsis = "";
+    if (near > LINE_SEARCHED)
+        return;
+    struct line rest = behind(line, near);
     if (line.len == 0 || before - near > code_points(first(rest, LINE_SHOWN)))
         return; /* the text does not match the diagnostic, or the line is empty */
     if (near && first(line, LINE_SHOWN).len < line.len) {

@@ -357,13 +357,19 @@ static const char *kept_path(const struct document *doc, elem_id element)
     return NULL;
 }
 
+/* 0 for a column that saturates: a message then shows no place in the line. */
+static uint32_t known_column(uint16_t column)
+{
+    return column < UINT16_MAX ? column : 0;
+}
+
 struct diag_place doc_place(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);
     return (struct diag_place){.file = doc_file_name(doc, e->file),
                                .path = kept_path(doc, element),
                                .line = e->line,
-                               .column = e->column,
+                               .column = known_column(e->column),
                                .length = 1 + width_of(doc, e->category)};
 }
 
@@ -375,7 +381,7 @@ struct diag_place doc_name_place(const struct document *doc, elem_id element)
     if (own >= layer->links.len || !layer->links.items[own].name_column)
         return place;
     place.line += layer->links.items[own].name_line;
-    place.column = layer->links.items[own].name_column;
+    place.column = known_column(layer->links.items[own].name_column);
     place.length = width_of(doc, doc_element(doc, element)->name);
     return place;
 }
@@ -386,7 +392,7 @@ struct diag_place doc_attr_place(const struct document *doc, elem_id element, st
     const struct attribute *found = doc_attr(doc, element, attr);
     if (found && found->column && place.line) {
         place.line += found->line_delta;
-        place.column = found->column;
+        place.column = known_column(found->column);
         place.length = width_of(doc, found->value);
     }
     return place;
@@ -397,7 +403,7 @@ struct diag_place doc_attr_name_place(const struct document *doc, elem_id elemen
     struct diag_place place = doc_attr_place(doc, element, attr);
     const struct attribute *found = doc_attr(doc, element, attr);
     uint32_t width = width_of(doc, attr), before = width + 2; /* name=" */
-    if (!found || found->column <= before || doc_layer(doc, element)->has_loose_attrs)
+    if (!found || place.column <= before || doc_layer(doc, element)->has_loose_attrs)
         return place;
     place.column -= before;
     place.length = width;
@@ -450,10 +456,26 @@ static bool are_equal(const struct document *doc, elem_id a, elem_id b)
     return a == b;
 }
 
+/*
+ * True for implementations in two files: libraries may replace each other's, so their index decides
+ * between them. Equal text with a `file` names another file in another folder.
+ */
+static bool are_rivals(const struct document *doc, elem_id first, elem_id second, bool equal)
+{
+    if (doc_element(doc, first)->kind != KIND_IMPLEMENTATION
+        || doc_element(doc, second)->kind != KIND_IMPLEMENTATION
+        || (equal && !doc_attr(doc, second, STR_file)))
+        return false;
+    const char *file = doc_place(doc, first).file, *other = doc_place(doc, second).file;
+    return file && other && strcmp(file, other) != 0;
+}
+
 static void report_duplicate(struct document *doc, elem_id first, elem_id second,
                              struct diag_list *diags)
 {
     bool equal = are_equal(doc, first, second);
+    if (are_rivals(doc, first, second, equal))
+        return;
     diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name,
              doc_name_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
     diag_add(diags, DIAG_ID_previous_definition, doc_name_place(doc, first));

@@ -14,7 +14,8 @@ struct upgrade {
     elem_id root, end;   /* the elements of the file … */
     elem_id first_added; /* … and the elements that the upgrade added */
     elem_id pass_end;
-    int minor;     /* of the current step: 38 upgrades 1.37 to 1.38 */
+    int minor;                /* of the current step: 38 upgrades 1.37 to 1.38 */
+    struct table definitions; /* nodedefs by node, and by node and type: upgrade_materials.c */
     bool outdated; /* the document declares this version or a later one, so changes are warnings */
 };
 

@@ -6,6 +6,8 @@
  */
 #include "document/upgrade.h"
 
+#include "base/hash.h"
+
 #include <assert.h>
 
 static bool is_shader_ref(const struct upgrade *u, elem_id element)
@@ -31,29 +33,70 @@ static str_id nodedef_type(const struct document *doc, elem_id nodedef)
     return type;
 }
 
-/* The first definition of a node below a root, with this type if `type` is set. */
-static elem_id find_definition(const struct document *doc, elem_id root, str_id node, str_id type)
+static bool defines(const struct document *doc, elem_id nodedef, str_id node, str_id type)
 {
-    for (elem_id e = doc_element(doc, root)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_NODEDEF && doc_attr_value(doc, e, STR_node) == node
-            && (!type || nodedef_type(doc, e) == type))
-            return e;
+    return doc_attr_value(doc, nodedef, STR_node) == node
+           && (!type || nodedef_type(doc, nodedef) == type);
+}
+
+/* The first definition of a node, with this type if `type` is set; 0: none. */
+static elem_id find_definition(const struct upgrade *u, str_id node, str_id type)
+{
+    uint32_t hash = hash_pair(node, type);
+    for (uint32_t at = hash, found; (found = table_next(&u->definitions, hash, &at));)
+        if (defines(u->doc, found, node, type))
+            return found;
     return 0;
 }
 
+static void add_definitions(struct upgrade *u, elem_id root)
+{
+    for (elem_id e = doc_element(u->doc, root)->first_child; e; e = doc_element(u->doc, e)->next) {
+        str_id node = doc_element(u->doc, e)->kind == KIND_NODEDEF
+                          ? doc_attr_value(u->doc, e, STR_node)
+                          : STR_EMPTY;
+        const str_id types[] = {STR_EMPTY, node ? nodedef_type(u->doc, e) : STR_EMPTY};
+        for (size_t i = 0; i < 2 && node; i++)
+            if (!find_definition(u, node, types[i]))
+                table_add(&u->definitions, u->doc->arena, hash_pair(node, types[i]), e);
+    }
+}
+
+/* Finds the definitions anew: of the file first, then of the document and its libraries. */
+static void find_definitions(struct upgrade *u)
+{
+    u->definitions = (struct table){0};
+    add_definitions(u, u->root);
+    for (const struct document *layer = u->doc; layer; layer = layer->base)
+        if (layer->root != u->root)
+            add_definitions(u, layer->root);
+}
+
 /* The definition of the shader of a shaderref, from the document or its library; 0: unknown. */
-static elem_id shader_definition(const struct upgrade *u, elem_id shader_ref)
+static elem_id shader_definition(struct upgrade *u, elem_id shader_ref)
 {
     const struct document *doc = u->doc;
     str_id name = doc_attr_value(doc, shader_ref, STR_nodedef),
            node = doc_attr_value(doc, shader_ref, STR_node);
-    str_id type = doc_attr_value(doc, shader_ref, STR_type);
     if (name)
         return find_top_level(u, name);
-    elem_id found = node ? find_definition(doc, u->root, node, type) : 0;
-    for (const struct document *layer = doc; layer && node && !found; layer = layer->base)
-        found = find_definition(layer, layer->root, node, type);
-    return found;
+    if (node && !u->definitions.num)
+        find_definitions(u);
+    return node ? find_definition(u, node, doc_attr_value(doc, shader_ref, STR_type)) : 0;
+}
+
+enum { MAX_INPUTS = 1024 }; /* of a definition, as in its use */
+
+/* The first child of a definition; `*left` counts the children that a walk may visit. */
+static elem_id first_input(const struct document *doc, elem_id nodedef, unsigned *left)
+{
+    *left = MAX_INPUTS;
+    return nodedef ? doc_element(doc, nodedef)->first_child : 0;
+}
+
+static elem_id next_input(const struct document *doc, elem_id input, unsigned *left)
+{
+    return --*left ? doc_element(doc, input)->next : 0;
 }
 
 /* 1.34 */
@@ -120,9 +163,9 @@ static elem_id add_binding(struct upgrade *u, elem_id shader_ref, elem_id input)
 static void bind_graphs(struct upgrade *u, elem_id shader_ref)
 {
     struct document *doc = u->doc;
-    elem_id nodedef = shader_definition(u, shader_ref);
-    for (elem_id e = nodedef ? doc_element(doc, nodedef)->first_child : 0; e;
-         e = doc_element(doc, e)->next) {
+    unsigned left;
+    for (elem_id e = first_input(doc, shader_definition(u, shader_ref), &left); e;
+         e = next_input(doc, e, &left)) {
         str_id graph = upgrade_attr(u, e, "opgraph"), output = upgrade_attr(u, e, "graphoutput");
         if (!graph || !output || doc_child(doc, shader_ref, doc_element(doc, e)->name))
             continue;
@@ -134,6 +177,15 @@ static void bind_graphs(struct upgrade *u, elem_id shader_ref)
     }
 }
 
+static bool has_number(const struct table *table, uint32_t number)
+{
+    uint32_t hash = hash_pair(number, 0);
+    for (uint32_t at = hash, found; (found = table_next(table, hash, &at));)
+        if (found == number)
+            return true;
+    return false;
+}
+
 /* Collects the tiles of all geometry (spec 1.34: the geometry property "udimset"). */
 static void collect_udims(struct upgrade *u)
 {
@@ -141,15 +193,16 @@ static void collect_udims(struct upgrade *u)
     struct text list;
     text_init(&list, doc->arena);
     elem_id first = 0;
+    struct table known = {0};
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
         const struct element *element = doc_element(doc, e);
         if (element->kind != KIND_GEOMPROP || !upgrade_is(u, element->name, "udim"))
             continue;
-        const char *udim = str_text(doc->strings, doc_attr_value(doc, e, STR_value));
-        bool known = list.len && strstr(text_cstr(&list), udim);
-        if (!known) {
+        str_id udim = doc_attr_value(doc, e, STR_value);
+        if (udim && !has_number(&known, udim)) {
+            table_add(&known, doc->arena, hash_pair(udim, 0), udim);
             text_str(&list, list.len ? ", " : "");
-            text_str(&list, udim);
+            text_str(&list, str_text(doc->strings, udim));
         }
         first = first ? first : e;
     }
@@ -173,6 +226,7 @@ void upgrade_opgraphs(struct upgrade *u)
             && doc_element(doc, e)->parent)
             connect_opgraph_node(u, e);
     }
+    u->definitions = (struct table){0};
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
         if (is_shader_ref(u, e)) {
             name_definition(u, e);
@@ -184,33 +238,39 @@ void upgrade_opgraphs(struct upgrade *u)
 
 /* 1.36 */
 
-static void apply_override(struct upgrade *u, elem_id shader_ref, elem_id override)
+/* Binds the inputs of a shader that its material overrides by their public names. */
+static void apply_overrides(struct upgrade *u, elem_id shader_ref)
 {
     struct document *doc = u->doc;
-    elem_id nodedef = shader_definition(u, shader_ref);
-    for (elem_id e = nodedef ? doc_element(doc, nodedef)->first_child : 0; e;
-         e = doc_element(doc, e)->next) {
-        if (upgrade_attr(u, e, "publicname") != doc_element(doc, override)->name
-            || doc_child(doc, shader_ref, doc_element(doc, e)->name))
-            continue;
-        doc_set_attr(doc, add_binding(u, shader_ref, e), STR_value,
-                     doc_attr_value(doc, override, STR_value));
+    elem_id material = doc_element(doc, shader_ref)->parent;
+    unsigned left;
+    for (elem_id e = first_input(doc, shader_definition(u, shader_ref), &left); e;
+         e = next_input(doc, e, &left)) {
+        str_id name = upgrade_attr(u, e, "publicname");
+        elem_id override = name ? doc_child(doc, material, name) : 0;
+        if (override && upgrade_is_category(u, override, "override")
+            && !doc_child(doc, shader_ref, doc_element(doc, e)->name))
+            doc_set_attr(doc, add_binding(u, shader_ref, e), STR_value,
+                         doc_attr_value(doc, override, STR_value));
     }
+}
+
+static bool is_in_material(const struct upgrade *u, elem_id element)
+{
+    elem_id parent = doc_element(u->doc, element)->parent;
+    return parent && doc_element(u->doc, parent)->category == STR_material;
 }
 
 void upgrade_material_overrides(struct upgrade *u)
 {
-    struct document *doc = u->doc;
+    u->definitions = (struct table){0};
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
+        if (is_shader_ref(u, e) && is_in_material(u, e))
+            apply_overrides(u, e);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
-        elem_id material = doc_element(doc, e)->parent;
-        if (!material || !upgrade_is_category(u, e, "override")
-            || doc_element(doc, material)->category != STR_material)
+        if (!is_in_material(u, e) || !upgrade_is_category(u, e, "override"))
             continue;
-        for (elem_id ref = doc_element(doc, material)->first_child; ref;
-             ref = doc_element(doc, ref)->next)
-            if (is_shader_ref(u, ref))
-                apply_override(u, ref, e);
-        doc_remove_element(doc, e);
+        doc_remove_element(u->doc, e);
         upgrade_note(u, e, "<override> is now a binding of the shader's input");
     }
 }
@@ -340,6 +400,7 @@ static void inherit_shaders(struct upgrade *u, elem_id material)
 void upgrade_materials(struct upgrade *u)
 {
     struct document *doc = u->doc;
+    u->definitions = (struct table){0};
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
         if (doc_element(doc, e)->category == STR_material && doc_element(doc, e)->parent == u->root)
             convert_material(u, e);

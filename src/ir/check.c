@@ -11,24 +11,32 @@
 
 /*
  * Operand types of closures and shaders, one letter each: c closure, s shader, n float or vector, b
- * bool, x anything.
+ * bool, o closure or shader, x anything.
  */
 static const struct operands {
     uint8_t op;
     const char *classes;
 } operand_classes[] = {
-    {IR_LAYER, "cc"},         {IR_CLOSURE_MIX, "ccn"},        {IR_CLOSURE_ADD, "cc"},
-    {IR_CLOSURE_SCALE, "cn"}, {IR_SURFACE_SHADER, "ccnb"},    {IR_SURFACE_UNLIT, "nnn"},
+    {IR_LAYER, "cc"},         {IR_CLOSURE_MIX, "ccn"},        {IR_CLOSURE_ADD, "oo"},
+    {IR_CLOSURE_SCALE, "on"}, {IR_SURFACE_SHADER, "ccnb"},    {IR_SURFACE_UNLIT, "nnn"},
     {IR_VOLUME_SHADER, "cc"}, {IR_DISPLACEMENT_SHADER, "nn"}, {IR_LIGHT_SHADER, "cnn"},
     {IR_SHADER_MIX, "ssn"},   {IR_MATERIAL, "ssss"},          {IR_SLAB_LAYER, "ccn"},
-    {IR_SLAB_SURFACE, "cbn"},
+    {IR_SLAB_SURFACE, "cbn"}, {IR_SUBSTANCE, "snnn"},         {IR_SLOTS, "nsnnnx"},
 };
+
+/* The class of an operand: the last ones repeat for each layer of a stack. */
+static char class_of(const struct operands *operands, unsigned index)
+{
+    bool repeats = operands->op == IR_SLOTS && index;
+    return operands->classes[repeats ? 1 + (index - 1) % IR_SLOT_OPERANDS : index];
+}
 
 static bool is_of_class(ir_type_id type, char class)
 {
     switch (class) {
     case 'c': return ir_type_is_closure(type);
     case 's': return ir_type_is_shader(type);
+    case 'o': return ir_type_is_closure(type) || ir_type_is_shader(type);
     case 'n': return ir_type_is_float(type) && !ir_type_is_matrix(type);
     case 'b': return type == IR_TYPE_BOOL;
     default: return true;
@@ -218,11 +226,21 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
     case IR_LEAF: return callee_problem(graph, op, attr);
     case IR_GRAPH_CALL: return graph_call_problem(graph, type, attr, args, num_args);
     case IR_RESULT: return result_problem(graph, type, attr, args[0]);
+    case IR_CONTEXT:
+    case IR_SAMPLE:
+        if (num_args > 1 || (num_args && from != IR_TYPE_INT))
+            return "the operand is no number of a loop";
+        break;
+    case IR_SLOTS:
+        if (num_args % IR_SLOT_OPERANDS != 1)
+            return "wrong number of operands";
+        break;
     default: break;
     }
     for (size_t i = 0; i < sizeof operand_classes / sizeof *operand_classes; i++)
         for (unsigned k = 0; operand_classes[i].op == op && k < num_args; k++)
-            if (args[k] && !is_of_class(ir_type_of(graph, args[k]), operand_classes[i].classes[k]))
+            if (args[k]
+                && !is_of_class(ir_type_of(graph, args[k]), class_of(&operand_classes[i], k)))
                 return "an operand has the wrong type";
     return NULL;
 }

@@ -409,3 +409,21 @@ bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f)
     }
     return true;
 }
+
+static unsigned mode_number(const struct ir_graph *graph, const struct ir_slot *slot)
+{
+    struct ir_value mode;
+    bool is_known = ir_get_const(graph, slot->mode, &mode);
+    assert(is_known && mode.w[0].u < 2 * IR_SLOT_VERTICAL);
+    return is_known ? mode.w[0].u : IR_SLOT_MIX;
+}
+
+bool ir_slot_is_vertical(const struct ir_graph *graph, const struct ir_slot *slot)
+{
+    return mode_number(graph, slot) >= IR_SLOT_VERTICAL;
+}
+
+enum ir_slot_mode ir_slot_mode(const struct ir_graph *graph, const struct ir_slot *slot)
+{
+    return (enum ir_slot_mode)(mode_number(graph, slot) % IR_SLOT_VERTICAL);
+}

@@ -2,6 +2,8 @@
 /* Implementations: from their elements to parsed functions and expressions. */
 #include "library/index_priv.h"
 
+#include "base/hash.h"
+
 #include <assert.h>
 
 static bool is_closure(doc_type type)
@@ -106,7 +108,36 @@ static bool find_family(struct indexer *ix, struct implementation *impl, str_id 
     return any;
 }
 
-static const char *check_signature(const struct indexer *ix, const struct implementation *impl,
+/* The extra inputs that a function for one target takes after the inputs of its node. */
+static uint32_t find_extra(const struct indexer *ix, const struct implementation *impl,
+                           uint32_t function)
+{
+    const struct lang_unit *unit;
+    const struct lang_function *fn = lang_function(&ix->lib->unit, function, &unit);
+    uint32_t next = library_nodedef(ix->lib, impl->nodedef)->num_inputs, extra = 0;
+    for (uint32_t i = 0; i < LIBRARY_NUM_EXTRA_INPUTS && impl->target; i++) {
+        if (next >= fn->num_params)
+            break;
+        const struct lang_slot *slot = &unit->slots.items[fn->first_slot + next];
+        if (slot->mode != LANG_IN || slot->type != library_extra_inputs[i].type
+            || strcmp(index_text(ix, slot->name), library_extra_inputs[i].name) != 0)
+            continue;
+        extra |= 1u << i;
+        next++;
+    }
+    return extra;
+}
+
+static uint32_t count_extra(uint32_t extra)
+{
+    uint32_t n = 0;
+    for (; extra; extra &= extra - 1)
+        n++;
+    return n;
+}
+
+/* NULL, or the fault of a function's parameters. Keeps its extra inputs. */
+static const char *check_signature(const struct indexer *ix, struct implementation *impl,
                                    uint32_t function)
 {
     const struct lang_unit *unit;
@@ -116,7 +147,9 @@ static const char *check_signature(const struct indexer *ix, const struct implem
     uint32_t outs = fn->return_type == IR_TYPE_VOID ? def->num_outputs : 0u;
     if (library_type_ir(ix->lib, ports[def->num_inputs].type) == IR_TYPE_LIGHT)
         return NULL; /* lights have a different signature, see library.md */
-    if (fn->num_params != def->num_inputs + outs)
+    uint32_t extra = find_extra(ix, impl, function);
+    uint32_t inputs = def->num_inputs + count_extra(extra);
+    if (fn->num_params != inputs + outs)
         return "it needs one parameter per input, then one `out` parameter per output (or a return "
                "value)";
     if (fn->return_type != IR_TYPE_VOID && def->num_outputs != 1)
@@ -124,12 +157,17 @@ static const char *check_signature(const struct indexer *ix, const struct implem
     assert(fn->first_slot + fn->num_params <= unit->slots.len);
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
-        bool out = i >= def->num_inputs;
-        if (slot->type != library_type_ir(ix->lib, ports[i].type))
-            return "a parameter differs in type from its input or output";
+        bool out = i >= inputs, is_extra = i >= def->num_inputs && !out;
         if ((slot->mode != LANG_IN) != out)
             return "inputs need `in` parameters, and outputs need `out` parameters";
+        if (is_extra)
+            continue;
+        ir_type_id type = library_type_ir(ix->lib, ports[out ? i - count_extra(extra) : i].type);
+        bool is_word = impl->target && type == IR_TYPE_STRING && slot->type == IR_TYPE_INT;
+        if (slot->type != type && !is_word)
+            return "a parameter differs in type from its input or output";
     }
+    impl->count = extra;
     return NULL;
 }
 
@@ -190,8 +228,11 @@ static bool parse_source(struct indexer *ix, struct implementation *impl, struct
     } else if (file_name) {
         if (!ix->reader)
             return index_read_source(ix, element, file_name, diags) != 0;
-        file = lang_parse_file(&ix->lib->unit, ix->reader, from, index_text(ix, file_name),
-                               doc_attr_place(&ix->lib->doc, element, STR_file), diags);
+        struct diag_place where = doc_attr_place(&ix->lib->doc, element, STR_file);
+        const char *ref = index_text(ix, file_name);
+        file = index_has_prelude(ix, impl)
+                   ? index_parse_with_prelude(ix, from, ref, where, diags)
+                   : lang_parse_file(&ix->lib->unit, ix->reader, from, ref, where, diags);
         if (file == LANG_NONE)
             return false;
     }
@@ -199,6 +240,8 @@ static bool parse_source(struct indexer *ix, struct implementation *impl, struct
         return index_find_function(ix, impl, function, file, diags);
     if (source && impl->target)
         source = index_expression(ix, source);
+    if (file == LANG_NONE && index_has_prelude(ix, impl))
+        file = index_parse_with_prelude(ix, "", NULL, doc_place(&ix->lib->doc, element), diags);
     return index_parse_expressions(ix, impl, source, file, diags);
 }
 
@@ -237,25 +280,144 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
     index_break(ix, impl, is_trusted ? &unfit : &faults);
 }
 
+static bool are_in_one_file(const struct indexer *ix, elem_id a, elem_id b)
+{
+    return strcmp(index_file(ix, a), index_file(ix, b)) == 0;
+}
+
+/*
+ * The implementation of another file for the same definition, target and format; NULL: there is
+ * none. Two implementations of one file are a matter of validation.
+ */
+static struct implementation *find_rival(const struct indexer *ix,
+                                         const struct implementation *impl)
+{
+    uint32_t hash = hash_pair(impl->nodedef, impl->target);
+    for (uint32_t at = hash, found; (found = table_next(&ix->claims, hash, &at));) {
+        struct implementation *other = &ix->lib->impls.items[found - 1];
+        if (other->nodedef == impl->nodedef && other->target == impl->target
+            && index_attr(ix, other->element, STR_format)
+                   == index_attr(ix, impl->element, STR_format)
+            && !are_in_one_file(ix, other->element, impl->element))
+            return other;
+    }
+    return NULL;
+}
+
+/* The later of two libraries wins. */
+static void replace_impl(struct indexer *ix, struct implementation *old,
+                         const struct implementation *impl)
+{
+    const struct document *doc = &ix->lib->doc;
+    diag_add(ix->diags, DIAG_ID_replaced_implementation, doc_name_place(doc, impl->element),
+             index_text(ix, impl->name), index_file(ix, impl->element), index_text(ix, old->name),
+             index_file(ix, old->element),
+             index_text(ix, library_nodedef(ix->lib, impl->nodedef)->name));
+    diag_add(ix->diags, DIAG_ID_previous_definition, doc_name_place(doc, old->element));
+    *old = *impl;
+}
+
 static void add_impl(struct indexer *ix, struct implementation impl)
 {
     struct library *lib = ix->lib;
-    if (impl.nodedef < lib->base_nodedefs)
-        vec_push(ix->arena, &lib->overrides, lib->impls.len);
+    struct implementation *rival = find_rival(ix, &impl);
+    if (rival) {
+        replace_impl(ix, rival, &impl);
+        return;
+    }
     vec_push(ix->arena, &lib->impls, impl);
+    table_add(&ix->claims, ix->arena, hash_pair(impl.nodedef, impl.target), lib->impls.len);
 }
 
-/* Backwards, so that the first implementation of a definition becomes the head. */
-void index_link_implementations(struct library *lib)
+/* True for a node of served.def that gives a closure, a shader or a material. */
+static bool is_operator(const struct indexer *ix, const struct nodedef *def)
 {
+    static const char *const operators[] = {
+#define OPERATOR(node) #node,
+#include "library/served.def"
+    };
+    ir_type_id type =
+        library_type_ir(ix->lib, ix->lib->ports.items[def->first_port + def->num_inputs].type);
+    for (size_t i = 0; i < sizeof operators / sizeof *operators; i++)
+        if (strcmp(operators[i], index_text(ix, def->node)) == 0)
+            return ir_type_is_closure(type) || ir_type_is_shader(type);
+    return false;
+}
+
+void index_operators(struct indexer *ix)
+{
+    struct library *lib = ix->lib;
+    bool *has_one = ARENA_ARRAY(ix->arena, bool, lib->nodedefs.len);
+    for (uint32_t i = 0; i < lib->impls.len; i++) {
+        const struct implementation *impl = &lib->impls.items[i];
+        if (impl->nodedef >= lib->base_nodedefs && impl->kind != IMPL_FOREIGN)
+            has_one[impl->nodedef - lib->base_nodedefs] = true;
+    }
+    for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
+        const struct nodedef *def = &lib->nodedefs.items[i];
+        if (!has_one[i] && def->num_outputs == 1 && is_operator(ix, def))
+            add_impl(ix, (struct implementation){.name = def->name,
+                                                 .element = def->element,
+                                                 .kind = IMPL_DYNAMIC,
+                                                 .nodedef = lib->base_nodedefs + i});
+    }
+}
+
+/* Makes the implementation the first one of this layer for a definition of a lower layer. */
+static void link_override(struct indexer *ix, uint32_t own)
+{
+    struct library *lib = ix->lib;
+    struct implementation *impl = &lib->impls.items[own];
+    uint32_t hash = hash_pair(impl->nodedef, 0), at = hash, first;
+    while ((first = table_next(&lib->overrides, hash, &at))
+           && lib->impls.items[first - 1].nodedef != impl->nodedef)
+        ;
+    impl->next = first ? lib->base_impls + first - 1 : LIBRARY_NONE;
+    if (first)
+        table_replace(&lib->overrides, at, own + 1);
+    else
+        table_add(&lib->overrides, ix->arena, hash, own + 1);
+}
+
+/* Drops the implementations beyond the limit, which would make each use of the node slow. */
+static void limit_implementations(struct indexer *ix, uint32_t first, const char *nodedef)
+{
+    uint32_t count = 1, id = first;
+    for (; id != LIBRARY_NONE; id = library_impl(ix->lib, id, NULL)->next)
+        if (count++ == INDEX_MAX_VARIANTS)
+            break;
+    if (id == LIBRARY_NONE)
+        return;
+    struct implementation *last = &ix->lib->impls.items[id - ix->lib->base_impls];
+    if (last->next == LIBRARY_NONE)
+        return;
+    const struct implementation *excess = library_impl(ix->lib, last->next, NULL);
+    diag_add(ix->diags, DIAG_ID_too_many_variants, doc_place(&ix->lib->doc, excess->element),
+             nodedef, INDEX_MAX_VARIANTS, "implementations");
+    last->next = LIBRARY_NONE;
+}
+
+void index_link_implementations(struct indexer *ix)
+{
+    struct library *lib = ix->lib;
+    /* backwards, so that the first implementation of a definition becomes the head */
     for (uint32_t i = lib->impls.len; i-- > 0;) {
         struct implementation *impl = &lib->impls.items[i];
-        impl->next = LIBRARY_NONE;
-        if (impl->nodedef < lib->base_nodedefs)
+        if (impl->nodedef < lib->base_nodedefs) {
+            link_override(ix, i);
             continue;
+        }
         uint32_t *first = &lib->nodedefs.items[impl->nodedef - lib->base_nodedefs].first_impl;
         impl->next = *first;
         *first = lib->base_impls + i;
+    }
+    for (uint32_t i = 0; i < lib->impls.len; i++) {
+        uint32_t nodedef = lib->impls.items[i].nodedef, id = lib->base_impls + i;
+        const struct nodedef *def = library_nodedef(lib, nodedef);
+        if (id
+            == (nodedef < lib->base_nodedefs ? library_first_override(lib, nodedef)
+                                             : def->first_impl))
+            limit_implementations(ix, id, index_text(ix, def->name));
     }
 }
 

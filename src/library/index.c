@@ -166,11 +166,29 @@ static void link_by_node(struct indexer *ix, uint32_t own)
         table_add(&lib->node_table, ix->arena, hash, own + 1);
 }
 
+/* Drops the definitions of a node beyond the limit, because each use of the node tries them all. */
+static void limit_definitions(struct indexer *ix, uint32_t first)
+{
+    struct library *lib = ix->lib;
+    uint32_t last = first;
+    for (unsigned i = 1; i < INDEX_MAX_VARIANTS && last != LIBRARY_NONE; i++)
+        last = lib->nodedefs.items[last].next_same_node;
+    if (last == LIBRARY_NONE || lib->nodedefs.items[last].next_same_node == LIBRARY_NONE)
+        return;
+    const struct nodedef *excess = &lib->nodedefs.items[lib->nodedefs.items[last].next_same_node];
+    diag_add(ix->diags, DIAG_ID_too_many_variants, doc_place(&lib->doc, excess->element),
+             text_of(lib, excess->node), INDEX_MAX_VARIANTS, "definitions");
+    lib->nodedefs.items[last].next_same_node = LIBRARY_NONE;
+}
+
 /* From the last, so that the first of a node leads. */
 static void make_node_table(struct indexer *ix)
 {
     for (uint32_t i = ix->lib->nodedefs.len; i-- > 0;)
         link_by_node(ix, i);
+    for (uint32_t i = 0; i < ix->lib->nodedefs.len; i++)
+        if (library_first_of_node(ix->lib, ix->lib->nodedefs.items[i].node) == i)
+            limit_definitions(ix, i);
 }
 
 static void add_nodedef(struct indexer *ix, elem_id element)
@@ -205,11 +223,9 @@ static void add_nodedef(struct indexer *ix, elem_id element)
 
 static uint32_t default_nodedef(const struct library *lib, str_id node, doc_type type)
 {
-    enum { MAX_TRIED = 1024 }; /* standard nodes have few definitions */
-    uint32_t tried = 0;
     for (; lib; lib = lib->base)
-        for (uint32_t i = library_first_of_node(lib, node); i != LIBRARY_NONE && tried < MAX_TRIED;
-             i = lib->nodedefs.items[i].next_same_node, tried++) {
+        for (uint32_t i = library_first_of_node(lib, node); i != LIBRARY_NONE;
+             i = lib->nodedefs.items[i].next_same_node) {
             const struct nodedef *def = &lib->nodedefs.items[i];
             if (def->num_outputs
                 && lib->ports.items[def->first_port + def->num_inputs].type == type)
@@ -274,7 +290,8 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     for_each(&ix, KIND_GEOMPROPDEF, add_geomprop);
     for_each(&ix, KIND_IMPLEMENTATION, index_implementation);
     for_each(&ix, KIND_NODEGRAPH, index_functional_graph);
-    index_link_implementations(lib);
+    index_operators(&ix);
+    index_link_implementations(&ix);
     for_each(&ix, KIND_UNITDEF, add_unitdef);
     library_sort_units(lib);
     assert(lib->element_info.len == lib->doc.elements.len);

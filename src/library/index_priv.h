@@ -13,9 +13,13 @@ struct indexer {
     struct arena *arena;
     const struct lang_reader *reader;
     struct diag_list *diags;
+    struct table claims; /* definition and target -> index of an implementation + 1 */
 };
 
-enum { INDEX_MAX_PORTS = 1024 }; /* of the inputs of a definition, because lookups are linear */
+enum {
+    INDEX_MAX_PORTS = 1024,   /* inputs of a definition, because lookups are linear */
+    INDEX_MAX_VARIANTS = 256, /* definitions of a node, and implementations of a definition */
+};
 
 static inline const char *index_text(const struct indexer *ix, str_id id)
 {
@@ -38,8 +42,14 @@ static inline const char *index_file(const struct indexer *ix, elem_id element)
 /* implement.c: adds the implementation of an <implementation>, or of a functional <nodegraph>. */
 void index_implementation(struct indexer *ix, elem_id element);
 void index_functional_graph(struct indexer *ix, elem_id element);
+/*
+ * Gives mxgen's own code to operators of closures and to materials that lack an implementation for
+ * a target of mxgen. Generators of MaterialX read materials themselves, so its libraries implement
+ * few of them.
+ */
+void index_operators(struct indexer *ix);
 /* Links the implementations of each definition, the first one at its head. */
-void index_link_implementations(struct library *lib);
+void index_link_implementations(struct indexer *ix);
 
 /* Finds the function of an implementation in a parsed file; false after a diagnostic. */
 bool index_find_function(struct indexer *ix, struct implementation *impl, str_id name,
@@ -77,6 +87,25 @@ bool index_is_inline(const struct indexer *ix, str_id file);
  */
 bool index_verbatim(struct indexer *ix, struct implementation *impl, const struct diag_list *faults,
                     struct diag_list *diags);
+
+/* portable.c */
+
+/* True if the source of an implementation may use the functions of MaterialX's generators. */
+bool index_has_prelude(const struct indexer *ix, const struct implementation *impl);
+/*
+ * Parses a file of such an implementation, or, with ref NULL, these functions alone: LANG_NONE
+ * after diagnostics.
+ */
+uint32_t index_parse_with_prelude(struct indexer *ix, const char *from, const char *ref,
+                                  struct diag_place where, struct diag_list *diags);
+/*
+ * The path of an #include. "$fileTransformUv" is the file that transforms texture coordinates, in
+ * the language of the including file `from`.
+ */
+const char *index_include_path(struct indexer *ix, const char *from, const char *path);
+/* The text with each token replaced, interned. */
+str_id index_replace_token(struct indexer *ix, const char *text, size_t len, const char *token,
+                           const char *replacement);
 
 /* source.c */
 

@@ -213,7 +213,45 @@ str_id library_type_name(const struct library *lib, doc_type type)
     return type >= DOC_TYPE_FIRST_USER ? user_type(lib, type)->name : doc_type_name(type);
 }
 
+elem_id library_typedef(const struct library *lib, doc_type type)
+{
+    assert(type >= DOC_TYPE_FIRST_USER);
+    return user_type(lib, type)->element;
+}
+
 ir_type_id library_type_ir(const struct library *lib, doc_type type)
 {
     return type >= DOC_TYPE_FIRST_USER ? user_type(lib, type)->ir : doc_type_ir(type);
+}
+
+void library_report_foreign(const struct library *lib, struct arena *scratch,
+                            struct diag_list *diags)
+{
+    struct count {
+        str_id target;
+        unsigned num;
+    };
+    VEC(struct count) targets = {0};
+    elem_id first = 0;
+    unsigned num = 0;
+    for (uint32_t i = 0; i < lib->impls.len; i++) {
+        const struct implementation *impl = &lib->impls.items[i];
+        if (impl->kind != IMPL_FOREIGN)
+            continue;
+        uint32_t at = 0;
+        while (at < targets.len && targets.items[at].target != impl->target)
+            at++;
+        if (at == targets.len)
+            vec_push(scratch, &targets, (struct count){.target = impl->target});
+        targets.items[at].num++;
+        first = num++ ? first : impl->element;
+    }
+    struct text list;
+    text_init(&list, scratch);
+    for (uint32_t i = 0; i < targets.len; i++)
+        text_fmt(&list, "%s%s (%u)", i ? ", " : "",
+                 str_text(&lib->strings, targets.items[i].target), targets.items[i].num);
+    if (num)
+        diag_add(diags, DIAG_ID_foreign_implementations, doc_place(&lib->doc, first), num,
+                 text_cstr(&list));
 }

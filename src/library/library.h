@@ -47,7 +47,7 @@ struct nodedef {
 
 enum impl_kind {
     IMPL_EXPRESSION, /* ref: first of num_outputs expression functions in the layer's refs */
-    IMPL_FUNCTION,   /* ref: lang function id */
+    IMPL_FUNCTION,   /* ref: lang function id; count: bits of library_extra_inputs */
     IMPL_FAMILY,     /* ref: index of the leaf family */
     IMPL_GRAPH,      /* ref: element of the nodegraph */
     /* C code builds it; the node's name selects the code, or `ref` if that is chosen_input */
@@ -223,8 +223,8 @@ struct library {
     VEC(uint32_t) element_info;
     /* replaces `element_info` in an image layer whose indices fit in 16 bits */
     const uint16_t *narrow_info;
-    /* indices of implementations in this layer for nodedefs of lower layers */
-    VEC(uint32_t) overrides;
+    /* nodedef of a lower layer → its first implementation in this layer (own index + 1) */
+    struct table overrides;
     struct diag_list *deferred; /* errors of implementations, which appear when a node uses one */
 };
 
@@ -254,6 +254,15 @@ uint32_t library_num_nodedefs(const struct library *lib); /* including lower lay
  * `next_same_node` links the others.
  */
 uint32_t library_first_of_node(const struct library *layer, str_id node);
+/*
+ * The first implementation that a layer has for a definition of a lower layer; LIBRARY_NONE. `next`
+ * links the others.
+ */
+uint32_t library_first_override(const struct library *layer, uint32_t nodedef);
+
+/* Reports how many implementations of a layer are for targets that mxgen does not have. */
+void library_report_foreign(const struct library *lib, struct arena *scratch,
+                            struct diag_list *diags);
 
 /* The ports of a definition: inputs, then outputs. */
 const struct port *library_ports(const struct library *lib, uint32_t nodedef,
@@ -274,6 +283,8 @@ uint32_t library_nodedef_by_name(const struct library *lib, str_id name);
 /* A type by name, standard or from a typedef; 0: unknown. And the inverse. */
 doc_type library_type(const struct library *lib, str_id name);
 str_id library_type_name(const struct library *lib, doc_type type);
+elem_id library_typedef(const struct library *lib,
+                        doc_type type); /* of a type that is not standard */
 ir_type_id library_type_ir(const struct library *lib, doc_type type);
 
 /* unit.c: adds the units of a <unitdef>. The caller sorts the units afterwards. */
@@ -300,12 +311,31 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
 /* resolve.c */
 
 /*
+ * Inputs of nodes and of plain nodegraphs that other ports drive: the input has the value or the
+ * connection of `source`, an <output> or <input>, in the place of its own.
+ */
+struct library_drive {
+    elem_id owner;
+    str_id input;
+    elem_id source;
+};
+struct library_drives {
+    VEC(struct library_drive) items;
+    struct table table;
+};
+/* Adds a drive; a later one of the same input replaces an earlier one. */
+void library_drive(struct library_drives *drives, struct arena *arena, struct library_drive drive);
+/* The source that drives an input; 0: none. drives may be NULL. */
+elem_id library_driver(const struct library_drives *drives, elem_id owner, str_id input);
+
+/*
  * Resolves the definition and the bindings of a node. `bindings` needs room for the inputs of the
  * definition.
  */
 struct resolve_out {
     struct arena *arena;
     VEC(struct binding) bindings;
+    const struct library_drives *drives; /* NULL: nothing is driven */
 };
 struct graph_node library_resolve_node(const struct library *lib, elem_id node,
                                        struct resolve_out *out, struct diag_list *diags);
@@ -314,6 +344,9 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
  * The source of the value of an <input> or <output> element. Looks through outputs and interface
  * inputs of nodegraphs without a nodedef. `type` is the type of the port.
  */
+struct binding library_resolve_driven(const struct library *lib, elem_id port, doc_type type,
+                                      const struct library_drives *drives, struct diag_list *diags);
+/* The same without drives. */
 struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
                                           struct diag_list *diags);
 

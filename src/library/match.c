@@ -20,6 +20,15 @@ uint32_t library_first_of_node(const struct library *layer, str_id node)
     return LIBRARY_NONE;
 }
 
+uint32_t library_first_override(const struct library *layer, uint32_t nodedef)
+{
+    uint32_t hash = hash_pair(nodedef, 0);
+    for (uint32_t at = hash, found; (found = table_next(&layer->overrides, hash, &at));)
+        if (layer->impls.items[found - 1].nodedef == nodedef)
+            return layer->base_impls + found - 1;
+    return LIBRARY_NONE;
+}
+
 /* ---- Candidates ---- */
 
 /* True if the definition has the type of the node. A type that no one knows has its own message. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Resolves names to elements: the connections of a node's inputs. */
+#include "base/hash.h"
 #include "library/library.h"
 
 #include <assert.h>
@@ -55,7 +56,7 @@ static elem_id root_of(const struct library *lib, elem_id element)
  * limit of elements to search for suggestions, because each generation of a large document may
  * search
  */
-enum { MAX_SEARCHED = 4096 };
+enum { MAX_SEARCHED = 4096, MAX_SEARCHED_LATER = 64 /* after many suggestions */ };
 
 /* A suggestion from the named children of a scope. */
 static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name,
@@ -251,8 +252,8 @@ static void report_output(const struct library *lib, elem_id port, elem_id graph
 {
     struct missing_output missing;
     begin_missing(&missing, text_of(lib, name), diags);
-    elem_id e = doc_element(&lib->doc, graph)->first_child;
-    for (unsigned searched = 0; e && searched < MAX_SEARCHED;
+    unsigned most = missing.may_guess ? MAX_SEARCHED : MAX_SEARCHED_LATER, searched = 0;
+    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e && searched < most;
          e = doc_element(&lib->doc, e)->next, searched++)
         if (doc_element(&lib->doc, e)->kind == KIND_OUTPUT)
             add_existing(&missing, text_of(lib, doc_element(&lib->doc, e)->name));
@@ -402,14 +403,53 @@ static elem_id follow(const struct library *lib, elem_id port, doc_type type, st
     return 0;
 }
 
+void library_drive(struct library_drives *drives, struct arena *arena, struct library_drive drive)
+{
+    uint32_t hash = hash_pair(drive.owner, drive.input);
+    for (uint32_t at = hash, found; (found = table_next(&drives->table, hash, &at));) {
+        struct library_drive *known = &drives->items.items[found - 1];
+        if (known->owner == drive.owner && known->input == drive.input) {
+            known->source = drive.source;
+            return;
+        }
+    }
+    vec_push(arena, &drives->items, drive);
+    table_add(&drives->table, arena, hash, drives->items.len);
+}
+
+elem_id library_driver(const struct library_drives *drives, elem_id owner, str_id input)
+{
+    uint32_t hash = hash_pair(owner, input);
+    for (uint32_t at = hash, found; drives && (found = table_next(&drives->table, hash, &at));) {
+        const struct library_drive *known = &drives->items.items[found - 1];
+        if (known->owner == owner && known->input == input)
+            return known->source;
+    }
+    return 0;
+}
+
+/* The port that drives an interface input of a plain nodegraph, or the input itself. */
+static elem_id driven(const struct library *lib, const struct library_drives *drives, elem_id port)
+{
+    const struct element *e = drives && port ? doc_element(&lib->doc, port) : NULL;
+    elem_id source = e && e->kind == KIND_INPUT ? library_driver(drives, e->parent, e->name) : 0;
+    return source ? source : port;
+}
+
 struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
                                           struct diag_list *diags)
+{
+    return library_resolve_driven(lib, port, type, NULL, diags);
+}
+
+struct binding library_resolve_driven(const struct library *lib, elem_id port, doc_type type,
+                                      const struct library_drives *drives, struct diag_list *diags)
 {
     struct binding result = bind_error;
     elem_id asker = port;
     /* Outputs and interface inputs may chain; a longer chain is a cycle. */
     for (uint32_t steps = 0; port && steps < 10000; steps++) {
-        elem_id next = follow(lib, port, type, &result, diags);
+        elem_id next = driven(lib, drives, follow(lib, port, type, &result, diags));
         if (next && type != DOC_TYPE_NONE) {
             str_id have = doc_attr_value(&lib->doc, next, STR_type);
             if (have && library_type(lib, have) != type) {
@@ -427,13 +467,27 @@ struct binding library_resolve_connection(const struct library *lib, elem_id por
 
 /* An input of another type is reported; whether its source exists is another question. */
 static struct binding resolve_input(const struct library *lib, elem_id input, doc_type type,
-                                    struct diag_list *diags)
+                                    const struct library_drives *drives, struct diag_list *diags)
 {
     doc_type said = library_type(lib, doc_attr_value(&lib->doc, input, STR_type));
     bool is_wrong = said && said != type;
     struct binding b =
-        library_resolve_connection(lib, input, is_wrong ? DOC_TYPE_NONE : type, diags);
+        library_resolve_driven(lib, input, is_wrong ? DOC_TYPE_NONE : type, drives, diags);
     return is_wrong ? bind_error : b;
+}
+
+/* Replaces the bindings of the driven inputs. */
+static void drive_node(const struct library *lib, const struct graph_node *node,
+                       const struct library_drives *drives, struct binding *bindings,
+                       struct diag_list *diags)
+{
+    const struct nodedef *def = library_nodedef(lib, node->nodedef);
+    const struct port *ports = library_ports(lib, node->nodedef, NULL);
+    for (unsigned i = 0; i < def->num_inputs; i++) {
+        elem_id source = library_driver(drives, node->element, ports[i].name);
+        if (source)
+            bindings[i] = resolve_input(lib, source, ports[i].type, drives, diags);
+    }
 }
 
 struct graph_node library_resolve_node(const struct library *lib, elem_id node,
@@ -457,9 +511,13 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
         if (port < 0)
             continue;
         assert((unsigned)port < def->num_inputs);
-        struct binding b = resolve_input(lib, e, ports[port].type, diags);
+        if (library_driver(out->drives, node, input->name))
+            continue;
+        struct binding b = resolve_input(lib, e, ports[port].type, out->drives, diags);
         out->bindings.items[result.first_binding + (unsigned)port] = b;
     }
+    if (out->drives)
+        drive_node(lib, &result, out->drives, out->bindings.items + result.first_binding, diags);
     assert(out->bindings.len == result.first_binding + def->num_inputs);
     return result;
 }

@@ -38,26 +38,6 @@ static uint32_t find_source(const struct library *lib, str_id name)
 
 /* ---- Includes ---- */
 
-/*
- * The file of an #include. "$fileTransformUv" is the file that transforms texture coordinates, in
- * the language of the including file.
- */
-static const char *include_path(struct indexer *ix, const char *from, const struct scan_word *path)
-{
-    static const char token[] = "$fileTransformUv";
-    const char *name = arena_strndup(ix->arena, path->text, path->len);
-    const char *at = strstr(name, token), *suffix = strrchr(from, '.');
-    if (!at)
-        return name;
-    struct text text;
-    text_init(&text, ix->arena);
-    text_mem(&text, name, (size_t)(at - name));
-    text_str(&text, "mx_transform_uv");
-    text_str(&text, suffix ? suffix : "");
-    text_str(&text, at + strlen(token));
-    return text_cstr(&text);
-}
-
 static uint32_t read_file(struct indexer *ix, const char *from, const char *ref, const char *user,
                           struct diag_place where, const struct reading *outer,
                           struct diag_list *diags);
@@ -75,7 +55,8 @@ static bool read_include(struct indexer *ix, const char *name, struct scan *scan
         return false;
     }
     uint32_t before = diags->num_errors;
-    *out = read_file(ix, name, include_path(ix, name, &path), name, where, reading, diags);
+    const char *ref = arena_strndup(ix->arena, path.text, path.len);
+    *out = read_file(ix, name, index_include_path(ix, name, ref), name, where, reading, diags);
     if (*out == LIBRARY_NONE && diags->num_errors > before && reading->depth > 0)
         diag_add(diags, DIAG_ID_include_from, where);
     return *out != LIBRARY_NONE;

@@ -133,17 +133,40 @@ struct signature {
     uint8_t extra;
 };
 
-/* A parameter of a vector or matrix type must have the type of its input or output. */
+/*
+ * Types of parameters that also take a value of another type. Hardware targets pass a string as the
+ * index of its word, and an int converts to float. OSL has no bool and no
+ * sampler.
+ */
+static const struct {
+    const char *target; /* NULL: all */
+    ir_type_id value, parameter;
+} converting[] = {
+    {NULL, IR_TYPE_STRING, IR_TYPE_INT},
+    {NULL, IR_TYPE_INT, IR_TYPE_FLOAT},
+    {"genosl", IR_TYPE_BOOL, IR_TYPE_INT},
+    {"genosl", IR_TYPE_SAMPLER, IR_TYPE_STRING},
+};
+
+static bool converts(const struct signature *s, ir_type_id value, ir_type_id parameter)
+{
+    const char *target = index_text(s->ix, s->impl->target);
+    for (size_t i = 0; i < sizeof converting / sizeof *converting; i++)
+        if (converting[i].value == value && converting[i].parameter == parameter
+            && (!converting[i].target || strcmp(converting[i].target, target) == 0))
+            return true;
+    return value == parameter;
+}
+
+/* A parameter of a known type must take the value of its input, or give that of its output. */
 static bool has_type(const struct signature *s, unsigned parameter, const struct port *port)
 {
     const struct scan_word *type = &s->parameters[parameter].type;
-    ir_type_id wanted = library_type_ir(s->ix->lib, port->type);
-    if (wanted < IR_TYPE_VEC2 || wanted > IR_TYPE_MAT4)
-        return true;
-    for (ir_type_id known = IR_TYPE_BOOL; known <= IR_TYPE_MAT4; known++)
+    ir_type_id value = library_type_ir(s->ix->lib, port->type);
+    for (ir_type_id known = IR_TYPE_BOOL; known <= IR_TYPE_SAMPLER; known++)
         if (scan_is(type, ir_type_text(known)))
-            return known == wanted;
-    return true; /* a macro, or a type of another language */
+            return value > IR_TYPE_SAMPLER || converts(s, value, known);
+    return true; /* a macro, a type of another language, or a closure */
 }
 
 /* Counts the extra parameters at the end of the inputs. */

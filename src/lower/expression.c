@@ -358,7 +358,7 @@ static void lower_other(struct lower *lo, const struct lang_node *node, ir_ref *
     case LANG_CONST:
         *out = ir_const_words(lo->graph, node->type, ast_words(lo->frame->layer, node));
         break;
-    case LANG_INPUT: *out = lo->inputs[node->a]; break;
+    case LANG_INPUT: lower_split(lo, node->type, lo->inputs[node->a], out); break;
     case LANG_GLOBAL: lower_global(lo, node, out); break;
     case LANG_CALL: lower_nested_call(lo, node, out); break;
     default: lower_op(lo, node, out);

@@ -19,26 +19,26 @@ unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
 
 /* ---- Structs and arrays: leaves to and from single nodes ---- */
 
-ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type)
+ir_type_id lang_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type)
 {
     if (!ast_is_user_type(type))
         return type;
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
     if (user->array_length)
-        return (ir_type_id)ir_add_array(graph, lower_graph_type(unit, graph, user->element),
+        return (ir_type_id)ir_add_array(graph, lang_graph_type(unit, graph, user->element),
                                         user->array_length);
     struct ir_member *members = ARENA_ARRAY(graph->arena, struct ir_member, user->num_members);
     for (uint32_t i = 0; i < user->num_members; i++) {
         members[i] = layer->members.items[user->first_member + i];
-        members[i].type = lower_graph_type(unit, graph, members[i].type);
+        members[i].type = lang_graph_type(unit, graph, members[i].type);
     }
     return (ir_type_id)ir_add_struct(graph, user->name, members, user->num_members);
 }
 
 static ir_type_id graph_type(struct lower *lo, ir_type_id type)
 {
-    return lower_graph_type(lo->unit, lo->graph, type);
+    return lang_graph_type(lo->unit, lo->graph, type);
 }
 
 static ir_type_id part_type(const struct lower *lo, ir_type_id type, uint32_t index,
@@ -53,7 +53,6 @@ static ir_type_id part_type(const struct lower *lo, ir_type_id type, uint32_t in
 }
 
 static const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out);
-static ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves);
 
 static const ir_ref *join_user_type(struct lower *lo, ir_type_id type, const ir_ref *leaves,
                                     ir_ref *out)
@@ -83,7 +82,7 @@ static ir_ref *split_user_type(struct lower *lo, ir_type_id type, ir_ref node, i
         ir_ref value = node ? ir_build(lo->graph, op, graph_type(lo, part), is_array ? 0 : i, args,
                                        is_array ? 2 : 1)
                             : 0;
-        leaves = split(lo, part, value, leaves);
+        leaves = lower_split(lo, part, value, leaves);
     }
     return leaves;
 }
@@ -97,7 +96,7 @@ static inline const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref
     return leaves + 1;
 }
 
-static inline ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves)
+ir_ref *lower_split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves)
 {
     if (ast_is_user_type(type))
         return split_user_type(lo, type, node, leaves);
@@ -321,7 +320,7 @@ static bool join_arguments(struct lower *lo, uint32_t id, const ir_ref *in, ir_r
 
 static ir_ref *poison(struct lower *lo, ir_type_id type, ir_ref *out)
 {
-    return split(lo, type, ir_poison(lo->graph, graph_type(lo, type)), out);
+    return lower_split(lo, type, ir_poison(lo->graph, graph_type(lo, type)), out);
 }
 
 static void poison_results(struct lower *lo, uint32_t id, ir_ref *out)
@@ -363,7 +362,7 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
     bool is_single = fn->return_type != IR_TYPE_VOID && lang_num_results(lo->unit, id) == 1;
     if (fn->return_type != IR_TYPE_VOID) {
         ir_ref value = is_single ? call : ir_build(lo->graph, IR_RESULT, type, 0, &call, 1);
-        out = split(lo, fn->return_type, value, out);
+        out = lower_split(lo, fn->return_type, value, out);
     }
     uint32_t number = 0;
     for (uint32_t i = 0; i < fn->num_params; i++) {
@@ -372,7 +371,7 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
             continue;
         ir_ref value =
             ir_build(lo->graph, IR_RESULT, graph_type(lo, slot->type), ++number, &call, 1);
-        out = split(lo, slot->type, value, out);
+        out = lower_split(lo, slot->type, value, out);
     }
 }
 
@@ -389,16 +388,6 @@ static void report_large(const struct lower *lo)
 {
     if (lo->host->too_large)
         lo->host->too_large(lo->host->user_data);
-}
-
-static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref *results)
-{
-    lo->inputs = args; /* the inputs of the expression; it has no variables */
-    results[0] = lower_single(lo, lower_node(lo, ast_returned(lo->frame->layer, lo->frame->fn)));
-    if (!lo->failed)
-        return;
-    results[0] = ir_poison(lo->graph, lo->frame->fn->return_type);
-    report_large(lo);
 }
 
 /* True if the call's arguments and results fit into the fixed arrays. */
@@ -420,6 +409,33 @@ static const ir_ref *join_result(struct lower *lo, ir_type_id type, const ir_ref
     return leaves;
 }
 
+/* True if each value that an expression reads, and its own, fits into a fixed array. */
+static bool each_fits(const struct lower *lo)
+{
+    const struct lang_function *fn = lo->frame->fn;
+    bool good = lower_leaves(lo, fn->return_type) <= LOWER_MAX_LEAVES;
+    for (uint32_t i = 0; i < fn->num_params && good; i++)
+        good = lower_leaves(lo, ast_slot(lo->frame->layer, fn, i)->type) <= LOWER_MAX_LEAVES;
+    return good;
+}
+
+static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref *results)
+{
+    lo->inputs = args; /* the inputs of the expression; it has no variables */
+    ir_type_id type = lo->frame->fn->return_type;
+    ir_ref leaves[LOWER_MAX_LEAVES];
+    if (!each_fits(lo)) {
+        results[0] = ir_poison(lo->graph, graph_type(lo, type));
+        return;
+    }
+    lower_expression(lo, lower_node(lo, ast_returned(lo->frame->layer, lo->frame->fn)), leaves);
+    join_result(lo, type, leaves, results);
+    if (!lo->failed)
+        return;
+    results[0] = ir_poison(lo->graph, graph_type(lo, type));
+    report_large(lo);
+}
+
 static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
 {
     const struct lang_unit *layer = lo->frame->layer;
@@ -427,7 +443,7 @@ static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir
     ir_ref in[LOWER_MAX_LEAVES], out[LOWER_MAX_LEAVES], *end = in;
     for (uint32_t i = 0; i < fn->num_params; i++)
         if (ast_slot(layer, fn, i)->mode != LANG_OUT)
-            end = split(lo, ast_slot(layer, fn, i)->type, *args++, end);
+            end = lower_split(lo, ast_slot(layer, fn, i)->type, *args++, end);
     assert(end <= in + LOWER_MAX_LEAVES);
     lower_call(lo, id, in, out);
     const ir_ref *from = out;

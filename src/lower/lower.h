@@ -18,6 +18,8 @@
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
                      const struct lang_host *host, uint32_t id, const ir_ref *args,
                      ir_ref *results);
+/* The type of a graph for a type of the unit: structs and arrays have numbers of their own. */
+ir_type_id lang_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type);
 unsigned lang_num_results(const struct lang_unit *unit, uint32_t id);
 
 #endif

@@ -63,9 +63,10 @@ void lower_expression(struct lower *lo, const struct lang_node *node, ir_ref *ou
 ir_ref lower_single(struct lower *lo, const struct lang_node *node); /* for a built-in type */
 void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves);
 
-/* lower.c: the graph's form of a type of the language. */
-ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type);
+/* lower.c */
 
+/* The leaves of a value of the graph: itself, or the leaves of its members. Returns their end. */
+ir_ref *lower_split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves);
 /* Names a value after a variable. For a struct or array: names the CALL that returns it. */
 void lower_name(struct lower *lo, ir_type_id type, ir_ref first_leaf, str_id name,
                 enum ir_name_rank rank);

@@ -10,15 +10,20 @@
 
 /* Messages */
 
+enum { MAX_COLUMN = 4095 }; /* 12 bits; a column that saturates is unknown */
+
 uint32_t parse_place(const struct token *token)
 {
-    return token->line << 12 | (token->column < 4095 ? token->column : 4095);
+    return token->line << 12 | (token->column < MAX_COLUMN ? token->column : MAX_COLUMN);
 }
 
 struct diag_place parse_where(const struct parser *p, uint32_t place, uint32_t length)
 {
-    return (struct diag_place){
-        .file = p->file_name, .line = place >> 12, .column = place & 4095, .length = length};
+    uint32_t column = place & MAX_COLUMN;
+    return (struct diag_place){.file = p->file_name,
+                               .line = place >> 12,
+                               .column = column < MAX_COLUMN ? column : 0,
+                               .length = length};
 }
 
 struct diag_place parse_where_token(const struct parser *p, const struct token *token)

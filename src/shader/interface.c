@@ -353,6 +353,16 @@ static bool is_flat(ir_type_id type)
     return scalar_of(type) == IR_TYPE_INT;
 }
 
+/* 1 + the first attribute with this semantic; 0: none. */
+static uint32_t find_attribute(const struct shader *shader, str_id semantic)
+{
+    uint32_t hash = hash_pair(semantic, 0);
+    for (uint32_t at = hash, found; (found = table_next(&shader->attributes, hash, &at));)
+        if (shader->variables.items[found - 1].semantic == semantic)
+            return found;
+    return 0;
+}
+
 static ir_ref attribute(struct shader *shader, const struct stream_row *row, const char *suffix,
                         ir_type_id type)
 {
@@ -364,6 +374,9 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
         variable.semantic = *suffix ? stream_semantic(shader, row, suffix)
                                     : concat(shader, row->attribute, ":", "object");
         index = bind(shader, &variable);
+        if (!find_attribute(shader, variable.semantic))
+            table_add(&shader->attributes, shader->arena, hash_pair(variable.semantic, 0),
+                      index + 1);
     }
     return shader_read(shader, index);
 }
@@ -371,14 +384,9 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
 bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index)
 {
     assert(stream < shader->variables.len);
-    str_id semantic = shader->variables.items[stream].semantic;
-    for (uint32_t i = 0; i < shader->variables.len; i++)
-        if (shader->variables.items[i].block == BLOCK_APP_DATA
-            && shader->variables.items[i].semantic == semantic) {
-            *out_index = i;
-            return true;
-        }
-    return false;
+    uint32_t found = find_attribute(shader, shader->variables.items[stream].semantic);
+    *out_index = found - 1;
+    return found != 0;
 }
 
 static ir_ref transform(struct shader *shader, str_id matrix, ir_ref vector, float w)

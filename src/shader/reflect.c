@@ -154,6 +154,7 @@ static void put_variable(struct reflect *r, const struct shader_variable *variab
     json_put_text(&r->json, "type", ir_type_text(variable->type));
     json_put_nonzero(&r->json, "arrayLength", variable->array_length);
     put_stages(r, variable->stages);
+    reflect_id(r, "slot", variable->slot);
     reflect_id(r, "path", variable->path);
     reflect_id(r, "documentType", variable->doc_type);
     reflect_id(r, "semantic", variable->semantic);

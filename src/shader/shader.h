@@ -67,6 +67,7 @@ struct shader_variable {
     uint16_t array_length; /* 0: not an array */
     str_id doc_type;       /* "color3"; 0 for variables without a document type */
     str_id path;           /* element path of the document's input; 0 for private variables */
+    str_id slot;           /* the layer of a stack that the input belongs to; 0: no stack */
     uint32_t element;      /* document element of the variable; 0 = none */
     uint32_t definition;   /* element of the nodedef's input, for ui attributes; 0 = none */
     str_id colorspace, unit, unittype;
@@ -250,6 +251,7 @@ struct shader {
     struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
     VEC(struct shader_binding) bindings;
     struct table binding_table; /* by name, to indices + 1 */
+    struct table attributes;    /* by semantic, to the first variable of app data + 1 */
     /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];
     struct shader_stage stages[NUM_STAGES];
@@ -267,6 +269,7 @@ struct shader {
     bool displaced;   /* the vertex stage moves the surface */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
+    bool picks;                       /* one layer of a stack, by a random number */
     struct shader_layout_rules rules; /* of shader_finish */
 };
 

@@ -101,6 +101,7 @@ struct target {
     const struct target *base;  /* provides missing hooks and rows */
     const char *brief;          /* one line for --help and introspection */
     uint32_t caps;
+    uint32_t max_textures; /* that a stage can read; 0: that of base, or no limit */
     /* values of the option `version`, the default first; "#version" takes it */
     const char *const *versions;
     const struct lang_syntax *syntax;

@@ -74,12 +74,6 @@ static void skip_newlines(struct parser *p)
         next(p);
 }
 
-static struct text_word unquoted(struct text_word word)
-{
-    size_t quotes = word.len >= 6 && memcmp(word.bytes, word.bytes + 1, 2) == 0 ? 3 : 1;
-    return (struct text_word){word.bytes + quotes, word.len - 2 * quotes};
-}
-
 /* ---- Values: any nesting of brackets ---- */
 
 static bool begins_value(const struct parser *p)
@@ -152,17 +146,40 @@ static bool is_arc(struct text_word name)
 
 /* What a prim, a property or the layer has of the metadata that binding needs. */
 struct metadata {
-    struct text_word references, arc, bind_as, default_prim;
+    struct text_word references, arc, bind_as, interpolation, color_space, default_prim, up_axis,
+        unit;
+    bool is_inactive;
 };
+
+/* The metadata whose value is a word in quotes. */
+static bool keep_word(struct metadata *out, struct text_word name, struct text_word value)
+{
+    const struct {
+        const char *name;
+        struct text_word *word;
+    } words[] = {{"bindMaterialAs", &out->bind_as},
+                 {"interpolation", &out->interpolation},
+                 {"colorSpace", &out->color_space},
+                 {"defaultPrim", &out->default_prim},
+                 {"upAxis", &out->up_axis}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (usda_is(name, words[i].name) && (*value.bytes == '"' || *value.bytes == '\'')) {
+            *words[i].word = usda_unquoted(value);
+            return true;
+        }
+    return false;
+}
 
 static void keep_metadata(struct metadata *out, struct text_word name, struct text_word value)
 {
     if (usda_is(name, "references"))
         out->references = value;
-    else if (usda_is(name, "bindMaterialAs") && *value.bytes == '"')
-        out->bind_as = unquoted(value);
-    else if (usda_is(name, "defaultPrim") && *value.bytes == '"')
-        out->default_prim = unquoted(value);
+    else if (usda_is(name, "metersPerUnit"))
+        out->unit = value;
+    else if (usda_is(name, "active"))
+        out->is_inactive = usda_is(value, "false") || usda_is(value, "0");
+    else if (keep_word(out, name, value))
+        return;
     else if (is_arc(name) && !usda_is(value, "None") && !usda_is(value, "[]"))
         out->arc = name;
 }
@@ -246,8 +263,11 @@ static void read_property(struct parser *p)
         next(p);
         property.value = read_value(p);
     }
-    property.bind_as = read_optional_metadata(p).bind_as;
-    if (p->failed || is_deletion)
+    struct metadata metadata = read_optional_metadata(p);
+    property.bind_as = metadata.bind_as;
+    property.interpolation = metadata.interpolation;
+    property.color_space = metadata.color_space;
+    if (p->failed || is_deletion || p->num_variants)
         return;
     vec_push(p->layer->arena, &p->layer->properties, property);
     struct usda_prim *prim = &p->layer->prims.items[p->prim];
@@ -316,11 +336,11 @@ static void read_prim(struct parser *p, uint8_t specifier)
         prim.type = word_of(p->token);
         next(p);
     }
-    if (p->token.kind != USDA_STRING || !is_identifier(unquoted(word_of(p->token))))
+    if (p->token.kind != USDA_STRING || !is_identifier(usda_unquoted(word_of(p->token))))
         fail(p, "the name of a prim in quotes");
     if (p->failed)
         return;
-    prim.name = unquoted(word_of(p->token));
+    prim.name = usda_unquoted(word_of(p->token));
     prim.line = p->token.line;
     prim.column = usda_column(&p->token);
     next(p);
@@ -328,6 +348,7 @@ static void read_prim(struct parser *p, uint8_t specifier)
     struct metadata metadata = read_optional_metadata(p);
     prim.references = metadata.references;
     prim.arc = metadata.arc;
+    prim.is_inactive = metadata.is_inactive;
     add_prim(p, prim);
     open_body(p, 'p');
 }
@@ -402,6 +423,8 @@ static void read_header(struct parser *p, const char *text, size_t len)
     if (is_mark(p, '(')) {
         struct metadata metadata = read_metadata(p);
         p->layer->default_prim = metadata.default_prim;
+        p->layer->up_axis = metadata.up_axis;
+        p->layer->meters_per_unit = metadata.unit;
         p->layer->prims.items[0].arc = metadata.arc;
     }
 }
@@ -420,60 +443,4 @@ bool usda_read(struct usda_layer *layer, const char *file, const char *text, siz
     if (p.bodies.len)
         fail(&p, "'}'");
     return !p.failed;
-}
-
-const struct usda_property *usda_find_property(const struct usda_layer *layer,
-                                               const struct usda_prim *prim, const char *name)
-{
-    for (uint32_t i = prim->first_property; i; i = layer->properties.items[i].next)
-        if (usda_is(layer->properties.items[i].name, name))
-            return &layer->properties.items[i];
-    return NULL;
-}
-
-static usda_prim_id find_child(const struct usda_layer *layer, usda_prim_id parent,
-                               const char *name, size_t len)
-{
-    for (usda_prim_id id = layer->prims.items[parent].first_child; id;
-         id = layer->prims.items[id].next) {
-        const struct usda_prim *prim = &layer->prims.items[id];
-        if (prim->name.len == len && memcmp(prim->name.bytes, name, len) == 0)
-            return id;
-    }
-    return 0;
-}
-
-usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len)
-{
-    const char *end = path + len;
-    usda_prim_id prim = 0;
-    while (path < end) {
-        path += *path == '/';
-        const char *slash = memchr(path, '/', (size_t)(end - path));
-        size_t name = (size_t)((slash ? slash : end) - path);
-        prim = find_child(layer, prim, path, name);
-        if (!prim)
-            return 0;
-        path += name;
-    }
-    return prim;
-}
-
-bool usda_next_item(struct text_word *at, struct text_word *out)
-{
-    struct usda_lexer lexer;
-    usda_lexer_init(&lexer, at->bytes, at->len);
-    for (;;) {
-        struct usda_token token = usda_next_token(&lexer);
-        *at = (struct text_word){lexer.at, (size_t)(lexer.end - lexer.at)};
-        if (token.kind == USDA_END || token.kind == USDA_BAD)
-            return false;
-        *out = word_of(token);
-        if (token.kind == USDA_PATH)
-            *out = (struct text_word){out->bytes + 1, out->len - 2};
-        if (token.kind == USDA_STRING)
-            *out = unquoted(*out);
-        if (token.kind != USDA_MARK && token.kind != USDA_NEWLINE)
-            return true;
-    }
 }

@@ -19,6 +19,7 @@ struct usda_property {
     struct text_word type;    /* of an attribute: "token[]"; of a relationship: "rel" */
     struct text_word value;   /* its text; len 0: none */
     struct text_word bind_as; /* the metadata bindMaterialAs, without quotes */
+    struct text_word interpolation, color_space; /* the same for other metadata */
     uint32_t line, column;
     uint32_t next; /* of the same prim; 0: none */
 };
@@ -32,14 +33,16 @@ struct usda_prim {
     uint32_t line, column;
     uint8_t specifier; /* enum usda_specifier */
     bool is_variant;   /* it stands in a variant set */
+    bool is_inactive;  /* active = false */
 };
 
 struct usda_layer {
     struct arena *arena;
     const char *file;
-    struct text_word default_prim;
-    VEC(struct usda_prim) prims;          /* a parent stands before its children */
-    VEC(struct usda_property) properties; /* 0 unused */
+    struct text_word default_prim, up_axis; /* without quotes; len 0: none */
+    struct text_word meters_per_unit;       /* a number; len 0: none */
+    VEC(struct usda_prim) prims;            /* a parent stands before its children */
+    VEC(struct usda_property) properties;   /* 0 unused */
 };
 
 /*
@@ -61,10 +64,25 @@ usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t 
  */
 bool usda_next_item(struct text_word *at, struct text_word *out);
 
+/* The same for the numbers of a value: "[(0, 1), (2, 3)]"; true is 1. */
+bool usda_next_number(struct text_word *at, double *out);
+/*
+ * The attribute of a name; without a value of its own, the property with its time samples. NULL:
+ * none.
+ */
+#define USDA_SAMPLES ".timeSamples"
+const struct usda_property *usda_find_attribute(const struct usda_layer *layer,
+                                                const struct usda_prim *prim, const char *name);
+/* The value of a property: its own, or its first time sample; len 0: none. */
+struct text_word usda_value(const struct usda_property *property);
+
 static inline bool usda_is(struct text_word word, const char *text)
 {
     return word.len == strlen(text) && memcmp(word.bytes, text, word.len) == 0;
 }
+
+/* A string or a name in quotes without them. */
+struct text_word usda_unquoted(struct text_word word);
 
 /* ---- lex.c ---- */
 

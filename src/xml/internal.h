@@ -7,10 +7,11 @@
 
 struct _xmlParserCtxt;
 
-/* A place in the text of a source. `offset` is a byte offset inside the line. */
+/* A place in the text of a source. */
 struct xml_position {
-    size_t offset, line_begin;
-    uint32_t line; /* 0: unknown */
+    size_t offset;
+    uint32_t line;   /* 0: unknown */
+    uint32_t before; /* code points of the line before the offset */
 };
 
 /* The current file. Its text is UTF-8 without a byte-order mark; mxgen converts other encodings. */
@@ -77,6 +78,8 @@ uint32_t xml_column(struct xml_source *source, size_t offset);
 
 /* text.c: converts the bytes of a file to UTF-8 text for libxml2. false after a reported error. */
 bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size);
+/* false after an error: a start tag has too many attributes. */
+bool xml_check_attributes(struct xml_reader *reader);
 /*
  * Replaces raw '<' in attribute values by XML_RAW_LESS, in a copy of the source's text. false if
  * this is impossible.

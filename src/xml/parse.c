@@ -517,6 +517,8 @@ bool xml_parse_source(struct xml_reader *reader)
                  (unsigned)INT_MAX >> 20);
         return false;
     }
+    if (!xml_check_attributes(reader))
+        return false;
     struct doc_mark mark = doc_mark(reader->doc, source->root);
     uint32_t num_includes = reader->includes.len;
     reader->repair_failed = false;

@@ -20,11 +20,15 @@ uint32_t xml_column(struct xml_source *source, size_t offset)
     if (offset < p->offset || p->line == 0)
         *p = (struct xml_position){.line = 1};
     for (const char *newline;
-         (newline = memchr(source->text + p->offset, '\n', offset - p->offset)) != NULL; p->line++)
-        p->offset = p->line_begin = (size_t)(newline - source->text) + 1;
+         (newline = memchr(source->text + p->offset, '\n', offset - p->offset)) != NULL;
+         p->line++) {
+        p->offset = (size_t)(newline - source->text) + 1;
+        p->before = 0;
+    }
+    p->before += count_code_points(source, p->offset, offset);
     p->offset = offset;
-    assert(p->line_begin <= offset && p->line > 0);
-    return count_code_points(source, p->line_begin, offset) + 1;
+    assert(p->line > 0);
+    return p->before + 1;
 }
 
 struct diag_place xml_place(struct xml_reader *reader, size_t offset)

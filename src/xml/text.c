@@ -23,6 +23,9 @@ static size_t find_text(const char *text, size_t len, size_t from, const char *w
     return len;
 }
 
+/* libxml2 compares each attribute of an element with all others. */
+enum { MAX_ATTRIBUTES = 1024 };
+
 static bool is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
@@ -202,6 +205,51 @@ static size_t skip_past(const char *text, size_t len, size_t at, const char *end
     return found == len ? len : found + strlen(end);
 }
 
+/* The end of a comment, character data or an instruction; `at` itself for a tag. */
+static size_t skip_other(const char *text, size_t len, size_t at)
+{
+    static const struct {
+        const char *begin, *end;
+    } others[] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (has_prefix(text + at, len - at, others[i].begin, strlen(others[i].begin)))
+            return skip_past(text, len, at, others[i].end);
+    return at;
+}
+
+/* The end of a tag, and the number of its attributes. A quote without an end ends the text. */
+static size_t skip_tag(const char *text, size_t len, size_t at, uint32_t *out_attributes)
+{
+    for (*out_attributes = 0; at < len && text[at] != '>' && text[at] != '<'; at++) {
+        *out_attributes += text[at] == '=';
+        if (text[at] != '"' && text[at] != '\'')
+            continue;
+        const char *end = memchr(text + at + 1, text[at], len - at - 1);
+        at = end ? (size_t)(end - text) : len - 1;
+    }
+    return at;
+}
+
+bool xml_check_attributes(struct xml_reader *reader)
+{
+    const struct xml_source *source = reader->source;
+    const char *text = source->text, *tag = text + source->start;
+    size_t len = source->size;
+    while ((tag = memchr(tag, '<', (size_t)(text + len - tag))) != NULL) {
+        size_t begin = (size_t)(tag - text), end = skip_other(text, len, begin);
+        uint32_t attributes = 0;
+        if (end == begin)
+            end = skip_tag(text, len, begin + 1, &attributes);
+        if (attributes > MAX_ATTRIBUTES) {
+            diag_add(reader->diags, DIAG_ID_xml_attributes, xml_place(reader, begin),
+                     MAX_ATTRIBUTES);
+            return false;
+        }
+        tag = text + end;
+    }
+    return true;
+}
+
 bool xml_repair_text(struct xml_reader *reader)
 {
     struct xml_source *source = reader->source;
@@ -211,19 +259,14 @@ bool xml_repair_text(struct xml_reader *reader)
         return false;
     char *text = arena_strndup(&reader->scratch, source->text, len);
     for (size_t at = source->start; at < len;) {
-        if (text[at] != '<') {
-            at++;
-        } else if (has_prefix(text + at, len - at, "<!--", 4)) {
-            at = skip_past(text, len, at, "-->");
-        } else if (has_prefix(text + at, len - at, "<![CDATA[", 9)) {
-            at = skip_past(text, len, at, "]]>");
-        } else if (has_prefix(text + at, len - at, "<?", 2)) {
-            at = skip_past(text, len, at, "?>");
-        } else {
-            for (at++; at < len && text[at] != '>'; at++)
-                if (text[at] == '"' || text[at] == '\'')
-                    at = repair_value(reader, text, len, at + 1, text[at]);
+        size_t end = text[at] == '<' ? skip_other(text, len, at) : at + 1;
+        if (end != at) {
+            at = end;
+            continue;
         }
+        for (at++; at < len && text[at] != '>'; at++)
+            if (text[at] == '"' || text[at] == '\'')
+                at = repair_value(reader, text, len, at + 1, text[at]);
     }
     source->text = text;
     return source->raw_less.len > 0;

@@ -26,9 +26,9 @@ static const char prelude[] =
     "<volumematerial name='Fog' type='material'>"
     "  <input name='volumeshader' type='volumeshader' nodename='v'/></volumematerial>"
     "<nodegraph name='NG'><constant name='c' type='float'/>"
-    "  <output name='base' type='float' nodename='c'/></nodegraph>"
+    "  <output name='opacity' type='float' nodename='c'/></nodegraph>"
     "<nodegraph name='NG2'><constant name='c' type='float'/>"
-    "  <output name='base' type='float' nodename='c'/></nodegraph>";
+    "  <output name='opacity' type='float' nodename='c'/></nodegraph>";
 
 /* Materials, names and places of an assignment, short. */
 #define M(slot, material, geom) \
@@ -402,6 +402,43 @@ static void test_many_layers(mxg_context *context)
     free(text);
 }
 
+/* A stack in the place of an element: what a host asks for, and what it may not. */
+static void test_stacks(mxg_context *context)
+{
+    const struct rule rule = {
+        .looks = LOOK(M("000", "A", "/a") M("050", "B", "/a/b") M("000", "", "/c"))};
+    mxg_document *document = parse_rule(context, &rule), *other = parse_rule(context, &rule);
+    mxg_scene *scene = make_scene(context, "/a/b /c", false);
+    mxg_bindings *bindings = NULL;
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    mxg_shader_info info = {sizeof info};
+    mxg_result *result = NULL;
+    char name[64];
+    REQUIRE(mxg_bind(context, document, scene, NULL, &bindings) == MXG_OK);
+    desc.target = "vulkan";
+    desc.bindings = bindings;
+    for (uint32_t i = 0; i < mxg_scene_num_primitives(scene); i++) {
+        desc.stack = mxg_bindings_stack(bindings, i);
+        REQUIRE(mxg_generate(context, document, &desc, &result) == MXG_OK);
+        REQUIRE(mxg_bindings_stack_name(bindings, desc.stack, name, sizeof name) == 22);
+        REQUIRE(mxg_result_info(result, &info) == MXG_OK);
+        REQUIRE_STR(info.name, name);
+        REQUIRE(mxg_result_source(result, MXG_STAGE_PIXEL, NULL) != NULL);
+        mxg_result_destroy(result);
+    }
+    desc.element = "A";
+    REQUIRE(mxg_generate(context, document, &desc, &result) == MXG_ERROR_ARGUMENT);
+    desc.element = NULL;
+    REQUIRE(mxg_generate(context, other, &desc, &result) == MXG_ERROR_ARGUMENT);
+    desc.stack = mxg_bindings_num_stacks(bindings);
+    REQUIRE(mxg_generate(context, document, &desc, &result) == MXG_ERROR_ARGUMENT);
+    REQUIRE(mxg_bindings_stack_name(bindings, desc.stack, name, sizeof name) == 0);
+    mxg_bindings_destroy(bindings);
+    mxg_scene_destroy(scene);
+    mxg_document_destroy(document);
+    mxg_document_destroy(other);
+}
+
 int main(void)
 {
     mxg_context *context = NULL;
@@ -409,6 +446,7 @@ int main(void)
     test_names();
     test_scene(context);
     test_queries(context);
+    test_stacks(context);
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
         check_rule(context, &rules[i], false);
         check_rule(context, &rules[i], true); /* the order of the primitives does not matter */

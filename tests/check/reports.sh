@@ -18,7 +18,8 @@ check 'all reports at once' exits 1 "$mxgen" check show --no-compile -t glsl,ess
 check 'the run had what they must tell' says r.json '[x.get("stage", "passed") for x in d]' \
     "['passed', 'load', 'passed', 'validate', 'passed', 'validate']"
 check 'they tell the same' "$here/reports.py" r.json r.sarif r.xml r.html
-check 'two reports in one file' exits 2 "$mxgen" check show --no-compile --json one.json --sarif one.json
+check 'two reports in one file' exits 1 "$mxgen" check show --no-compile --json one.json --sarif one.json
+check 'are told' grep -q '\[output-clash\]' err
 check 'or on standard output' exits 2 "$mxgen" check show --no-compile --json - --html -
 check 'of a merge, too' exits 2 "$mxgen" check merge r.json --json - --html -
 check 'but for nobody' exits 1 "$mxgen" check show --no-compile --json /dev/null --sarif /dev/null

@@ -39,19 +39,19 @@ static bool list_documents(struct suite *suite)
     return suite->num_documents > 0;
 }
 
-static bool read_deviations(struct suite *suite)
+static bool read_deviations(struct suite *suite, const char *file)
 {
-    char *path = lines_path(suite->folder, ".", "deviations", ".tsv");
+    char *path = file ? strdup(file) : lines_path(suite->folder, ".", "deviations", ".tsv");
     bool good = path && deviations_read(&suite->deviations, path, 0);
     free(path);
     return good;
 }
 
-bool suite_open(struct suite *suite, const char *folder)
+bool suite_open(struct suite *suite, const char *folder, const char *deviations)
 {
     *suite = (struct suite){.folder = folder};
     if (list_documents(suite))
-        return read_deviations(suite);
+        return read_deviations(suite, deviations);
     printf("there are no expected values in '%s'\n", folder);
     return false;
 }

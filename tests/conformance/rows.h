@@ -38,8 +38,11 @@ struct suite {
     size_t agree, deviate, undefined, skipped, failed;
 };
 
-/* Lists the documents and deviations. False after printing why. */
-bool suite_open(struct suite *suite, const char *folder);
+/*
+ * Lists the documents, and the deviations of a file; NULL: deviations.tsv of the folder. False
+ * after printing why.
+ */
+bool suite_open(struct suite *suite, const char *folder, const char *deviations);
 void suite_close(struct suite *suite);
 
 /* Rows of document `index`; false after printing why. row_list_free must follow in any case. */

@@ -50,7 +50,7 @@ static bool uniform_value(const struct run *run, const struct shader_variable *v
     *out = variable->value;
     if (variable->block == BLOCK_PUBLIC_UNIFORMS)
         return variable->has_default;
-    if (!scene_uniform(&run->scene, name, values))
+    if (!scene_uniform(&run->scene, &run->scene.object, name, values))
         return variable->has_default;
     from_floats(variable->type, values, out);
     return true;
@@ -63,7 +63,7 @@ static bool attribute_value(const struct run *run, const struct shader_variable 
     bool is_float = ir_type_info(variable->type)->scalar == IR_TYPE_FLOAT;
     if (is_float && variable->type != IR_TYPE_FLOAT && strncmp(name, "i_texcoord", 10) == 0)
         values[2] = 0.0f; /* the third component, which the grid does not have */
-    if (is_float && !scene_attribute(&run->scene, name, run->vertex, values))
+    if (is_float && !scene_attribute(&run->scene.object, name, run->vertex, values))
         return false;
     from_floats(variable->type, values, out);
     return true;
@@ -137,7 +137,7 @@ static void compute(struct generation *generation)
     float *out = run->values;
     for (uint32_t pixel = 0; pixel < ROW_PIXELS; ++pixel) {
         struct ir_value value;
-        run->vertex = run->scene.mesh.num_vertices - ROW_PIXELS + pixel;
+        run->vertex = run->scene.object.mesh.num_vertices - ROW_PIXELS + pixel;
         if (!evaluate(run, generation->root, &value)
             || ir_type_info(value.type)->components != run->row->components)
             return;
@@ -189,7 +189,7 @@ int main(int argc, char **argv)
     int code = 1;
     if (mxg_context_create(NULL, &context) == MXG_OK
         && (library = mxg_library_builtin(context)) != NULL && scene_init_grid(&run.scene)
-        && suite_open(&run.suite, argv[1])) {
+        && suite_open(&run.suite, argv[1], NULL)) {
         for (size_t i = 0; i < run.suite.num_documents; ++i)
             check_document(&run, context, library, i);
         size_t computed = run.suite.agree + run.suite.deviate + run.suite.undefined;

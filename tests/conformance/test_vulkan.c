@@ -93,14 +93,23 @@ static void check_document(struct run *run, size_t index)
     free(path);
 }
 
-static bool start(struct run *run, const char *folder, const char *interface)
+/* A folder takes the place of the built-in library. */
+static bool load_library(struct run *run, const char *folder)
+{
+    if (folder)
+        return mxg_library_load(run->context, NULL, &folder, 1, &run->library) == MXG_OK;
+    run->library = mxg_library_builtin(run->context);
+    return run->library != NULL;
+}
+
+/* `where`: the folder and the interface. */
+static bool start(struct run *run, char **where, const char *library, const char *deviations)
 {
     compile_begin();
-    return mxg_context_create(NULL, &run->context) == MXG_OK
-           && (run->library = mxg_library_builtin(run->context)) != NULL
+    return mxg_context_create(NULL, &run->context) == MXG_OK && load_library(run, library)
            && mxg_options_create(run->context, &run->options) == MXG_OK
-           && mxg_options_set(run->options, "interface", interface) == MXG_OK
-           && scene_init_grid(&run->scene) && suite_open(&run->suite, folder);
+           && mxg_options_set(run->options, "interface", where[1]) == MXG_OK
+           && scene_init_grid(&run->scene) && suite_open(&run->suite, where[0], deviations);
 }
 
 static void stop(struct run *run)
@@ -116,18 +125,21 @@ static void stop(struct run *run)
 
 int main(int argc, char **argv)
 {
-    if (argc != 4 && argc != 6) {
-        fprintf(stderr, "usage: %s TARGET FOLDER INTERFACE [PART PARTS]\n", argv[0]);
+    if (argc != 4 && argc != 6 && argc != 8) {
+        fprintf(stderr,
+                "usage: %s TARGET FOLDER INTERFACE [PART PARTS [LIBRARIES DEVIATIONS.tsv]]\n",
+                argv[0]);
         return 2;
     }
-    size_t part = argc == 6 ? strtoul(argv[4], NULL, 10) : 1,
-           parts = argc == 6 ? strtoul(argv[5], NULL, 10) : 1;
+    size_t part = argc >= 6 ? strtoul(argv[4], NULL, 10) : 1,
+           parts = argc >= 6 ? strtoul(argv[5], NULL, 10) : 1;
+    const char *library = argc == 8 ? argv[6] : NULL;
     struct run run = {.suite = {.folder = argv[2]}, .target = argv[1]};
     int code = 1;
     if (!gpu_open(&run.gpu)) {
         printf("skip: there is no Vulkan device: %s\n", run.gpu.reason);
         code = EXIT_SKIPPED;
-    } else if (start(&run, argv[2], argv[3])) {
+    } else if (start(&run, argv + 2, library, argc == 8 ? argv[7] : NULL)) {
         for (size_t i = part - 1; i < run.suite.num_documents; i += parts)
             check_document(&run, i);
         char name[64];

@@ -183,6 +183,8 @@ static void apply_options(struct case_ *c, const char *line, mxg_context_desc *l
             collect(c, mxg_library_diagnostics(c->library));
             mxg_library_unref(base);
             read_expectations(c, value);
+            for (uint32_t i = 0; i < mxg_library_num_files(c->library); ++i)
+                read_expectations(c, mxg_library_file(c->library, i));
         } else if (mxg_options_set(c->options, key, value) != MXG_OK) {
             fault(c, mxg_options_error(c->options), NULL);
         }

@@ -222,6 +222,74 @@ static void check_limits(void)
     free(text.data);
 }
 
+/* ---- Limits of documents ---- */
+
+/* How many messages with this id a document gets when it is loaded. */
+static unsigned count_messages(const struct text *text, const char *id)
+{
+    mxg_context *context = NULL;
+    mxg_document *document = NULL;
+    unsigned count = 0;
+    mxg_context_create(NULL, &context);
+    mxg_library *library = mxg_library_builtin(context);
+    mxg_document_parse(context, library, "growth.mtlx", text->data, text->len, &document);
+    const mxg_diagnostics *list = mxg_document_diagnostics(document);
+    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        count += strcmp(diagnostic.id, id) == 0;
+    }
+    mxg_document_destroy(document);
+    mxg_library_unref(library);
+    mxg_context_destroy(context);
+    return count;
+}
+
+/* `part`, in which %u is a number, may be repeated so many times. */
+static const struct repeated {
+    const char *what, *id, *before, *part, *after;
+    unsigned most;
+} repeated[] = {
+    {"inputs", "too-many-ports", "<nodedef name='D' node='g'>",
+     "<input name='i%u' type='float' value='0'/>", "<output name='out' type='float'/></nodedef>",
+     1024},
+    {"outputs", "too-many-ports", "<nodedef name='D' node='g'>",
+     "<output name='o%u' type='float'/>", "</nodedef>", 64},
+    {"attributes", "xml-attributes", "<constant ", "a%u='1' ", "/>", 1024},
+    {"attributes with a quote and '>'", "xml-attributes", "<constant ", "a%u=\"'>\" ", "/>", 1024},
+    {"definitions of a node", "too-many-variants", "",
+     "<nodedef name='D%u' node='g'><output name='out' type='float'/></nodedef>", "", 256},
+    {"implementations of a definition", "too-many-variants",
+     "<nodedef name='D' node='g'><output name='out' type='float'/></nodedef>",
+     "<implementation name='I%u' nodedef='D' sourcecode='1.0'/>", "", 256},
+    {"implementations of a definition of the library", "too-many-variants", "",
+     "<implementation name='I%u' nodedef='ND_sin_float' sourcecode='1.0'/>", "", 256},
+};
+
+static struct text repeat(const struct repeated *r, unsigned count)
+{
+    struct text text = {NULL, 0, 0};
+    add(&text, "<materialx version='1.39'>%s", r->before);
+    for (unsigned i = 0; i < count; ++i) {
+        const char *number = strstr(r->part, "%u");
+        add(&text, "%.*s%u%s", (int)(number - r->part), r->part, i, number + 2);
+    }
+    add(&text, "%s</materialx>", r->after);
+    return text;
+}
+
+static void check_repeated(void)
+{
+    for (size_t i = 0; i < sizeof repeated / sizeof *repeated; ++i) {
+        const struct repeated *r = &repeated[i];
+        struct text most = repeat(r, r->most), more = repeat(r, r->most + 3);
+        check(count_messages(&most, r->id) == 0, r->what, r->most, 0);
+        check(count_messages(&more, r->id) == 1, r->what, r->most + 3, 1);
+        free(most.data);
+        free(more.data);
+    }
+}
+
 int main(int argc, char **argv)
 {
     unsigned max_nodes = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 1000000;
@@ -229,6 +297,7 @@ int main(int argc, char **argv)
         check_shape((enum shape)shape, max_nodes);
     check_nesting();
     check_limits();
+    check_repeated();
     printf("growth: %u passed, %u failed, 0 skipped\n", passed, failed);
     return failed ? 1 : 0;
 }

@@ -207,7 +207,158 @@ check 'a reference to nothing' broken 's|references = </Flattened_Prototype_1>|r
 check 'a cycle' broken 's|def Mesh "leg"|def Mesh "leg" ( references = </Flattened_Prototype_1> )|' usda-cycle 7
 check 'a slot that is none' broken 's/slotBinding:_dust = None/slotBinding:dust = None/' bad-binding 31
 check 'a material that is none' broken 's|</Looks/Dust>|</Looks/Duts>|' unknown-assigned 15:
-check 'a collection' eval 'sed "s|rel material:binding = None|rel material:binding:collection:x = [</a.collection:x>, </Looks/Clay>]|" stage.usda >broken.usda; "$mxgen" bind materials.mtlx --stage broken.usda 2>err && grep -qF "[collection-binding]" err'
+# Collections of USD: /s holds three bindings, of which the first wins, and one in a slot.
+cat >collections.usda <<'USD'
+#usda 1.0
+def Xform "s"
+{
+    rel material:binding = </Looks/Clay>
+    rel material:binding:collection:first = [</s.collection:metal>, </Looks/Dust>]
+    rel material:binding:collection:second = [</s.collection:all>, </Looks/Clay>]
+    rel material:binding:collection:full:third = [</s.collection:all>, </Looks/Clay>]
+    rel material:slotBinding:collection:_050:_:_010:top = [</s.collection:outer>, </Looks/Clay>]
+    rel material:slotBinding:_050 = </Looks/Dust>
+    rel collection:metal:includes = [</s/a>, </s/a/b/c>]
+    rel collection:metal:excludes = </s/a/b>
+    rel collection:all:includes = </s>
+    rel collection:outer:includes = [</s.collection:only>, </s/d>]
+    uniform token collection:only:expansionRule = "explicitOnly"
+    rel collection:only:includes = </s/a>
+    def Xform "a"
+    {
+        def Xform "b"
+        {
+            def Mesh "c"
+            {
+            }
+        }
+        def Mesh "own"
+        {
+            rel material:binding = </Looks/Clay>
+        }
+    }
+    def Mesh "d"
+    {
+    }
+}
+def Mesh "outside"
+{
+}
+USD
+check 'collections of USD' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda
+check 'hold what is below their paths' row '/s/a (000 Dust) (050 Dust) (::010 Clay)'
+check 'but not what is excluded' row '/s/a/b (000 Clay) (050 Dust)'
+check 'and again what a deeper path includes' row '/s/a/b/c (000 Dust) (050 Dust)'
+check 'a deeper binding wins' row '/s/a/own [000 Clay] (050 Dust)'
+check 'of several the first wins, over the direct one' row '/s/d (000 Clay) (050 Dust) (::010 Clay)'
+check 'only at or below their prim' row '/outside default'
+check 'for a purpose' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda --purpose full
+check 'which beats the others' row '/s/a (000 Clay) (050 Dust) (::010 Clay)'
+check 'reasons of a prim in collections' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda --geom /s/a
+check 'a collection that is missing' eval 'sed -i "s/s.collection:metal>/s.collection:mteal>/" collections.usda; fails bad-binding materials.mtlx --stage collections.usda'
+
+# Materials of the stage: a network, the same as nodes of MaterialX.
+cat >network.usda <<'USD'
+#usda 1.0
+def Mesh "m"
+{
+    rel material:binding = </Looks/Net>
+}
+def Material "Net"
+{
+    float inputs:amount = 0.25
+    token outputs:mtlx:surface.connect = </Net/Surface.outputs:out>
+    def Shader "Surface"
+    {
+        uniform token info:id = "ND_standard_surface_surfaceshader"
+        color3f inputs:base_color.connect = </Net/Graph.outputs:color>
+        float inputs:base = 0.5
+    }
+    def NodeGraph "Graph"
+    {
+        color3f outputs:color.connect = </Net/Graph/Mix.outputs:out>
+        def Shader "Mix"
+        {
+            uniform token info:id = "ND_mix_color3"
+            color3f inputs:bg = (1, 0, 0)
+            color3f inputs:fg = (0, 0, 1)
+            float inputs:mix.connect = </Net.inputs:amount>
+        }
+    }
+}
+USD
+check 'a stage without a document' exits 0 "$mxgen" bind --stage network.usda
+check 'has its own materials' row '/m [000 Net]'
+cat >like.mtlx <<'XML'
+<materialx version="1.39"><look name="l"><materialassign material="Net" geom="/m"/></look></materialx>
+XML
+check 'a look assigns them' exits 0 "$mxgen" bind like.mtlx --stage network.usda
+check 'an input of the document wins' eval 'sed "s|<look|<standard_surface name=\"x\" type=\"surfaceshader\"/><surfacematerial name=\"Net\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"x\"/></surfacematerial>&|" like.mtlx >own.mtlx; exits 0 "$mxgen" bind own.mtlx --stage network.usda'
+check 'a shader without a definition' eval 'sed s/ND_mix_color3/ND_mxi_color3/ network.usda >odd.usda; "$mxgen" bind --stage odd.usda 2>err; grep -q "^odd.usda:.*\[usda-shader\]" err'
+check 'a document without a stage' exits 2 "$mxgen" bind like.mtlx
+
+# Looks as slot bindings of USD: reading them again gives the same stacks.
+cat >stacks.py <<'PY'
+import json, sys
+read = lambda file: {p["path"]: (p["stack"], [l["slot"] for l in p["layers"]]) for p in json.load(open(file))["primitives"]}
+assert read(sys.argv[1]) == read(sys.argv[2]), (read(sys.argv[1]), read(sys.argv[2]))
+PY
+# round_trip DOCUMENT STAGE OPTION...: the look of a document as USD, and back, with the document's materials alone.
+round_trip() {
+    exits 0 "$mxgen" bind "$1" --stage "$2" --json before.json --usda round.usda "${@:3}" || return
+    python3 -c 'import re, sys; print(re.sub(r"<look .*?</look>|<look [^>]*/>", "", open(sys.argv[1]).read(), flags=re.S))' "$1" >without.mtlx
+    exits 0 "$mxgen" bind without.mtlx --stage round.usda --json after.json && python3 stacks.py before.json after.json
+}
+check 'the bindings of a stage as USD' round_trip materials.mtlx stage.usda
+check 'a look as USD' round_trip "$examples/slots.mtlx" "$examples/slots.txt" --look finished
+check 'without a warning' test ! -s err
+check 'says on a primitive only what is new' eval '! grep -A4 "def \"shell\"" round.usda | grep -q _050'
+check 'removes' grep -q 'material:slotBinding:_050 = None' round.usda
+check 'names overrides' grep -q 'rel material:slotBinding:_000:_:_020 = </Looks/red_color>' round.usda
+check 'names vertical layers' grep -q 'rel material:slotBinding:_000:over:_010 = </Looks/varnish>' round.usda
+sed 's|<look name="base">|<look name="base" slotorder="050, 000, 010, 020, 040">|' "$examples/slots.mtlx" >ordered.mtlx
+check 'a look with a slotorder' round_trip ordered.mtlx "$examples/slots.usda" --look finished
+check 'which USD has, too' grep -q 'uniform token\[\] material:slotOrder = \["050", "000"' round.usda
+check 'variants have no place' exits 0 bind --usda lossy.usda
+check 'which a warning says' grep -qF '[usda-loss]' err
+check 'a folder that is missing' exits 1 bind --usda none/out.usda
+
+# The page: in a browser, if there is one.
+check 'a page' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished --html page.html
+check 'needs no other file' eval '! grep -qE "(src|href)=" page.html'
+browser=$(command -v chromium chromium-browser google-chrome | head -n 1)
+# seen ADDRESS SCRIPT: the page of an address as the browser shows it, and Python on it: `rows` by name, `detail`.
+seen() {
+    timeout 120 "$browser" --headless --no-sandbox --disable-gpu --window-size=1400,"${height:-1600}" --user-data-dir="$work/browser" \
+        --dump-dom "file://$work/${page:-page.html}#$1" >dom.html 2>browser.log
+    python3 - "$2" <<'PY'
+import html, re, sys
+text = open("dom.html", encoding="utf-8").read()
+body = text[:text.index('<script id="look"')]
+rows = {}
+for row in re.findall(r'<div class="row".*?</div>', body, re.S):
+    name = html.unescape(re.search(r'</(?:button|span)>([^<]*)</span>', row)[1])
+    rows[name] = [(kind, html.unescape(label)) for kind, label in re.findall(r'<button class="(layer[a-z ]*)"[^>]*>([^<]*)<', row)]
+detail = html.unescape(re.sub(r"<[^>]*>", "|", body[body.index("<aside"):]))
+output = re.search(r"<output>([^<]*)", body)[1]
+assert eval(sys.argv[1]), (rows, detail, output)
+PY
+}
+if [ -n "$browser" ]; then
+    check 'a row for each primitive' seen '' 'body.count("<div class=\"row\"") == 38 and output.startswith("38 of 38 primitives")'
+    check 'what is set here' seen '' 'rows["case"][0] == ("layer", "000 steel") and rows["case"][1] == ("layer inherited", "050 dirt")'
+    check 'a search keeps what is above' seen 'filter=front' 'list(rows) == ["device", "case", "front_panel"] and output.startswith("1 of")'
+    check 'by layers, too' seen 'filter=varnish' '"handle" in rows and "shell" not in rows'
+    check 'a folded tree' seen 'fold=all' 'list(rows) == ["device"]'
+    check 'where a layer comes from' seen 'at=/device/case/shell&layer=2' '"/device/case/shell" in detail and "dirty/dirt" in detail and "slots.mtlx:" in detail'
+    check 'and every place where its slot is set' seen 'at=/device/case/shell&layer=0' '"set at" in detail and "paths" in detail and "/device/screen/glass" in detail and "glass" in detail'
+    seq 0 99999 | awk '{ printf "/set/g%d/h%d/p%d\n", $1 / 1000, $1 / 10, $1 }' >large.txt
+    check 'a page of 100,000 primitives' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage large.txt --look base --html large.html
+    check 'has the rows in view only' env page=large.html height=800 bash -c "$(declare -f seen); work='$work' browser='$browser'; seen '' '10 < len(rows) < 60 and output.startswith(\"110101 of\")'"
+    check 'and finds one far below' env page=large.html bash -c "$(declare -f seen); work='$work' browser='$browser'; seen 'filter=p99998' '\"p99998\" in rows and len(rows) == 4'"
+else
+    skip 'there is no Chromium: nothing looked at the page'
+fi
 
 # The example, as docs/slots.md shows it.
 check 'examples/slots.mtlx' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished

@@ -347,6 +347,60 @@ for view in elements graph dot ir closures statistics slabs; do
     check "inspect --$view" exits 0 "$mxgen" inspect two.mtlx "--$view" --element A
     check "inspect --$view prints" test -s out
 done
+# Weights are expressions with the names of inputs and nodes
+check 'closures of a material' exits 0 "$mxgen" inspect two.mtlx --closures --element A
+check 'have weights with the names of inputs' grep -q 'weight [A-Za-z_]*/[a-z_]*' out
+check 'and no numbers of the graph' eval '! grep -q "%[0-9]" out'
+
+# Nodes with more inputs than any list was made for
+many_inputs() { # attributes of the <implementation>, [the end of its source]
+    local i inputs='' sum=''
+    for i in $(seq 300); do
+        inputs+="<input name='i$i' type='float' value='$i'/>"
+        sum+="$(((i - 1) % 100 ? 0 : 1)){{i$i}}"
+    done
+    sum=$(sed 's/0{{/ + {{/g; s/1{{/) + ({{/g; s/^) + //; s/$/)/' <<<"$sum")
+    cat <<X
+<materialx version="1.39"><nodedef name="D" node="many">$inputs<output name="out" type="float"/></nodedef>
+<implementation name="I" nodedef="D" $1 sourcecode="$sum${2:-}"/>
+<many name="m" type="float"/><output name="o" type="float" nodename="m"/></materialx>
+X
+}
+many_inputs '' >many_inputs.mtlx
+many_inputs 'target="genglsl"' ' + float(gl_FrontFacing)' >many_source.mtlx
+check '300 inputs of an expression' exits 0 "$mxgen" many_inputs.mtlx --interface reduced --stdout
+check 'are all summed' grep -q 45150.0 out
+check '300 inputs of source for one target' exits 0 "$mxgen" many_source.mtlx --trust --interface reduced --stdout
+check 'are all there' test "$(grep -Eo '\b[0-9]+\.0' out | sort -u | wc -l)" -ge 300
+cat >outputs.mtlx <<'X'
+<materialx version="1.39"><nodedef name="D" node="two"><input name="in" type="float" value="2"/><output name="a" type="float"/><output name="b" type="float"/></nodedef>
+<implementation name="I" nodedef="D" target="genglsl"><output name="a" sourcecode="{{in}} + float(gl_FrontFacing)"/><output name="b" sourcecode="{{in}} - gl_FragCoord.x"/></implementation>
+<time name="t" type="float"/><two name="m" type="multioutput"><input name="in" type="float" nodename="t"/></two>
+<add name="s" type="float"><input name="in1" type="float" nodename="m" output="a"/><input name="in2" type="float" nodename="m" output="b"/></add>
+<output name="o" type="float" nodename="s"/></materialx>
+X
+check 'source of one target for several outputs' exits 0 "$mxgen" outputs.mtlx --trust --stdout
+check 'each with its own' grep -q 'u_time + float(gl_FrontFacing).*u_time - gl_FragCoord.x' out
+
+# Each message shows its own line, wherever the messages before it stand
+{
+    echo '<materialx version="1.39">'
+    for i in $(seq 40); do printf '<add name="a%d" type="float"><input name="in1" type="float" nodename="none%d"/></add>\n' $i $((41 - i)); done
+    echo '</materialx>'
+} >lines.mtlx
+check 'forty faults' exits 1 "$mxgen" validate lines.mtlx --max-errors 0
+check 'are forty messages with forty lines' eval "test \"\$(awk '/ error: /{ split(\$0, q, /\047/); getline line; good += index(line, q[2] \"\\\"\") > 0 } END { print good }' err)\" = 40"
+
+# Nodes of 1.39 that were renamed
+sed 's/<[/]*materialx.*>//' <<'X' | { echo '<materialx version="1.39">'; cat; echo '</materialx>'; } >conditions.mtlx
+<ifgreater name="g" type="float"><input name="value1" type="float" value="1"/><input name="value2" type="float" value="2"/></ifgreater>
+<compare name="h" type="float"><input name="intest" type="float" value="1"/></compare>
+<output name="o" type="float" nodename="g"/><output name="p" type="float" nodename="h"/>
+X
+check 'ifgreater' exits 0 "$mxgen" conditions.mtlx -e o --stdout
+check 'compare' exits 1 "$mxgen" validate conditions.mtlx
+check 'is told once, with its successor' eval 'test "$(grep -c "error:" err)" -eq 1 && grep -q "unknown node <compare>; MaterialX 1.39 has <ifgreater> in its place" err'
+
 check 'library list' exits 0 "$mxgen" library list
 check 'a line for each definition, its name first' eval 'grep -q "^ND_mix_float  mix(" out'
 check 'and for each of the 816 of MaterialX' eval 'test "$(wc -l <out)" -ge 816'

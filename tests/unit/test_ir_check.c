@@ -81,6 +81,8 @@ static const struct {
     {TYPES, 2, ATTR, 1, "the operand does not have this member"},
     {"%1 = uniform vec3\n%2 = uniform int\n%3 = index float %1, %2", 3, TYPE, IR_TYPE_INT,
      "the operand cannot be indexed so"},
+    {"%1 = uniform int\n%2 = uniform float\n%3 = sample int %1", 3, ARG, 2,
+     "the operand is no number of a loop"},
     {"callee \"f\" function 1\n%1 = call float", 1, ATTR, 1, "there is no such callee"},
     {"callee \"f\" function 1\ncallee \"g\" family 1\n%1 = call float", 1, ATTR, 1,
      "the callee is not of the op's kind"},

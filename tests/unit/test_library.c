@@ -225,8 +225,14 @@ static void test_implementations(void)
     REQUIRE_EQ(l.base.deferred->items.len, 1);
     REQUIRE_STR(diag_id_text(l.base.deferred->items.items[0].id), "lang-expected");
     /* the document's implementation of a definition below */
-    REQUIRE_EQ(l.lib.overrides.len, 1);
-    REQUIRE_STR(layers_text(&l, l.lib.impls.items[l.lib.overrides.items[0]].name), "IM_own");
+    REQUIRE_EQ(l.lib.overrides.num, 1);
+    for (uint32_t i = 0; i < l.lib.impls.len; i++) {
+        const struct implementation *impl = &l.lib.impls.items[i];
+        bool is_own = strcmp(layers_text(&l, impl->name), "IM_own") == 0;
+        REQUIRE_EQ(library_first_override(&l.lib, impl->nodedef),
+                   is_own ? l.lib.base_impls + i : LIBRARY_NONE);
+        REQUIRE(!is_own || impl->next == LIBRARY_NONE);
+    }
     const struct family *family = library_family(&l.lib, 0);
     REQUIRE_STR(layers_text(&l, family->name), "matte");
     REQUIRE(family->functions[FAMILY_EVAL] != LANG_NONE);

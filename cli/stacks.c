@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * mxgen LOOK.mtlx --stage FILE: a shader for each distinct stack, and bindings.json. Stacks of
+ * equal topology share a program: that of the first one, with other values.
+ */
+#include "check/json.h"
+#include "cli/files.h"
+#include "cli/generate.h"
+#include "cli/memory.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct program { /* a shader that stacks share */
+    uint64_t topology;
+    uint32_t stack; /* the first one, which gives the program its name */
+    uint32_t num_stacks;
+    struct arg_list names; /* of its variables; allocated */
+    uint32_t next;         /* 1 + the next program in its bucket; 0: none */
+};
+
+enum { NUM_BUCKETS = 4096 };
+
+struct stacks {
+    struct generate *gen;
+    const mxg_document *document;
+    const char *folder;
+    mxg_scene *scene;
+    mxg_bindings *bindings;
+    struct program *programs;
+    size_t num_programs;
+    uint32_t buckets[NUM_BUCKETS]; /* 1 + the first program */
+    json_t *stacks;                /* of bindings.json */
+};
+
+static char *stack_name(const struct stacks *s, uint32_t stack)
+{
+    size_t size = mxg_bindings_stack_name(s->bindings, stack, NULL, 0) + 1;
+    char *name = memory_alloc(size);
+    mxg_bindings_stack_name(s->bindings, stack, name, size);
+    return name;
+}
+
+/* ---- Programs ---- */
+
+static struct program *find_program(const struct stacks *s, uint64_t topology)
+{
+    uint32_t at = s->buckets[topology % NUM_BUCKETS];
+    while (at && s->programs[at - 1].topology != topology)
+        at = s->programs[at - 1].next;
+    return at ? &s->programs[at - 1] : NULL;
+}
+
+static struct program *add_program(struct stacks *s, uint64_t topology, uint32_t stack,
+                                   const mxg_result *result)
+{
+    s->programs = memory_resize(s->programs, (s->num_programs + 1) * sizeof *s->programs);
+    struct program *program = &s->programs[s->num_programs++];
+    *program = (struct program){
+        .topology = topology, .stack = stack, .next = s->buckets[topology % NUM_BUCKETS]};
+    s->buckets[topology % NUM_BUCKETS] = (uint32_t)s->num_programs;
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {offsetof(mxg_variable, block)};
+        mxg_result_variable(result, i, &variable);
+        args_append(&program->names, cli_format("%s", variable.name));
+    }
+    return program;
+}
+
+/* ---- Stacks ---- */
+
+static json_t *value_of(const mxg_variable *v)
+{
+    bool is_integer = strcmp(v->type, "int") == 0, is_bool = strcmp(v->type, "bool") == 0;
+    if (is_bool)
+        return json_boolean(v->values[0] != 0);
+    if (is_integer)
+        return json_integer(v->integer);
+    if (v->num_values == 1)
+        return json_real((double)v->values[0]);
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < v->num_values; ++i)
+        json_array_append_new(list, json_real((double)v->values[i]));
+    return list;
+}
+
+static json_t *tiles_of(const mxg_result *result, uint32_t index, uint32_t num)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < num; ++i) {
+        mxg_tile tile = {sizeof tile};
+        json_t *item = json_object();
+        mxg_result_tile(result, index, i, &tile);
+        json_set_text(item, "file", tile.file);
+        json_set(item, "offset", json_pack("[i,i]", tile.u, tile.v));
+        json_array_append_new(list, item);
+    }
+    return list;
+}
+
+static json_t *describe(const mxg_result *result, uint32_t index, const mxg_variable *v,
+                        const char *name)
+{
+    json_t *item = json_object();
+    json_set_text(item, "name", name);
+    json_set_text(item, "slot", v->slot);
+    json_set_text(item, "path", v->path);
+    if (v->block == MXG_BLOCK_TEXTURES) {
+        json_set_text(item, "file", v->file);
+        json_set_text(item, "uaddressmode", v->uaddressmode);
+        json_set_text(item, "vaddressmode", v->vaddressmode);
+        json_set_text(item, "filtertype", v->filtertype);
+        if (v->num_tiles)
+            json_set(item, "tiles", tiles_of(result, index, v->num_tiles));
+    }
+    if (v->num_values)
+        json_set(item, v->block == MXG_BLOCK_TEXTURES ? "default" : "value", value_of(v));
+    return item;
+}
+
+/* The values and textures of a stack, under the names that its program has for them. */
+static void add_stack(struct stacks *s, uint32_t stack, const struct program *program,
+                      const mxg_result *result)
+{
+    json_t *item = json_object(), *values = json_array(), *textures = json_array();
+    char *name = stack_name(s, stack), *owner = stack_name(s, program->stack);
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable v = {sizeof v};
+        mxg_result_variable(result, i, &v);
+        bool is_texture = v.block == MXG_BLOCK_TEXTURES && *v.path;
+        if (is_texture || v.block == MXG_BLOCK_PUBLIC_UNIFORMS)
+            json_array_append_new(is_texture ? textures : values,
+                                  describe(result, i, &v, program->names.items[i]));
+    }
+    json_set_text(item, "name", name);
+    json_set_text(item, "program", owner);
+    json_set(item, "values", values);
+    json_set(item, "textures", textures);
+    json_array_append_new(s->stacks, item);
+    free(name);
+    free(owner);
+}
+
+/* ---- Generation ---- */
+
+static mxg_result *generate_one(struct stacks *s, uint32_t stack, bool without_source)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    mxg_result *result = NULL;
+    desc.target = s->gen->target;
+    desc.options = s->gen->cli.options;
+    desc.bindings = s->bindings;
+    desc.stack = stack;
+    desc.without_source = without_source;
+    mxg_status status = mxg_generate(s->gen->cli.context, s->document, &desc, &result);
+    if (result && (without_source || status != MXG_OK))
+        report_list(&s->gen->cli.report, mxg_result_diagnostics(result));
+    if (report_status(&s->gen->cli.report, status))
+        return result;
+    mxg_result_destroy(result);
+    return NULL;
+}
+
+/* Writes the program of a stack that no other stack shares so far. */
+static void write_program(struct stacks *s, uint32_t stack)
+{
+    mxg_result *result = generate_one(s, stack, false);
+    char *name = stack_name(s, stack);
+    if (result && generate_claim(s->gen, s->folder, name))
+        generate_write(s->gen, s->folder, name, result);
+    free(name);
+    mxg_result_destroy(result);
+}
+
+static void generate_stack(struct stacks *s, uint32_t stack)
+{
+    mxg_result *result = generate_one(s, stack, true);
+    mxg_shader_info info = {sizeof info};
+    if (!result)
+        return;
+    mxg_result_info(result, &info);
+    struct program *program = find_program(s, info.topology);
+    if (!program) {
+        program = add_program(s, info.topology, stack, result);
+        write_program(s, stack);
+    }
+    ++program->num_stacks;
+    add_stack(s, stack, program, result);
+    for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)
+        generate_add_source(s->gen, mxg_result_file(result, i));
+    mxg_result_destroy(result);
+}
+
+/* ---- bindings.json ---- */
+
+/* One value for each line, in a list of an object. */
+static void put_list(FILE *out, const char *key, const json_t *list)
+{
+    size_t index;
+    json_t *item;
+    fprintf(out, "  \"%s\": [", key);
+    json_array_foreach(list, index, item)
+    {
+        fputs(index ? ",\n    " : "\n    ", out);
+        json_dumpf(item, out, JSON_COMPACT | JSON_REAL_PRECISION(9));
+    }
+    fputs("\n  ],\n", out);
+}
+
+static json_t *list_programs(const struct stacks *s)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < s->num_programs; ++i) {
+        const struct program *program = &s->programs[i];
+        json_t *item = json_object();
+        char *name = stack_name(s, program->stack);
+        char *topology = cli_format("%016llx", (unsigned long long)program->topology);
+        json_set_text(item, "name", name);
+        json_set_text(item, "topology", topology);
+        json_set_count(item, "stacks", program->num_stacks);
+        json_array_append_new(list, item);
+        free(topology);
+        free(name);
+    }
+    return list;
+}
+
+/* A line for each primitive, written at once: a scene may have a million of them. */
+static void put_primitives(const struct stacks *s, FILE *out)
+{
+    uint32_t num = mxg_scene_num_primitives(s->scene);
+    char *path = NULL;
+    size_t capacity = 0;
+    fputs("  \"primitives\": [", out);
+    for (uint32_t i = 0; i < num; ++i) {
+        size_t size = mxg_scene_path(s->scene, i, NULL, 0) + 1;
+        if (size > capacity) {
+            capacity = 2 * size;
+            path = memory_resize(path, capacity);
+        }
+        mxg_scene_path(s->scene, i, path, capacity);
+        json_t *text = json_text(path);
+        char *name = stack_name(s, mxg_bindings_stack(s->bindings, i));
+        fputs(i ? ",\n    {\"path\":" : "\n    {\"path\":", out);
+        json_dumpf(text, out, JSON_ENCODE_ANY | JSON_COMPACT);
+        fprintf(out, ",\"stack\":\"%s\"}", name);
+        json_decref(text);
+        free(name);
+    }
+    fputs("\n  ]\n}\n", out);
+    free(path);
+}
+
+static void write_bindings(struct stacks *s)
+{
+    struct files_stream stream;
+    char *path = cli_format("%s/bindings.json", s->folder);
+    const char *reason = NULL;
+    if (outputs_write(&s->gen->files, &s->gen->cli.report, path, "--stage")
+        && !(reason = files_begin(&stream, path))) {
+        json_t *programs = list_programs(s), *target = json_text(s->gen->target);
+        fputs("{\n  \"target\": ", stream.out);
+        json_dumpf(target, stream.out, JSON_ENCODE_ANY);
+        fputs(",\n", stream.out);
+        put_list(stream.out, "programs", programs);
+        put_list(stream.out, "stacks", s->stacks);
+        put_primitives(s, stream.out);
+        reason = files_end(&stream, true);
+        json_decref(programs);
+        json_decref(target);
+        args_append(&s->gen->outputs, cli_format("%s", path));
+    }
+    if (reason)
+        report_error(&s->gen->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
+    free(path);
+}
+
+/* ---- The whole ---- */
+
+/* The scene and its bindings; false after a message. */
+static bool bind_scene(struct stacks *s)
+{
+    struct cli *cli = &s->gen->cli;
+    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    desc.look = s->gen->look;
+    mxg_status status =
+        mxg_scene_load(cli->context, s->gen->stage_file, s->gen->purpose, &s->scene);
+    if (s->scene)
+        report_list(&cli->report, mxg_scene_diagnostics(s->scene));
+    if (!report_status(&cli->report, status))
+        return false;
+    status = mxg_bind(cli->context, s->document, s->scene, &desc, &s->bindings);
+    if (s->bindings)
+        report_list(&cli->report, mxg_bindings_diagnostics(s->bindings));
+    return report_status(&cli->report, status);
+}
+
+static bool note_files(struct stacks *s)
+{
+    bool good = generate_add_source(s->gen, s->gen->stage_file);
+    for (uint32_t i = 0; i < mxg_document_num_files(s->document); ++i)
+        good = generate_add_source(s->gen, mxg_document_file(s->document, i)) && good;
+    return good;
+}
+
+static void tell_programs(const struct stacks *s)
+{
+    uint32_t num = mxg_bindings_num_stacks(s->bindings);
+    if (!s->gen->cli.quiet)
+        printf("%u %s, %zu %s\n", (unsigned)num, num == 1 ? "stack" : "stacks", s->num_programs,
+               s->num_programs == 1 ? "program" : "programs");
+}
+
+void generate_stacks(struct generate *gen, const mxg_document *document, const char *folder)
+{
+    struct stacks *s = memory_alloc(sizeof *s);
+    *s = (struct stacks){.gen = gen, .document = document, .folder = folder};
+    json_use_memory();
+    s->stacks = json_array();
+    if (note_files(s) && bind_scene(s) && generate_make_folder(gen, folder)) {
+        for (uint32_t i = 0; i < mxg_bindings_num_stacks(s->bindings); ++i)
+            generate_stack(s, i);
+        if (!gen->cli.report.errors) {
+            write_bindings(s);
+            tell_programs(s);
+        }
+    }
+    for (size_t i = 0; i < s->num_programs; ++i)
+        args_free(&s->programs[i].names);
+    free(s->programs);
+    json_decref(s->stacks);
+    mxg_bindings_destroy(s->bindings);
+    mxg_scene_destroy(s->scene);
+    free(s);
+}

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+/* One shader as a kernel of the path tracer: its source, its inputs, its pipeline. */
+#include "render/trace.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool kernel_fail(struct kernel *kernel, const char *id, const char *text)
+{
+    if (!kernel->bind->reason[0]) {
+        kernel->bind->id = id;
+        snprintf(kernel->bind->reason, sizeof kernel->bind->reason, "%s", text);
+    }
+    return false;
+}
+
+/* ---- Text ---- */
+
+struct source {
+    char *text;
+    size_t len, capacity;
+};
+
+static void append(struct source *source, const char *text)
+{
+    size_t len = strlen(text);
+    if (source->len + len + 1 > source->capacity) {
+        size_t capacity = (source->len + len + 1) * 2;
+        char *more = realloc(source->text, capacity);
+        if (!more) {
+            free(source->text);
+            *source = (struct source){.capacity = SIZE_MAX}; /* the source is complete */
+            return;
+        }
+        source->text = more;
+        source->capacity = capacity;
+    }
+    if (source->text) {
+        memcpy(source->text + source->len, text, len + 1);
+        source->len += len;
+    }
+}
+
+/* ---- Attributes ---- */
+
+/* Vertex data by name, computed from a hit. */
+static const struct {
+    const char *name, *value;
+} hit_values[] = {
+    {"positionObject", "(to_object * vec4(point, 1.0)).xyz"},
+    {"positionWorld", "point"},
+    {"normalObject", "normalize(normal * inverse(mat3(to_object)))"},
+    {"normalWorld", "normal"},
+    {"tangentObject", "normalize(mat3(to_object) * tangent)"},
+    {"tangentWorld", "tangent"},
+    {"bitangentObject", "normalize(mat3(to_object) * cross(normal, tangent))"},
+    {"bitangentWorld", "cross(normal, tangent)"},
+    {"texcoord_0", "texcoord"},
+    {"dx_positionObject", "mat3(to_object) * dx_point"},
+    {"dx_positionWorld", "dx_point"},
+    {"dy_positionObject", "mat3(to_object) * dy_point"},
+    {"dy_positionWorld", "dy_point"},
+    {"dx_normalObject", "dx_normal * inverse(mat3(to_object))"},
+    {"dx_normalWorld", "dx_normal"},
+    {"dy_normalObject", "dy_normal * inverse(mat3(to_object))"},
+    {"dy_normalWorld", "dy_normal"},
+    {"dx_texcoord_0", "dx_texcoord"},
+    {"dy_texcoord_0", "dy_texcoord"},
+    {"viewWorld", "view"},
+    {"random", "random"},
+    {"lightWorld", "light"},
+    {"normalMoved", "moved"},
+};
+
+static const char *hit_value(const char *name)
+{
+    for (size_t k = 0; k < sizeof hit_values / sizeof *hit_values; ++k)
+        if (strcmp(name, hit_values[k].name) == 0)
+            return hit_values[k].value;
+    return NULL;
+}
+
+/* True for vertex data that a mesh has: a geometric property, a colour, further coordinates. */
+static bool is_attribute(const mxg_variable *variable)
+{
+    static const char *const prefixes[] = {"geomprop_", "texcoord_", "color_"};
+    for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; ++i)
+        if (strncmp(variable->name, prefixes[i], strlen(prefixes[i])) == 0)
+            return !hit_value(variable->name);
+    return false;
+}
+
+/* Attribute `index` of a kernel; false: it has no more. */
+static bool find_attribute(const struct kernel *kernel, uint32_t index, mxg_variable *out)
+{
+    const mxg_result *result = kernel->bind->result;
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        *out = (mxg_variable){sizeof *out};
+        mxg_result_variable(result, i, out);
+        if (out->block == MXG_BLOCK_VERTEX_DATA && is_attribute(out) && index-- == 0)
+            return true;
+    }
+    return false;
+}
+
+size_t kernel_num_values(const struct kernel *kernel, uint32_t object)
+{
+    size_t count = 0;
+    for (mxg_variable variable; find_attribute(kernel, (uint32_t)count, &variable);)
+        ++count;
+    return count * kernel->bind->objects[object].mesh.num_indices;
+}
+
+void kernel_values(const struct kernel *kernel, uint32_t object, float (*out)[4])
+{
+    const struct scene_object *from = &kernel->bind->objects[object];
+    mxg_variable variable;
+    for (uint32_t a = 0; find_attribute(kernel, a, &variable); ++a) {
+        char name[128];
+        snprintf(name, sizeof name, "i_%s", variable.name);
+        for (uint32_t i = 0; i < from->mesh.num_indices; ++i, ++out) {
+            memset(*out, 0, sizeof *out);
+            scene_attribute(from, name, from->mesh.indices[i], *out);
+        }
+    }
+}
+
+/* ---- Source ---- */
+
+static void append_fill(struct source *source, const mxg_result *result)
+{
+    uint32_t attributes = 0;
+    append(source,
+           "vec3 dx_point, dy_point, dx_normal, dy_normal;\nvec2 dx_texcoord, dy_texcoord;\n"
+           "mat4 to_object; // of the object at the hit\n"
+           "vec4 hit_value(uint i);\n\n");
+    append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, "
+                   "vec3 view, vec4 random,\n"
+                   "                      vec4 light, vec3 moved)\n{\n");
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        if (variable.block != MXG_BLOCK_VERTEX_DATA)
+            continue;
+        char line[256];
+        const char *value = hit_value(variable.name);
+        bool is_vector = strncmp(variable.type, "vec", 3) == 0;
+        if (value)
+            snprintf(line, sizeof line, "    vd.%s = %s;\n", variable.name, value);
+        else if (is_attribute(&variable))
+            snprintf(line, sizeof line, "    vd.%s = %s(hit_value(%uu)%s);\n", variable.name,
+                     variable.type, attributes++, is_vector ? "" : ".x");
+        else /* data that no mesh has */
+            snprintf(line, sizeof line, "    vd.%s = %s(0);\n", variable.name, variable.type);
+        append(source, line);
+    }
+    append(source, "}\n\n");
+}
+
+static bool compile(struct kernel *kernel)
+{
+    struct source source = {0};
+    char line[64];
+    append(&source, mxg_result_source(kernel->bind->result, MXG_STAGE_PIXEL, NULL));
+    append_fill(&source, kernel->bind->result);
+    snprintf(line, sizeof line, "#define TRACER_SET %u\n", kernel->inputs.num_sets);
+    append(&source, line);
+    append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
+    append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
+    append(&source, kernel->info.displaced ? "#define DISPLACED\n" : "");
+    for (const char *const *piece = trace_source; *piece; ++piece)
+        append(&source, *piece);
+    bool good = source.text && compile_compute(source.text, &kernel->compiled);
+    free(source.text);
+    if (good)
+        return true;
+    return kernel_fail(kernel, "bad-shader",
+                       kernel->compiled.num_messages ? kernel->compiled.messages[0].text
+                                                     : "out of memory");
+}
+
+static bool create_pipeline(struct gpu *gpu, struct kernel *kernel,
+                            VkDescriptorSetLayout set_layout, uint32_t push_size)
+{
+    const struct compiled_stage *code = &kernel->compiled.stages[MXG_STAGE_PIXEL];
+    VkDescriptorSetLayout layouts[DRAW_MAX_SETS + 1];
+    memcpy(layouts, kernel->inputs.set_layouts, sizeof kernel->inputs.set_layouts);
+    layouts[kernel->inputs.num_sets] = set_layout;
+    const VkPushConstantRange camera = {VK_SHADER_STAGE_COMPUTE_BIT, 0, push_size};
+    const VkPipelineLayoutCreateInfo layout = {.sType =
+                                                   VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                               .setLayoutCount = kernel->inputs.num_sets + 1,
+                                               .pSetLayouts = layouts,
+                                               .pushConstantRangeCount = 1,
+                                               .pPushConstantRanges = &camera};
+    const VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                             .codeSize = code->num_words * sizeof(uint32_t),
+                                             .pCode = code->words};
+    if (!gpu_check(gpu, vkCreatePipelineLayout(gpu->device, &layout, NULL, &kernel->layout),
+                   "making a pipeline layout")
+        || !gpu_check(gpu, vkCreateShaderModule(gpu->device, &module, NULL, &kernel->module),
+                      "loading the shader"))
+        return false;
+    const VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = kernel->module,
+                  .pName = "main"},
+        .layout = kernel->layout};
+    VkResult result =
+        vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &kernel->pipeline);
+    return gpu_check(gpu, result, "compiling the shader");
+}
+
+/* True if the pixel stage reads uniforms that differ between objects. */
+static bool differs_by_object(const struct bind *bind)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(bind->result, i, &variable);
+        if (variable.block == MXG_BLOCK_PRIVATE_UNIFORMS
+            && (variable.stages & 1u << MXG_STAGE_PIXEL)
+            && (strncmp(variable.name, "u_world", 7) == 0
+                || strncmp(variable.name, "u_geomprop_", 11) == 0))
+            return true;
+    }
+    return false;
+}
+
+bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, struct kernel *out)
+{
+    *out = (struct kernel){.bind = bind, .info = {sizeof out->info}, .first_shader = first_shader};
+    mxg_result_info(bind->result, &out->info);
+    if (!bind_shader(bind))
+        return false;
+    out->num_shaders = differs_by_object(bind) ? bind->num_objects : 1;
+    return inputs_create(gpu, &bind->draw, &out->inputs);
+}
+
+bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
+                    uint32_t push_size)
+{
+    return compile(kernel) && create_pipeline(gpu, kernel, set_layout, push_size);
+}
+
+void kernel_close(struct gpu *gpu, struct kernel *kernel)
+{
+    vkDestroyPipeline(gpu->device, kernel->pipeline, NULL);
+    vkDestroyShaderModule(gpu->device, kernel->module, NULL);
+    vkDestroyPipelineLayout(gpu->device, kernel->layout, NULL);
+    inputs_destroy(gpu, &kernel->bind->draw, &kernel->inputs);
+    compiled_finish(&kernel->compiled);
+}

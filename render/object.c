@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void object_finish(struct scene_object *object)
+{
+    for (uint32_t i = 0; i < object->num_primvars; ++i) {
+        free(object->primvars[i].name);
+        free(object->primvars[i].values);
+    }
+    free(object->primvars);
+    mesh_finish(&object->mesh);
+}
+
+/* malloc; NULL: out of memory. */
+static void *copy_of(const void *data, size_t size)
+{
+    void *copy = malloc(size + 1);
+    return copy && size ? memcpy(copy, data, size) : copy;
+}
+
+static bool copy_primvar(const struct primvar *from, struct primvar *to)
+{
+    *to = *from;
+    to->name = copy_of(from->name, strlen(from->name) + 1);
+    to->values = copy_of(from->values, from->num * sizeof *from->values);
+    if (to->name && to->values)
+        return true;
+    free(to->name);
+    free(to->values);
+    return false;
+}
+
+static bool copy_object(const struct scene_object *from, struct scene_object *to)
+{
+    *to = (struct scene_object){.world = from->world, .path = from->path};
+    to->primvars = calloc(from->num_primvars + 1, sizeof *to->primvars);
+    bool good =
+        to->primvars && mesh_allocate(&to->mesh, from->mesh.num_vertices, from->mesh.num_indices);
+    for (uint32_t i = 0; good && i < from->num_primvars; ++i, ++to->num_primvars)
+        good = copy_primvar(&from->primvars[i], &to->primvars[i]);
+    if (!good)
+        return false;
+    memcpy(to->mesh.vertices, from->mesh.vertices,
+           from->mesh.num_vertices * sizeof *from->mesh.vertices);
+    memcpy(to->mesh.indices, from->mesh.indices,
+           from->mesh.num_indices * sizeof *from->mesh.indices);
+    return true;
+}
+
+static bool quarter(struct scene_object *object)
+{
+    for (uint32_t i = 0; i < object->num_primvars; ++i) {
+        struct primvar *primvar = &object->primvars[i];
+        if (primvar->num == 1)
+            continue;
+        float(*fine)[4] = mesh_quarter_values(&object->mesh, primvar->values);
+        if (!fine)
+            return false;
+        free(primvar->values);
+        primvar->values = fine;
+        primvar->num = object->mesh.num_indices * 2;
+    }
+    return mesh_quarter(&object->mesh);
+}
+
+bool object_refine(const struct scene_object *object, uint32_t wanted, struct scene_object *out)
+{
+    bool good = copy_object(object, out);
+    while (good && out->mesh.num_indices / 3 < wanted)
+        good = quarter(out);
+    return good;
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The stage of `--stage`: the objects of a scene, one for each primitive with geometry, and a
+ * camera. Files of USD come through mxgen.h, other files through Assimp.
+ */
+#ifndef MXG_RENDER_STAGE_H
+#define MXG_RENDER_STAGE_H
+
+#include "cli/cli.h"
+#include "render/studio.h"
+
+struct stage_object {
+    struct scene_object object;
+    uint32_t primitive; /* of the scene */
+};
+
+struct stage_camera {
+    struct matrix world;  /* it looks along -z, with y upwards */
+    double width, height; /* tangents of half its angles */
+    char *path;
+};
+
+struct stage {
+    struct report *report;
+    mxg_scene *scene;
+    struct stage_object *objects;
+    uint32_t num_objects, capacity;
+    struct stage_camera *cameras;
+    uint32_t num_cameras;
+    bool is_z_up;
+    bool has_fault; /* an error was reported */
+};
+
+/*
+ * Reads a file. `purpose` as for mxg_scene_load. false after reporting an error. Call stage_close
+ * in any case.
+ */
+bool stage_open(struct stage *stage, mxg_context *context, struct report *report, const char *path,
+                const char *purpose);
+void stage_close(struct stage *stage);
+
+/*
+ * Places the camera, light and environment of the studio around the stage. `camera` is the path of
+ * a camera; NULL: the first, or the studio's, which also stands in where the stage has none;
+ * `is_orbit` takes the studio's. false after reporting an error.
+ */
+bool stage_aim(const struct stage *stage, const struct studio *studio, const char *camera,
+               bool is_orbit, double aspect, struct scene *scene);
+
+/* ---- Shared by the readers ---- */
+
+/* A new object of a primitive, which the caller fills: its path is set. */
+struct scene_object *stage_add(struct stage *stage, uint32_t primitive, struct matrix world);
+/* The path of a primitive, which the caller frees. */
+char *stage_path(const mxg_scene *scene, uint32_t primitive);
+/* Reports a fault of a primitive, at the property's place if it is not NULL. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+void stage_fail(struct stage *stage, uint32_t primitive, const char *property, const char *format,
+                ...);
+
+/* stage_usd.c: adds the objects and cameras of a scene of USD. */
+void stage_read_usd(struct stage *stage);
+/* stage_import.c: reads a file through Assimp, with its hierarchy as paths. */
+bool stage_import(struct stage *stage, mxg_context *context, const char *path);
+
+/* A numeric value of USD, or `otherwise`. */
+double usd_number(const struct stage *stage, uint32_t primitive, const char *name,
+                  double otherwise);
+/* The numbers of a property, and how many there are; the caller frees them. NULL: none. */
+double *usd_numbers(const struct stage *stage, uint32_t primitive, const char *name,
+                    size_t *out_count);
+/* True if a token has this value. */
+bool usd_is(const struct stage *stage, uint32_t primitive, const char *name, const char *value);
+
+/* usd_xform.c: the matrix of a primitive, from its space to the parent's; *out_resets: to the
+ * world. */
+struct matrix usd_transform(struct stage *stage, uint32_t primitive, bool *out_resets);
+
+/* usd_mesh.c: adds the objects of a Mesh: its own, and those of its subsets. */
+void usd_add_mesh(struct stage *stage, uint32_t primitive, struct matrix world);
+
+/* usd_shapes.c: adds Sphere, Cube, Cylinder, Cone, Capsule or Plane; false: another type. */
+bool usd_add_shape(struct stage *stage, uint32_t primitive, const char *type, struct matrix world);
+
+/*
+ * usd_primvar.c: the primvars of a primitive, and the constant ones of those above it. They come
+ * for corners: corner i belongs to face faces[i] and point points[i]; numbers[i] is its number in
+ * the list of corners. NULLs: the geometry has constant primvars only.
+ */
+struct usd_corners {
+    uint32_t count;
+    const uint32_t *faces, *points, *numbers;
+};
+void usd_add_primvars(struct stage *stage, uint32_t primitive, const struct usd_corners *corners,
+                      struct scene_object *object);
+/* The components of a type: 3 of "color3f[]"; 0: it has no numbers. */
+unsigned usd_components(const char *type, size_t len);
+
+#endif

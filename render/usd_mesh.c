@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Meshes of USD (UsdGeomMesh) as triangles. Faces become fans. A subdivision surface is drawn as
+ * its cage with smooth normals.
+ */
+#include "render/stage.h"
+
+#include "cli/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NO_SUBSET = 0, MAX_CORNERS = 1 << 27 };
+
+struct usd_mesh {
+    struct stage *stage;
+    uint32_t primitive;
+    double *points, *counts, *indices, *normals;
+    size_t num_points, num_faces, num_corners, num_normals; /* points and normals: of three */
+    char normals_of;   /* 'c'orner, 'f'ace or 'p'oint; 0: none */
+    uint32_t *subsets; /* by face: 1 + number of a subset, or NO_SUBSET */
+    bool is_flipped, is_flat;
+};
+
+/* ---- Reading ---- */
+
+static bool fail_counts(struct usd_mesh *mesh)
+{
+    size_t corners = 0;
+    for (size_t f = 0; f < mesh->num_faces; ++f) {
+        if (!(mesh->counts[f] >= 0) || mesh->counts[f] > MAX_CORNERS)
+            corners = SIZE_MAX / 2;
+        else
+            corners += (size_t)mesh->counts[f];
+    }
+    if (corners == mesh->num_corners)
+        return false;
+    stage_fail(mesh->stage, mesh->primitive, "faceVertexIndices",
+               "has %zu numbers; faceVertexCounts asks for another number", mesh->num_corners);
+    return true;
+}
+
+static bool fail_indices(struct usd_mesh *mesh)
+{
+    for (size_t i = 0; i < mesh->num_corners; ++i)
+        if (!(mesh->indices[i] >= 0) || mesh->indices[i] >= (double)mesh->num_points) {
+            stage_fail(mesh->stage, mesh->primitive, "faceVertexIndices",
+                       "has %g as number %zu; there are %zu points", mesh->indices[i], i,
+                       mesh->num_points);
+            return true;
+        }
+    for (size_t i = 0; i < 3 * mesh->num_points; ++i)
+        if (!isfinite(mesh->points[i])) {
+            stage_fail(mesh->stage, mesh->primitive, "points",
+                       "has numbers that are NaN or infinite");
+            return true;
+        }
+    return false;
+}
+
+static void read_normals(struct usd_mesh *mesh)
+{
+    struct stage *stage = mesh->stage;
+    const char *name = "primvars:normals";
+    mxg_property property = {sizeof property};
+    if (!mxg_scene_find_property(stage->scene, mesh->primitive, name, &property)) {
+        name = "normals";
+        if (!mxg_scene_find_property(stage->scene, mesh->primitive, name, &property))
+            return;
+    }
+    mesh->normals = usd_numbers(stage, mesh->primitive, name, &mesh->num_normals);
+    mesh->num_normals /= 3;
+    size_t len = property.interpolation_len;
+    mesh->normals_of = len && strncmp(property.interpolation, "faceVarying", len) == 0 ? 'c'
+                       : len && strncmp(property.interpolation, "uniform", len) == 0   ? 'f'
+                                                                                       : 'p';
+    size_t needed = mesh->normals_of == 'c'   ? mesh->num_corners
+                    : mesh->normals_of == 'f' ? mesh->num_faces
+                                              : mesh->num_points;
+    if (mesh->num_normals >= needed)
+        return;
+    if (mesh->num_normals)
+        stage_fail(stage, mesh->primitive, name, "has %zu values; expected %zu", mesh->num_normals,
+                   needed);
+    mesh->normals_of = 0;
+}
+
+static bool read_mesh(struct usd_mesh *mesh)
+{
+    struct stage *stage = mesh->stage;
+    mesh->points = usd_numbers(stage, mesh->primitive, "points", &mesh->num_points);
+    mesh->counts = usd_numbers(stage, mesh->primitive, "faceVertexCounts", &mesh->num_faces);
+    mesh->indices = usd_numbers(stage, mesh->primitive, "faceVertexIndices", &mesh->num_corners);
+    mesh->num_points /= 3;
+    mesh->is_flipped = usd_is(stage, mesh->primitive, "orientation", "leftHanded");
+    mesh->is_flat = usd_is(stage, mesh->primitive, "subdivisionScheme", "none");
+    if (!mesh->points || !mesh->counts || !mesh->indices || fail_counts(mesh) || fail_indices(mesh))
+        return false;
+    read_normals(mesh);
+    return true;
+}
+
+/* ---- Normals ---- */
+
+static const double *point(const struct usd_mesh *mesh, size_t corner)
+{
+    return &mesh->points[3 * (size_t)mesh->indices[corner]];
+}
+
+/* Newell's method: the sum over the edges; its length is twice the area. */
+static void face_normal(const struct usd_mesh *mesh, size_t first, size_t count, double out[3])
+{
+    memset(out, 0, 3 * sizeof *out);
+    for (size_t i = 0; i < count; ++i) {
+        const double *a = point(mesh, first + i), *b = point(mesh, first + (i + 1) % count);
+        for (size_t k = 0; k < 3; ++k) {
+            size_t u = (k + 1) % 3, v = (k + 2) % 3;
+            out[k] += (a[u] - b[u]) * (a[v] + b[v]);
+        }
+    }
+    for (size_t k = 0; k < 3 && mesh->is_flipped; ++k)
+        out[k] = -out[k];
+}
+
+/* Normals where the file has none: of faces, or smooth ones of points. */
+static void make_normals(struct usd_mesh *mesh)
+{
+    free(mesh->normals);
+    mesh->normals_of = mesh->is_flat ? 'f' : 'p';
+    mesh->num_normals = mesh->is_flat ? mesh->num_faces : mesh->num_points;
+    mesh->normals = memory_alloc(3 * mesh->num_normals * sizeof *mesh->normals + 1);
+    size_t first = 0;
+    for (size_t f = 0; f < mesh->num_faces; ++f) {
+        size_t count = (size_t)mesh->counts[f];
+        double normal[3];
+        face_normal(mesh, first, count, normal);
+        for (size_t i = 0; i < (mesh->is_flat ? 1 : count); ++i) {
+            size_t at = mesh->is_flat ? f : (size_t)mesh->indices[first + i];
+            for (size_t k = 0; k < 3; ++k)
+                mesh->normals[3 * at + k] += normal[k];
+        }
+        first += count;
+    }
+}
+
+/* ---- Triangles ---- */
+
+/* The corners of an object's triangles. */
+struct corner_list {
+    uint32_t *faces, *points, *numbers;
+    uint32_t count;
+};
+
+static void add_corner(const struct usd_mesh *mesh, struct corner_list *list, size_t face,
+                       size_t corner)
+{
+    list->faces[list->count] = (uint32_t)face;
+    list->numbers[list->count] = (uint32_t)corner;
+    list->points[list->count++] = (uint32_t)mesh->indices[corner];
+}
+
+/* The triangles of the faces in a subset. */
+static void add_faces(const struct usd_mesh *mesh, uint32_t subset, struct corner_list *list)
+{
+    size_t room = 3 * mesh->num_corners + 1, first = 0;
+    list->faces = memory_alloc(room * sizeof *list->faces);
+    list->points = memory_alloc(room * sizeof *list->points);
+    list->numbers = memory_alloc(room * sizeof *list->numbers);
+    for (size_t f = 0; f < mesh->num_faces; first += (size_t)mesh->counts[f++])
+        for (size_t i = 1; mesh->subsets[f] == subset && i + 1 < (size_t)mesh->counts[f]; ++i) {
+            add_corner(mesh, list, f, first);
+            add_corner(mesh, list, f, first + i + (mesh->is_flipped ? 1 : 0));
+            add_corner(mesh, list, f, first + i + (mesh->is_flipped ? 0 : 1));
+        }
+}
+
+static void fill_vertex(const struct usd_mesh *mesh, const struct corner_list *list, uint32_t i,
+                        struct vertex *out)
+{
+    size_t at = mesh->normals_of == 'c'   ? list->numbers[i]
+                : mesh->normals_of == 'f' ? list->faces[i]
+                                          : list->points[i];
+    double normal[3];
+    memcpy(normal, &mesh->normals[3 * at], sizeof normal);
+    vector_normalize(normal);
+    for (size_t k = 0; k < 3; ++k) {
+        out->position[k] = (float)mesh->points[3 * (size_t)list->points[i] + k];
+        out->normal[k] = isfinite(normal[k]) ? (float)normal[k] : k == 1;
+    }
+}
+
+/* Texture coordinates are the primvar st, or the first of this kind. */
+static const struct primvar *find_texcoords(const struct scene_object *object)
+{
+    const struct primvar *found = NULL;
+    for (uint32_t i = 0; i < object->num_primvars; ++i) {
+        const struct primvar *primvar = &object->primvars[i];
+        if (primvar->num == 1 || primvar->components != 2)
+            continue;
+        if (strcmp(primvar->name, "st") == 0)
+            return primvar;
+        found = found ? found : primvar;
+    }
+    return found;
+}
+
+static void add_object(struct usd_mesh *mesh, uint32_t subset, uint32_t primitive,
+                       struct matrix world)
+{
+    struct corner_list list = {0};
+    add_faces(mesh, subset, &list);
+    if (list.count) {
+        struct scene_object *object = stage_add(mesh->stage, primitive, world);
+        const struct usd_corners corners = {list.count, list.faces, list.points, list.numbers};
+        if (!mesh_allocate(&object->mesh, list.count, list.count))
+            abort();
+        for (uint32_t i = 0; i < list.count; ++i) {
+            fill_vertex(mesh, &list, i, &object->mesh.vertices[i]);
+            object->mesh.indices[i] = i;
+        }
+        usd_add_primvars(mesh->stage, mesh->primitive, &corners, object);
+        const struct primvar *texcoords = find_texcoords(object);
+        for (uint32_t i = 0; texcoords && i < list.count; ++i)
+            memcpy(object->mesh.vertices[i].texcoord, texcoords->values[i], 2 * sizeof(float));
+        mesh_complete(&object->mesh, MESH_TANGENTS | (texcoords ? 0u : MESH_TEXCOORDS));
+    }
+    free(list.faces);
+    free(list.points);
+    free(list.numbers);
+}
+
+/* Marks the faces of a subset; false: it has a fault. */
+static void read_subset(struct usd_mesh *mesh, uint32_t primitive, uint32_t number)
+{
+    size_t count;
+    double *faces = usd_numbers(mesh->stage, primitive, "indices", &count);
+    for (size_t i = 0; i < count; ++i) {
+        if (!(faces[i] >= 0) || faces[i] >= (double)mesh->num_faces) {
+            stage_fail(mesh->stage, primitive, "indices", "has %g; the mesh has %zu faces",
+                       faces[i], mesh->num_faces);
+            break;
+        }
+        mesh->subsets[(size_t)faces[i]] = number;
+    }
+    free(faces);
+}
+
+/* Calls for each subset of the mesh; returns their number. */
+static uint32_t each_subset(struct usd_mesh *mesh, struct matrix world, bool draws)
+{
+    mxg_primitive at = {sizeof at};
+    uint32_t number = 0;
+    mxg_scene_primitive(mesh->stage->scene, mesh->primitive, &at);
+    for (uint32_t child = at.first_child; child != UINT32_MAX; child = at.next_sibling) {
+        mxg_scene_primitive(mesh->stage->scene, child, &at);
+        if (at.type_len != strlen("GeomSubset") || memcmp(at.type, "GeomSubset", at.type_len) != 0)
+            continue;
+        ++number;
+        if (draws)
+            add_object(mesh, number, child, world);
+        else
+            read_subset(mesh, child, number);
+    }
+    return number;
+}
+
+void usd_add_mesh(struct stage *stage, uint32_t primitive, struct matrix world)
+{
+    struct usd_mesh mesh = {.stage = stage, .primitive = primitive};
+    if (read_mesh(&mesh)) {
+        mesh.subsets = memory_alloc(mesh.num_faces * sizeof *mesh.subsets + 1);
+        if (!mesh.normals_of)
+            make_normals(&mesh);
+        each_subset(&mesh, world, false);
+        add_object(&mesh, NO_SUBSET, primitive, world);
+        each_subset(&mesh, world, true);
+    }
+    free(mesh.points);
+    free(mesh.counts);
+    free(mesh.indices);
+    free(mesh.normals);
+    free(mesh.subsets);
+}

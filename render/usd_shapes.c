@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The shapes of USD: Sphere, Cube, Cylinder, Cone, Capsule and Plane. A round shape is a profile
+ * that turns around the z axis; the attribute `axis` then moves z to another axis.
+ */
+#include "render/stage.h"
+
+#include "cli/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+enum { AROUND = 64, ALONG = 32, CELLS = 4 };
+
+/* A point of a profile: distance from the axis, height, and the normal there. */
+struct profile_point {
+    double r, z, normal_r, normal_z;
+};
+
+struct shape {
+    struct mesh mesh;
+    uint32_t num_vertices, num_indices;
+};
+
+static void begin(struct shape *shape, uint32_t num_vertices, uint32_t num_indices)
+{
+    if (!mesh_allocate(&shape->mesh, num_vertices, num_indices))
+        abort();
+}
+
+static void add_vertex(struct shape *shape, const double at[3], const double normal[3], double s,
+                       double t)
+{
+    struct vertex *vertex = &shape->mesh.vertices[shape->num_vertices++];
+    for (size_t i = 0; i < 3; ++i) {
+        vertex->position[i] = (float)at[i];
+        vertex->normal[i] = (float)normal[i];
+    }
+    vertex->texcoord[0] = (float)s;
+    vertex->texcoord[1] = (float)t;
+}
+
+/* Cells between (across + 1) * (up + 1) vertices from `first` on. */
+static void add_cells(struct shape *shape, uint32_t first, uint32_t across, uint32_t up)
+{
+    for (uint32_t y = 0; y < up; ++y)
+        for (uint32_t x = 0; x < across; ++x) {
+            uint32_t a = first + y * (across + 1) + x, b = a + across + 1;
+            const uint32_t cell[6] = {a, a + 1, b + 1, a, b + 1, b};
+            memcpy(shape->mesh.indices + shape->num_indices, cell, sizeof cell);
+            shape->num_indices += 6;
+        }
+}
+
+/* Turns a part of a profile, from below to above, around the z axis. */
+static void turn(struct shape *shape, const struct profile_point *profile, uint32_t count,
+                 double low, double high)
+{
+    uint32_t first = shape->num_vertices;
+    for (uint32_t p = 0; p < count; ++p)
+        for (uint32_t i = 0; i <= AROUND; ++i) {
+            double angle = 2 * PI * i / AROUND, c = cos(angle), s = sin(angle);
+            const struct profile_point *at = &profile[p];
+            const double position[3] = {at->r * c, at->r * s, at->z};
+            const double normal[3] = {at->normal_r * c, at->normal_r * s, at->normal_z};
+            add_vertex(shape, position, normal, (double)i / AROUND,
+                       low + (high - low) * p / (count - 1));
+        }
+    add_cells(shape, first, AROUND, count - 1);
+}
+
+/* A quarter or half of a circle of `radius` about height z. */
+static void turn_arc(struct shape *shape, double radius, double z, double from, double to,
+                     double low, double high)
+{
+    struct profile_point profile[ALONG + 1];
+    for (uint32_t i = 0; i <= ALONG; ++i) {
+        double angle = from + (to - from) * i / ALONG;
+        profile[i] = (struct profile_point){radius * fabs(cos(angle)), z + radius * sin(angle),
+                                            cos(angle), sin(angle)};
+    }
+    turn(shape, profile, ALONG + 1, low, high);
+}
+
+static void turn_line(struct shape *shape, double r0, double z0, double r1, double z1, double low,
+                      double high)
+{
+    struct profile_point profile[CELLS + 1];
+    double length = hypot(r1 - r0, z1 - z0), normal_r = (z1 - z0) / length,
+           normal_z = (r0 - r1) / length;
+    for (uint32_t i = 0; i <= CELLS; ++i)
+        profile[i] = (struct profile_point){r0 + (r1 - r0) * i / CELLS, z0 + (z1 - z0) * i / CELLS,
+                                            normal_r, normal_z};
+    turn(shape, profile, CELLS + 1, low, high);
+}
+
+/* ---- The shapes ---- */
+
+enum { ROUND_VERTICES = (AROUND + 1) * (ALONG + 1), ROUND_INDICES = AROUND * ALONG * 6 };
+
+static void make_sphere(struct shape *shape, double radius, double height)
+{
+    (void)height;
+    turn_arc(shape, radius, 0, -PI / 2, PI / 2, 0, 1);
+}
+
+static void make_cylinder(struct shape *shape, double radius, double height)
+{
+    turn_line(shape, 0, -height / 2, radius, -height / 2, 0, 0.25);
+    turn_line(shape, radius, -height / 2, radius, height / 2, 0.25, 0.75);
+    turn_line(shape, radius, height / 2, 0, height / 2, 0.75, 1);
+}
+
+static void make_cone(struct shape *shape, double radius, double height)
+{
+    turn_line(shape, 0, -height / 2, radius, -height / 2, 0, 0.25);
+    turn_line(shape, radius, -height / 2, 0, height / 2, 0.25, 1);
+}
+
+static void make_capsule(struct shape *shape, double radius, double height)
+{
+    turn_arc(shape, radius, -height / 2, -PI / 2, 0, 0, 0.25);
+    turn_line(shape, radius, -height / 2, radius, height / 2, 0.25, 0.75);
+    turn_arc(shape, radius, height / 2, 0, PI / 2, 0.75, 1);
+}
+
+/* A rectangle with the normal `normal`; `right` and `up` are half its sides. */
+static void add_quad(struct shape *shape, const double centre[3], const double right[3],
+                     const double up[3], const double normal[3])
+{
+    uint32_t first = shape->num_vertices;
+    for (uint32_t y = 0; y <= CELLS; ++y)
+        for (uint32_t x = 0; x <= CELLS; ++x) {
+            double s = (double)x / CELLS, t = (double)y / CELLS, at[3];
+            for (size_t i = 0; i < 3; ++i)
+                at[i] = centre[i] + (2 * s - 1) * right[i] + (2 * t - 1) * up[i];
+            add_vertex(shape, at, normal, s, t);
+        }
+    add_cells(shape, first, CELLS, CELLS);
+}
+
+static void make_cube(struct shape *shape, double half)
+{
+    for (size_t axis = 0; axis < 3; ++axis)
+        for (int side = -1; side <= 1; side += 2) {
+            double normal[3] = {0}, right[3] = {0}, up[3] = {0}, centre[3] = {0};
+            normal[axis] = side;
+            centre[axis] = side * half;
+            right[(axis + 1) % 3] = side * half; /* right x up = normal */
+            up[(axis + 2) % 3] = half;
+            add_quad(shape, centre, right, up, normal);
+        }
+}
+
+/* z becomes the axis, and the others follow in their circle. */
+static void set_axis(struct mesh *mesh, char axis)
+{
+    size_t shift = axis == 'X' ? 1 : axis == 'Y' ? 2 : 0;
+    for (uint32_t v = 0; v < mesh->num_vertices; ++v) {
+        struct vertex before = mesh->vertices[v];
+        for (size_t i = 0; i < 3; ++i) {
+            mesh->vertices[v].position[(i + shift) % 3] = before.position[i];
+            mesh->vertices[v].normal[(i + shift) % 3] = before.normal[i];
+        }
+    }
+}
+
+static char axis_of(const struct stage *stage, uint32_t primitive)
+{
+    return usd_is(stage, primitive, "axis", "X")   ? 'X'
+           : usd_is(stage, primitive, "axis", "Y") ? 'Y'
+                                                   : 'Z';
+}
+
+bool usd_add_shape(struct stage *stage, uint32_t primitive, const char *type, struct matrix world)
+{
+    static const struct {
+        const char *type;
+        double radius, height; /* where the file has none: the schema's */
+        void (*make)(struct shape *shape, double radius, double height);
+    } round_shapes[] = {{"Sphere", 1, 0, make_sphere},
+                        {"Cylinder", 1, 2, make_cylinder},
+                        {"Cone", 1, 2, make_cone},
+                        {"Capsule", 0.5, 1, make_capsule}};
+    struct shape shape = {0};
+    begin(&shape, 3 * ROUND_VERTICES, 3 * ROUND_INDICES);
+    for (size_t i = 0; i < sizeof round_shapes / sizeof *round_shapes; ++i)
+        if (strcmp(type, round_shapes[i].type) == 0)
+            round_shapes[i].make(&shape,
+                                 usd_number(stage, primitive, "radius", round_shapes[i].radius),
+                                 usd_number(stage, primitive, "height", round_shapes[i].height));
+    if (strcmp(type, "Cube") == 0)
+        make_cube(&shape, usd_number(stage, primitive, "size", 2) / 2);
+    if (strcmp(type, "Plane") == 0)
+        add_quad(&shape, (const double[3]){0, 0, 0},
+                 (const double[3]){usd_number(stage, primitive, "width", 2) / 2, 0, 0},
+                 (const double[3]){0, usd_number(stage, primitive, "length", 2) / 2, 0},
+                 (const double[3]){0, 0, 1});
+    if (!shape.num_indices) {
+        mesh_finish(&shape.mesh);
+        return false;
+    }
+    shape.mesh.num_vertices = shape.num_vertices;
+    shape.mesh.num_indices = shape.num_indices;
+    set_axis(&shape.mesh, axis_of(stage, primitive));
+    struct scene_object *object = stage_add(stage, primitive, world);
+    object->mesh = shape.mesh;
+    mesh_complete(&object->mesh, MESH_TANGENTS);
+    const struct usd_corners constant = {.count = shape.num_vertices};
+    usd_add_primvars(stage, primitive, &constant, object);
+    return true;
+}

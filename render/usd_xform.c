@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Transforms of USD: the operations that xformOpOrder lists (UsdGeomXformable). */
+#include "render/stage.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* USD's matrices are for row vectors and stored by row: the same numbers in the same order. */
+static struct matrix stored_matrix(const double v[16])
+{
+    struct matrix out;
+    for (size_t i = 0; i < 16; ++i)
+        out.m[i / 4][i % 4] = v[i];
+    return out;
+}
+
+/* "rotateXYZ": about x first. */
+static struct matrix rotation(const char *axes, const double angles[3])
+{
+    struct matrix out = matrix_identity();
+    for (size_t i = 0; axes[i] && axes[i] != ':'; ++i) {
+        size_t axis = (size_t)(axes[i] - 'X');
+        double direction[3] = {axis == 0, axis == 1, axis == 2};
+        out = matrix_multiply(matrix_rotation(direction, angles[axes[1] >= 'X' ? axis : 0]), out);
+    }
+    return out;
+}
+
+static bool is_op(const char *op, const char *type)
+{
+    size_t len = strlen(type);
+    return strncmp(op, type, len) == 0 && (!op[len] || op[len] == ':');
+}
+
+static bool is_rotation(const char *op)
+{
+    static const char *const types[] = {"rotateX",   "rotateY",   "rotateZ",
+                                        "rotateXYZ", "rotateXZY", "rotateYXZ",
+                                        "rotateYZX", "rotateZXY", "rotateZYX"};
+    for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
+        if (is_op(op, types[i]))
+            return true;
+    return false;
+}
+
+/* The matrix of an operation with its numbers; false: it is none. */
+static bool make_matrix(const char *op, const double *v, size_t count, struct matrix *out)
+{
+    if (is_op(op, "translate") && count == 3)
+        *out = matrix_translation(v[0], v[1], v[2]);
+    else if (is_op(op, "scale") && count == 3)
+        *out = matrix_scale(v[0], v[1], v[2]);
+    else if (is_op(op, "orient") && count == 4)
+        *out = matrix_orientation(v);
+    else if (is_op(op, "transform") && count == 16)
+        *out = stored_matrix(v);
+    else if (is_rotation(op) && (count == 1 || count == 3))
+        *out = rotation(op + strlen("rotate"), v);
+    else
+        return false;
+    return true;
+}
+
+static struct matrix read_op(struct stage *stage, uint32_t primitive, const char *name)
+{
+    static const char inverse[] = "!invert!", prefix[] = "xformOp:";
+    bool is_inverse = strncmp(name, inverse, strlen(inverse)) == 0;
+    name += is_inverse ? strlen(inverse) : 0;
+    double v[16];
+    struct matrix out = matrix_identity();
+    size_t count = mxg_scene_numbers(stage->scene, primitive, name, v, 16);
+    bool good = strncmp(name, prefix, strlen(prefix)) == 0
+                && make_matrix(name + strlen(prefix), v, count, &out);
+    if (!good)
+        stage_fail(stage, primitive, "xformOpOrder",
+                   "lists '%s', which is no operation of a transform; expected for example "
+                   "xformOp:translate with three numbers",
+                   name);
+    return good && is_inverse ? matrix_inverse(out) : out;
+}
+
+struct matrix usd_transform(struct stage *stage, uint32_t primitive, bool *out_resets)
+{
+    char name[256];
+    struct matrix out = matrix_identity();
+    *out_resets = false;
+    for (uint32_t i = 0;
+         mxg_scene_word(stage->scene, primitive, "xformOpOrder", i, name, sizeof name); ++i) {
+        if (strcmp(name, "!resetXformStack!") == 0) {
+            *out_resets = true;
+            out = matrix_identity();
+        } else {
+            out = matrix_multiply(out, read_op(stage, primitive, name));
+        }
+    }
+    return out;
+}

@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What drives the inputs of a layer's material: products of weaker assignments, then variants, then
+ * overrides, of which a later one wins. An output of an override drives the inputs of its name
+ *
+ *     of the material's node;                   if it has none,
+ *     of the interfaces of its nodegraphs;      if they have none,
+ *     of its shader nodes.
+ */
+#include "bind/drive.h"
+
+#include "base/hash.h"
+
+#include <assert.h>
+
+struct substance { /* the parts of a layer's material that outputs may drive */
+    elem_id material;
+    VEC(elem_id) graphs, shaders;
+};
+
+/* What drives: a variant or an override, or a product. */
+struct driver {
+    struct diag_place place; /* of an override */
+    const char *slot;        /* its name: "050::010"; NULL: no override */
+};
+
+struct driving {
+    const struct bindings *b;
+    const struct library *lib;
+    const struct document *doc;
+    struct arena *arena;
+    struct substance substance;
+    struct library_drives *out;
+    struct drive_notes *notes; /* NULL: silent */
+    struct diag_list ignored;
+    VEC(elem_id) open; /* nodes to visit */
+    struct table met;  /* elements that were visited, in `order` */
+    VEC(elem_id) order;
+};
+
+static const char *text_of(const struct driving *d, str_id id)
+{
+    return str_text(d->doc->strings, id);
+}
+
+static const struct element *element(const struct driving *d, elem_id id)
+{
+    return doc_element(d->doc, id);
+}
+
+/* ---- The substance ---- */
+
+/* True if the element is met for the first time. */
+static bool meet(struct driving *d, elem_id id)
+{
+    uint32_t hash = hash_pair(id, 0);
+    for (uint32_t at = hash, found; (found = table_next(&d->met, hash, &at));)
+        if (d->order.items[found - 1] == id)
+            return false;
+    vec_push(d->arena, &d->order, id);
+    table_add(&d->met, d->arena, hash, d->order.len);
+    return true;
+}
+
+static void meet_graph(struct driving *d, elem_id graph)
+{
+    bool is_plain = graph && element(d, graph)->kind == KIND_NODEGRAPH
+                    && !doc_attr_value(d->doc, graph, STR_nodedef);
+    if (is_plain && meet(d, graph))
+        vec_push(d->arena, &d->substance.graphs, graph);
+}
+
+/* Follows the connection of an input to its node, and notes the nodegraph that it names. */
+static void follow(struct driving *d, elem_id input)
+{
+    str_id graph = doc_attr_value(d->doc, input, STR_nodegraph);
+    if (graph)
+        meet_graph(d, doc_top_level(d->doc, KIND_NODEGRAPH, graph));
+    struct binding binding = library_resolve_connection(d->lib, input, DOC_TYPE_NONE, &d->ignored);
+    if (binding.kind == BIND_NODE && meet(d, binding.ref))
+        vec_push(d->arena, &d->open, binding.ref);
+}
+
+static void follow_inputs(struct driving *d, elem_id owner)
+{
+    for (elem_id e = element(d, owner)->first_child; e; e = element(d, e)->next)
+        if (element(d, e)->kind == KIND_INPUT)
+            follow(d, e);
+}
+
+static void visit_open(struct driving *d)
+{
+    while (d->open.len) {
+        elem_id node = vec_pop(&d->open);
+        str_id type = doc_attr_value(d->doc, node, STR_type);
+        if (type == STR_surfaceshader || type == STR_displacementshader || type == STR_volumeshader)
+            vec_push(d->arena, &d->substance.shaders, node);
+        meet_graph(d, element(d, node)->parent);
+        follow_inputs(d, node);
+    }
+}
+
+elem_id bind_material_node(const struct library *lib, elem_id target, struct diag_list *ignored)
+{
+    const struct document *doc = &lib->doc;
+    if (doc_element(doc, target)->kind == KIND_NODE)
+        return target;
+    for (elem_id e = doc_element(doc, target)->first_child; e; e = doc_element(doc, e)->next) {
+        if (doc_element(doc, e)->kind != KIND_OUTPUT
+            || doc_attr_value(doc, e, STR_type) != STR_material)
+            continue;
+        struct binding binding = library_resolve_connection(lib, e, DOC_TYPE_NONE, ignored);
+        return binding.kind == BIND_NODE ? binding.ref : 0;
+    }
+    return 0;
+}
+
+static void find_substance(struct driving *d, elem_id target)
+{
+    d->substance.material = bind_material_node(d->lib, target, &d->ignored);
+    if (!d->substance.material)
+        return;
+    meet(d, d->substance.material);
+    meet_graph(d, element(d, d->substance.material)->parent);
+    follow_inputs(d, d->substance.material);
+    visit_open(d);
+}
+
+/* ---- Inputs ---- */
+
+/* The type of an input and whether it is uniform; false: the owner has no such input. */
+struct driven {
+    elem_id owner;
+    str_id input;
+    str_id type;
+    bool is_uniform;
+};
+
+static bool node_has(struct driving *d, elem_id node, str_id input, struct driven *out)
+{
+    uint32_t nodedef = library_match(d->lib, node, &d->ignored);
+    int port = nodedef == LIBRARY_NONE ? -1 : library_find_input(d->lib, nodedef, input);
+    if (port < 0)
+        return false;
+    const struct port *found = library_ports(d->lib, nodedef, NULL) + port;
+    *out = (struct driven){node, input, library_type_name(d->lib, found->type),
+                           found->flags & PORT_UNIFORM};
+    return true;
+}
+
+static bool graph_has(const struct driving *d, elem_id graph, str_id input, struct driven *out)
+{
+    elem_id found = doc_child_of_kind(d->doc, graph, KIND_INPUT, input);
+    if (!found)
+        return false;
+    str_id uniform = doc_attr_value(d->doc, found, STR_uniform);
+    *out = (struct driven){graph, input, doc_attr_value(d->doc, found, STR_type),
+                           uniform && strcmp(text_of(d, uniform), "true") == 0};
+    return true;
+}
+
+/* Every material has a mask, and takes a normal as a product. */
+static bool material_has(struct driving *d, str_id input, bool is_product, struct driven *out)
+{
+    if (node_has(d, d->substance.material, input, out))
+        return true;
+    bool is_virtual = input == STR_mask || (input == STR_normal && is_product);
+    str_id type = input == STR_mask ? STR_float : STR_vector3;
+    *out = (struct driven){d->substance.material, input, type, false};
+    return is_virtual;
+}
+
+/* ---- Sources ---- */
+
+/*
+ * The input that holds the value of a source, if it has one: the value of a <constant>, too. So an
+ * override of a value gives the shader of another value.
+ */
+static elem_id holder_of(struct driving *d, elem_id source, const struct binding *binding)
+{
+    if (binding->kind == BIND_VALUE || binding->kind == BIND_DEFAULT)
+        return binding->element ? binding->element : source;
+    bool is_constant = binding->kind == BIND_NODE
+                       && strcmp(text_of(d, element(d, binding->ref)->category), "constant") == 0;
+    elem_id value =
+        is_constant ? doc_child_of_kind(d->doc, binding->ref, KIND_INPUT, STR_value) : 0;
+    if (!value)
+        return 0;
+    struct binding end = library_resolve_connection(d->lib, value, DOC_TYPE_NONE, &d->ignored);
+    return end.kind == BIND_VALUE ? end.element : 0;
+}
+
+static void report(struct driving *d, enum diag_id id, elem_id source, const struct driver *driver,
+                   const struct driven *driven, const char *have)
+{
+    struct text path;
+    if (!d->notes || d->notes->seen[source - d->doc->first_element] & DRIVE_REPORTED)
+        return;
+    d->notes->seen[source - d->doc->first_element] |= DRIVE_REPORTED;
+    text_init(&path, d->arena);
+    doc_path(d->doc, driven->owner, '/', &path);
+    diag_add(d->notes->diags, id, doc_place(d->doc, source), text_of(d, element(d, source)->name),
+             driver->slot, text_cstr(&path), text_of(d, driven->input), text_of(d, driven->type),
+             have);
+}
+
+static void drive(struct driving *d, elem_id source, const struct driver *driver,
+                  const struct driven *driven)
+{
+    str_id type = doc_attr_value(d->doc, source, STR_type);
+    struct binding binding = library_resolve_connection(d->lib, source, DOC_TYPE_NONE, &d->ignored);
+    elem_id holder = holder_of(d, source, &binding);
+    if (d->notes)
+        d->notes->seen[source - d->doc->first_element] |= DRIVE_MATCHED;
+    if (driver->slot && type != driven->type) {
+        report(d, DIAG_ID_override_type, source, driver, driven, text_of(d, type));
+        return;
+    }
+    bool is_constant = binding.kind == BIND_NODE
+                       && strcmp(text_of(d, element(d, binding.ref)->category), "constant") == 0;
+    if (driver->slot && driven->is_uniform && !holder && !is_constant) {
+        report(d, DIAG_ID_override_varies, source, driver, driven, "");
+        return;
+    }
+    library_drive(d->out, d->arena,
+                  (struct library_drive){driven->owner, driven->input, holder ? holder : source});
+}
+
+/* ---- By name ---- */
+
+static void drive_by_name(struct driving *d, elem_id source, const struct driver *driver)
+{
+    str_id name = element(d, source)->name;
+    struct driven driven;
+    bool any = false;
+    if (material_has(d, name, false, &driven)) {
+        drive(d, source, driver, &driven);
+        return;
+    }
+    for (uint32_t i = 0; i < d->substance.graphs.len; i++)
+        if (graph_has(d, d->substance.graphs.items[i], name, &driven)) {
+            drive(d, source, driver, &driven);
+            any = true;
+        }
+    for (uint32_t i = 0; i < d->substance.shaders.len && !any; i++)
+        if (node_has(d, d->substance.shaders.items[i], name, &driven))
+            drive(d, source, driver, &driven);
+}
+
+/* overrides="NG_wood/scale": one input, by its path. */
+static void drive_by_path(struct driving *d, elem_id source, const struct driver *driver,
+                          const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    str_id input = slash ? str_find(d->doc->strings, slash + 1, strlen(slash + 1)) : 0;
+    struct text own;
+    struct driven driven;
+    text_init(&own, d->arena);
+    for (uint32_t i = 0; input && i < d->order.len; i++) {
+        elem_id owner = d->order.items[i];
+        own.len = 0;
+        doc_path(d->doc, owner, '/', &own);
+        if (own.len != (size_t)(slash - path) || memcmp(own.data, path, own.len) != 0)
+            continue;
+        bool has = owner == d->substance.material ? material_has(d, input, false, &driven)
+                   : element(d, owner)->kind == KIND_NODEGRAPH ? graph_has(d, owner, input, &driven)
+                                                               : node_has(d, owner, input, &driven);
+        if (has)
+            drive(d, source, driver, &driven);
+    }
+}
+
+static void drive_output(struct driving *d, elem_id source, const struct driver *driver)
+{
+    str_id path = doc_attr_value(d->doc, source, STR_overrides);
+    if (d->notes && driver->slot)
+        drive_note(d->notes, source, driver->place, driver->slot);
+    if (path)
+        drive_by_path(d, source, driver, text_of(d, path));
+    else
+        drive_by_name(d, source, driver);
+}
+
+/* ---- Products, variants, overrides ---- */
+
+static void add_product(struct driving *d, const struct bind_item *item)
+{
+    const struct look_assign *a = &d->b->look.assigns.items[item->assign];
+    const char *word = bind_product_names[item->product];
+    str_id name = str_find(d->doc->strings, word, strlen(word));
+    elem_id from = bind_material_node(d->lib, a->target, &d->ignored);
+    elem_id source = from && name ? doc_child_of_kind(d->doc, from, KIND_INPUT, name) : 0;
+    struct driven driven;
+    struct driver product = {.slot = NULL};
+    if (!source || !material_has(d, name, true, &driven))
+        return;
+    drive(d, source, &product, &driven);
+    follow(d, source); /* its graphs and shaders belong to the substance now */
+    visit_open(d);
+}
+
+static void add_variants(struct driving *d, uint32_t assign)
+{
+    struct variant_list variants = {0};
+    struct driver variant = {.slot = NULL};
+    bind_variants(&d->b->look, assign, d->arena, &variants);
+    for (uint32_t i = 0; i < variants.len; i++)
+        for (elem_id e = element(d, variants.items[i].variant)->first_child; e;
+             e = element(d, e)->next)
+            if (element(d, e)->kind == KIND_INPUT)
+                drive_by_name(d, e, &variant);
+}
+
+/* The inputs that a node has in the document. */
+static void add_inputs(struct driving *d, elem_id node, const struct driver *driver)
+{
+    for (elem_id e = element(d, node)->first_child; e; e = element(d, e)->next)
+        if (element(d, e)->kind == KIND_INPUT)
+            drive_output(d, e, driver);
+}
+
+/*
+ * A material as an override: the inputs of its shaders, and its own ones that are no shaders, count
+ * as outputs of their names.
+ */
+static void add_material(struct driving *d, elem_id target, const struct driver *driver)
+{
+    elem_id material = bind_material_node(d->lib, target, &d->ignored);
+    for (elem_id e = material ? element(d, material)->first_child : 0; e; e = element(d, e)->next) {
+        str_id type = doc_attr_value(d->doc, e, STR_type);
+        if (element(d, e)->kind != KIND_INPUT)
+            continue;
+        if (type != STR_surfaceshader && type != STR_displacementshader) {
+            drive_output(d, e, driver);
+            continue;
+        }
+        struct binding binding = library_resolve_connection(d->lib, e, DOC_TYPE_NONE, &d->ignored);
+        if (binding.kind == BIND_NODE)
+            add_inputs(d, binding.ref, driver);
+    }
+}
+
+static void add_override(struct driving *d, const struct bind_item *item)
+{
+    const struct look_assign *a = &d->b->look.assigns.items[item->assign];
+    const struct driver driver = {look_slot_place(&d->b->look, a),
+                                  d->b->look.names.items[a->name].text};
+    if (a->kind != ASSIGN_GRAPH) {
+        add_material(d, a->target, &driver);
+        return;
+    }
+    for (elem_id e = element(d, a->target)->first_child; e; e = element(d, e)->next)
+        if (element(d, e)->kind == KIND_OUTPUT)
+            drive_output(d, e, &driver);
+}
+
+uint32_t bind_num_parts(const struct bind_item *items, uint32_t num)
+{
+    uint32_t n = 1;
+    while (n < num && (items[n].kind == ITEM_PRODUCT || items[n].kind == ITEM_OVERRIDE))
+        n++;
+    return n;
+}
+
+void bind_drives(const struct bindings *b, const struct library *lib, const struct bind_item *items,
+                 uint32_t num, struct drive_notes *notes, struct arena *arena,
+                 struct library_drives *out)
+{
+    struct driving d = {
+        .b = b, .lib = lib, .doc = &lib->doc, .arena = arena, .out = out, .notes = notes};
+    assert(num > 0 && (items->kind == ITEM_LAYER || items->kind == ITEM_VERTICAL));
+    diag_list_init(&d.ignored, arena);
+    if (num == 1 && !b->look.variants.len)
+        return;
+    find_substance(&d, b->look.assigns.items[items->assign].target);
+    if (!d.substance.material)
+        return;
+    for (uint32_t i = 1; i < num; i++)
+        if (items[i].kind == ITEM_PRODUCT)
+            add_product(&d, &items[i]);
+    add_variants(&d, items->assign);
+    for (uint32_t i = 1; i < num; i++)
+        if (items[i].kind == ITEM_OVERRIDE)
+            add_override(&d, &items[i]);
+}
+
+/* ---- Messages of all stacks ---- */
+
+void drive_note(struct drive_notes *notes, elem_id source, struct diag_place place,
+                const char *slot)
+{
+    uint8_t *seen = &notes->seen[source - notes->first_element];
+    if (!(*seen & DRIVE_MET))
+        vec_push(notes->arena, &notes->outputs, (struct drive_output){source, place, slot});
+    *seen |= DRIVE_MET;
+}
+
+static void guess_inputs(struct driving *d, struct diag_guess *guess)
+{
+    for (uint32_t i = 0; i < d->order.len; i++)
+        for (elem_id e = element(d, d->order.items[i])->first_child; e; e = element(d, e)->next)
+            if (element(d, e)->kind == KIND_INPUT)
+                diag_guess_add(guess, text_of(d, element(d, e)->name));
+    for (uint32_t i = 0; i < d->substance.shaders.len; i++) {
+        uint32_t nodedef = library_match(d->lib, d->substance.shaders.items[i], &d->ignored);
+        for (unsigned k = 0;
+             nodedef != LIBRARY_NONE && k < library_nodedef(d->lib, nodedef)->num_inputs; k++)
+            diag_guess_add(guess, text_of(d, library_ports(d->lib, nodedef, NULL)[k].name));
+    }
+}
+
+/* The nearest name among the inputs of a material that the override is for. */
+static const char *nearest(const struct bindings *b, const struct library *lib, const char *slot,
+                           const char *name, struct drive_notes *notes)
+{
+    struct diag_guess guess;
+    size_t len = strcspn(slot, ":");
+    if (!diag_guess_begin(&guess, notes->diags, name))
+        return "";
+    for (uint32_t i = 0; i < b->look.assigns.len; i++) {
+        const struct look_assign *a = &b->look.assigns.items[i];
+        const char *own = b->look.names.items[a->name].text;
+        if (a->kind != ASSIGN_LAYER || strlen(own) != len || memcmp(own, slot, len) != 0)
+            continue;
+        struct driving d = {.b = b, .lib = lib, .doc = &lib->doc, .arena = notes->arena};
+        diag_list_init(&d.ignored, notes->arena);
+        find_substance(&d, a->target);
+        guess_inputs(&d, &guess);
+    }
+    return diag_guess_text(&guess);
+}
+
+static void warn_unmatched(const struct bindings *b, const struct library *lib,
+                           struct drive_notes *notes)
+{
+    for (uint32_t i = 0; i < notes->outputs.len; i++) {
+        const struct drive_output *o = &notes->outputs.items[i];
+        if (notes->seen[o->source - notes->first_element] & DRIVE_MATCHED)
+            continue;
+        str_id path = doc_attr_value(&lib->doc, o->source, STR_overrides);
+        const char *name =
+            str_text(lib->doc.strings, path ? path : doc_element(&lib->doc, o->source)->name);
+        diag_add(notes->diags, DIAG_ID_override_unmatched, doc_place(&lib->doc, o->source), name,
+                 o->slot, path ? "" : nearest(b, lib, o->slot, name, notes));
+    }
+}
+
+void bind_check_drives(const struct bindings *b, const struct library *lib, struct arena *scratch,
+                       struct diag_list *diags)
+{
+    struct drive_notes notes = {.arena = scratch,
+                                .diags = diags,
+                                .first_element = lib->doc.first_element,
+                                .seen = ARENA_ARRAY(scratch, uint8_t, lib->doc.elements.len)};
+    for (uint32_t i = 0; i < b->stacks.len; i++) {
+        const struct bind_state *state = &b->states.items[b->stacks.items[i].state];
+        const struct bind_item *items = b->items.items + state->first_item;
+        for (uint32_t k = 0, num; k < state->num_items; k += num) {
+            struct library_drives drives = {0};
+            num = bind_num_parts(items + k, state->num_items - k);
+            if (items[k].kind == ITEM_LAYER || items[k].kind == ITEM_VERTICAL)
+                bind_drives(b, lib, items + k, num, &notes, scratch, &drives);
+        }
+    }
+    warn_unmatched(b, lib, &notes);
+}

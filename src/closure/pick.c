@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * One layer of a stack instead of their sum (ASH paper, section 5.3):
+ *
+ *     pick = a number from 0 to below 1
+ *     from the top down:  if (sum <= pick < sum + p) { the layer, without its opacity }
+ *     p = weight · opacity of the layer,  sum = Σ p of the layers above
+ *
+ * In the mean this is the sum of all layers, because a layer counts 1 / p. Only the weights are
+ * computed for all layers. What a layer reads through screen derivatives needs its neighbours,
+ * which may have picked another layer: so textures take explicit derivatives, which the scheduler
+ * moves before the branch.
+ *
+ * The number is the host's, u_layerSample, or below 0 a hash of the point and the frame: pcg3d
+ * (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering").
+ */
+#include "closure/closure_priv.h"
+
+#include <assert.h>
+
+/* ---- The number ---- */
+
+static ir_ref uint_of(struct ir_graph *g, uint32_t value)
+{
+    struct ir_value v = {.type = IR_TYPE_UINT, .w[0].u = value};
+    return ir_const(g, &v);
+}
+
+/* v[i] += v[a] * v[b] */
+static void stir(struct ir_graph *g, ir_ref v[3], unsigned i, unsigned a, unsigned b)
+{
+    v[i] = ir_op2(g, IR_ADD, v[i], ir_op2(g, IR_MUL, v[a], v[b]));
+}
+
+static ir_ref hash_of(struct shader *shader, ir_ref point)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref frame =
+        shader_read(shader, shader_private_uniform(shader, STR_u_frame, IR_TYPE_FLOAT, 0));
+    ir_ref v[3];
+    for (unsigned i = 0; i < 3; i++) {
+        ir_ref bits = ir_build(g, IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, 0,
+                               (ir_ref[]){ir_component(g, point, i)}, 1);
+        if (i == 2)
+            bits = ir_op2(g, IR_XOR, bits,
+                          ir_build(g, IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, 0, &frame, 1));
+        v[i] = ir_op2(g, IR_ADD, ir_op2(g, IR_MUL, bits, uint_of(g, 1664525u)),
+                      uint_of(g, 1013904223u));
+    }
+    for (unsigned round = 0; round < 2; round++) {
+        for (unsigned i = 0; i < 3; i++)
+            stir(g, v, i, (i + 1) % 3, (i + 2) % 3);
+        for (unsigned i = 0; i < 3 && round == 0; i++)
+            v[i] = ir_op2(g, IR_XOR, v[i], ir_op2(g, IR_SHR, v[i], uint_of(g, 16)));
+    }
+    /* 24 bits are exact in a float */
+    ir_ref top = ir_convert(g, IR_TYPE_FLOAT, ir_op2(g, IR_SHR, v[0], uint_of(g, 8)));
+    return ir_op2(g, IR_MUL, top, ir_const_float(g, 1.0f / 16777216.0f));
+}
+
+ir_ref closure_layer_number(struct shader *shader, ir_ref point)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref given =
+        shader_read(shader, shader_private_uniform(shader, STR_u_layerSample, IR_TYPE_FLOAT, 0));
+    ir_ref is_absent = ir_op2(g, IR_LT, given, ir_const_float(g, 0.0f));
+    ir_ref number = ir_op3(g, IR_SELECT, is_absent, hash_of(shader, point), given);
+    ir_suggest_name(g, number, STR_pick, IR_NAME_ROLE);
+    return number;
+}
+
+/* ---- The choice ---- */
+
+/* The layers that a number may pick: those of weight 0 never are. */
+static bool is_choice(const struct ir_graph *g, const struct ir_slot *slot)
+{
+    return slot->surface && !ir_slot_is_vertical(g, slot) && !ir_const_is(g, slot->weight, 0.0f);
+}
+
+static bool is_last(const struct ir_graph *g, ir_ref slots, unsigned i)
+{
+    while (i-- > 0) {
+        struct ir_slot slot = ir_slot(g, slots, i);
+        if (is_choice(g, &slot))
+            return false;
+    }
+    return true;
+}
+
+/* 0 is all numbers; high 0: whatever is from `low` on. */
+static ir_ref is_between(struct ir_graph *g, ir_ref number, ir_ref low, ir_ref high)
+{
+    ir_ref above = ir_const_is(g, low, 0.0f) ? 0 : ir_op2(g, IR_GE, number, low);
+    ir_ref below = high ? ir_op2(g, IR_LT, number, high) : 0;
+    return above && below ? ir_op2(g, IR_LAND, above, below) : above ? above : below;
+}
+
+/*
+ * The base of an opaque stack takes the rest of the numbers, whatever the sum of the weights rounds
+ * to.
+ */
+void closure_choose(struct shader *shader, const struct closure_host *host, ir_ref slots,
+                    ir_ref number, struct closure_choices *out)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref low = ir_const_float(g, 0.0f), one = ir_const_float(g, 1.0f);
+    bool is_opaque = ir_const_is(g, ir_arg(g, slots, 0), 1.0f);
+    const struct closure_surface *layers = closure_slot_surfaces(shader, host, slots);
+    for (unsigned i = ir_num_slots(g, slots); i-- > 0;) {
+        struct ir_slot slot = ir_slot(g, slots, i);
+        if (!is_choice(g, &slot))
+            continue;
+        ir_ref share = closure_mul(g, slot.weight, layers[i].alpha ? layers[i].alpha : one);
+        ir_ref high = ir_op2(g, IR_ADD, low, share);
+        bool takes_rest = is_opaque && is_last(g, slots, i);
+        struct closure_choice choice = {.layer = closure_picked(g, layers[i]),
+                                        .low = low,
+                                        .high = high,
+                                        .share = share,
+                                        .is_it = is_between(g, number, low, takes_rest ? 0 : high)};
+        vec_push(shader->arena, &out->items, choice);
+        low = high;
+    }
+    out->covered = is_opaque ? 0 : low;
+}
+
+/* ---- The layers ---- */
+
+struct rewriting {
+    struct shader *shader;
+    struct ir_graph *graph;
+    uint32_t num_nodes;
+    ir_ref *became;
+};
+
+static ir_ref over_copies(struct rewriting *r, ir_ref ref, ir_ref first)
+{
+    const struct ir_node node = *ir_get(r->graph, ref);
+    ir_ref *args = ARENA_ARRAY(r->shader->arena, ir_ref, node.num_args + 1u);
+    bool changed = first != 0;
+    uint32_t n = 0;
+    for (; n < node.num_args; n++) {
+        args[n] = r->became[ir_arg(r->graph, ref, n)];
+        changed |= args[n] != ir_arg(r->graph, ref, n);
+    }
+    if (first)
+        args[n++] = first;
+    return changed ? ir_build(r->graph, (enum ir_op)node.op, node.type, node.attr, args, n) : ref;
+}
+
+/* texture(s, uv) with the derivatives of uv */
+static ir_ref with_derivatives(struct rewriting *r, ir_ref ref)
+{
+    struct ir_graph *g = r->graph;
+    ir_ref uv = r->became[ir_arg(g, ref, 1)];
+    ir_ref args[4] = {ir_arg(g, ref, 0), uv, ir_op1(g, IR_DFDX, uv), ir_op1(g, IR_DFDY, uv)};
+    return ir_build(g, IR_TEX_GRAD, ir_type_of(g, ref), 0, args, 4);
+}
+
+/* The nodes that the weights read: they are computed before the branch anyway. */
+static const uint8_t *mark_shared(struct shader *shader, ir_ref slots)
+{
+    const struct ir_graph *g = shader->graph;
+    uint32_t num = 0;
+    ir_ref *shared = ARENA_ARRAY(shader->arena, ir_ref, ir_get(g, slots)->num_args);
+    for (unsigned i = 0; i < ir_num_slots(g, slots); i++)
+        shared[num++] = ir_slot(g, slots, i).weight;
+    shared[num++] = ir_arg(g, slots, 0);
+    return ir_mark(g, shared, num, shader->arena);
+}
+
+ir_ref closure_own_textures(struct shader *shader, ir_ref slots)
+{
+    struct rewriting r = {shader, shader->graph, slots + 1, NULL};
+    const uint8_t *is_shared = mark_shared(shader, slots),
+                  *needed = ir_mark(r.graph, &slots, 1, shader->arena);
+    r.became = ARENA_ARRAY(shader->arena, ir_ref, r.num_nodes);
+    for (ir_ref ref = 1; ref < r.num_nodes; ref++) {
+        r.became[ref] = ref;
+        if (!needed[ref] || is_shared[ref])
+            continue;
+        ir_push_origin_of(r.graph, ref);
+        bool is_texture = ir_get(r.graph, ref)->op == IR_TEX;
+        r.became[ref] = is_texture ? with_derivatives(&r, ref) : over_copies(&r, ref, 0);
+        ir_pop_origin(r.graph);
+    }
+    return r.became[slots];
+}
+
+ir_ref closure_in_loop(struct shader *shader, ir_ref root, uint32_t loop)
+{
+    struct rewriting r = {shader, shader->graph, root + 1, NULL};
+    if (!loop || !root || !(ir_get(r.graph, root)->flags & IR_NODE_LOOP))
+        return root;
+    ir_ref number = ir_const_int(r.graph, (int32_t)loop);
+    const uint8_t *needed = ir_mark(r.graph, &root, 1, shader->arena);
+    r.became = ARENA_ARRAY(shader->arena, ir_ref, r.num_nodes);
+    for (ir_ref ref = 1; ref < r.num_nodes; ref++) {
+        const struct ir_node *node = ir_get(r.graph, ref);
+        r.became[ref] = ref;
+        if (!needed[ref] || !(node->flags & IR_NODE_LOOP))
+            continue;
+        bool is_source = (node->op == IR_CONTEXT || node->op == IR_SAMPLE) && !node->num_args;
+        ir_push_origin_of(r.graph, ref);
+        r.became[ref] = over_copies(&r, ref, is_source ? number : 0);
+        ir_pop_origin(r.graph);
+    }
+    return r.became[root];
+}

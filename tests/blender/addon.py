@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The add-on inside of Blender, without a display: import, export, round trips, losses, faults, the preview. Arguments after "--": the root
+of the project, the program, an empty folder."""
+import pathlib
+import sys
+
+import bpy
+
+ROOT, PROGRAM, WORK = (pathlib.Path(word) for word in sys.argv[sys.argv.index("--") + 1:])
+sys.path += [str(ROOT / "tests"), str(ROOT / "blender")]
+from checks import check, finish
+
+import mxgen_materials
+import mxgen
+from mxgen_materials.exporting import export_file
+from mxgen_materials.importing import import_file
+
+PRESETS = {
+    "plastic": {"Base Color": (0.8, 0.1, 0.05, 1), "Roughness": 0.3, "Specular": 0.5},
+    "metal": {"Base Color": (0.95, 0.64, 0.54, 1), "Metallic": 1.0, "Roughness": 0.2, "Anisotropic": 0.5},
+    "glass": {"Base Color": (0.9, 1.0, 0.9, 1), "Transmission": 1.0, "Roughness": 0.05, "IOR": 1.33},
+    "wax": {"Base Color": (0.8, 0.7, 0.5, 1), "Subsurface": 0.4, "Subsurface Radius": (1.0, 0.4, 0.2), "Subsurface Color": (0.9, 0.5, 0.3, 1)},
+    "velvet": {"Base Color": (0.2, 0.0, 0.3, 1), "Sheen": 0.8, "Roughness": 0.9, "Specular": 0.1},
+    "paint": {"Base Color": (0.0, 0.1, 0.6, 1), "Clearcoat": 1.0, "Clearcoat Roughness": 0.02},
+    "lamp": {"Emission": (1.0, 0.8, 0.4, 1), "Emission Strength": 3.0, "Base Color": (0, 0, 0, 1)},
+    "veil": {"Alpha": 0.4},
+}
+
+
+def principled(name, values):
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    node = material.node_tree.nodes["Principled BSDF"]
+    for socket, value in values.items():
+        node.inputs[socket].default_value = value
+    return material
+
+
+def bsdf_of(material):
+    return next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+
+
+def values_of(material):
+    """The sockets with values, as lists of numbers."""
+    found = {}
+    for socket in bsdf_of(material).inputs:
+        if socket.type in ("RGBA", "VECTOR", "VALUE") and not socket.hide_value and not socket.is_linked:
+            value = socket.default_value
+            found[socket.name] = [float(x) for x in value] if socket.type != "VALUE" else [float(value)]
+    return found
+
+
+def close(one, other):
+    return all(abs(a - b) < 1e-4 for a, b in zip(one, other))
+
+
+def clear():
+    for group in bpy.data.materials, bpy.data.images, bpy.data.texts:
+        for one in list(group):
+            group.remove(one)
+
+
+def text_of(path, text):
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def document(shader):
+    return f"""<materialx version="1.39">{shader}<surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>"""
+
+
+def check_round_trips():
+    for name, values in PRESETS.items():
+        clear()
+        before = values_of(principled(name, values))
+        path = str(WORK / f"{name}.mtlx")
+        losses = export_file(path, list(bpy.data.materials))
+        check(not losses, f"{name} loses nothing: {losses}")
+        exported = mxgen.Context().load(path)
+        check(exported.validate().errors == 0 and exported[f"SR_{name}"].category == "open_pbr_surface", f"{name} is a valid OpenPBR document")
+        check("void main" in (exported.generate("essl").pixel or ""), f"{name} generates")
+        clear()
+        made, losses = import_file(path)
+        expected = ["fuzz_color"] if "Sheen" in values else [] # the tint of sheen
+        check(len(made) == 1 and [loss.what for loss in losses] == expected, f"{name} comes back whole: {losses}")
+        after = values_of(made[0])
+        for socket, value in before.items():
+            # Unused sockets may differ: OpenPBR has other defaults, and no such inputs.
+            if socket in ("Sheen Tint", "Specular Tint", "Anisotropic Rotation", "Transmission Roughness", "Subsurface IOR", "Subsurface Anisotropy", "Weight"):
+                continue
+            check(close(value, after[socket]), f"{name}: {socket} was {value} and is {after[socket]}")
+
+
+def check_textures():
+    clear()
+    image = bpy.data.images.new("bricks", 4, 4)
+    image.filepath_raw = str(WORK / "bricks.png")
+    image.file_format = "PNG"
+    image.save()
+    material = principled("Wall", {"Roughness": 0.7})
+    tree, node = material.node_tree, bsdf_of(material)
+    for socket, space in ("Base Color", "sRGB"), ("Roughness", "Non-Color"):
+        texture = tree.nodes.new("ShaderNodeTexImage")
+        texture.image = bpy.data.images.load(str(WORK / "bricks.png"))
+        texture.image.colorspace_settings.name = space
+        texture.extension = "EXTEND"
+        tree.links.new(texture.outputs["Color"], node.inputs[socket])
+    bump = tree.nodes.new("ShaderNodeNormalMap")
+    bump.inputs["Strength"].default_value = 0.5
+    tree.links.new(texture.outputs["Color"], bump.inputs["Color"])
+    tree.links.new(bump.outputs["Normal"], node.inputs["Normal"])
+    noise = tree.nodes.new("ShaderNodeTexNoise")
+    tree.links.new(noise.outputs["Fac"], node.inputs["Metallic"])
+    losses = export_file(str(WORK / "wall.mtlx"), [material])
+    check([loss.what for loss in losses] == ["Metallic"] and "Noise" in losses[0].reason, f"a noise is lost: {losses}")
+    exported = mxgen.Context().load(WORK / "wall.mtlx")
+    check(exported.validate().errors == 0, str(exported.validate()))
+    color = exported["SR_Wall/base_color"].connection.source
+    check((color.child("file").value, color.child("file").get("colorspace"), color.child("uaddressmode").value) == ("bricks.png", "srgb_texture", "clamp"),
+          "the image of the colour")
+    check(exported["SR_Wall/geometry_normal"].connection.source.category == "normalmap", "the normal map")
+    clear()
+    made, losses = import_file(str(WORK / "wall.mtlx"))
+    node = bsdf_of(made[0])
+    texture = node.inputs["Base Color"].links[0].from_node
+    check((texture.type, texture.image.colorspace_settings.name, texture.extension) == ("TEX_IMAGE", "sRGB", "EXTEND"), "the texture comes back")
+    check(pathlib.Path(texture.image.filepath) == WORK / "bricks.png", texture.image.filepath)
+    check(abs(node.inputs["Normal"].links[0].from_node.inputs["Strength"].default_value - 0.5) < 1e-6, "the strength of the normal map")
+    check(node.inputs["Roughness"].links[0].from_node.image.colorspace_settings.name == "Non-Color", "numbers stay numbers")
+
+
+def check_models():
+    """Documents of other shading models, and what is lost of them."""
+    for shader, socket, expected, lost in (
+            ('<standard_surface name="S" type="surfaceshader"><input name="base" type="float" value="0.5"/><input name="base_color" type="color3" value="0.8, 0.4, 0.2"/>'
+             '<input name="thin_film_thickness" type="float" value="500"/></standard_surface>', "Base Color", [0.4, 0.2, 0.1, 1], ["thin_film_thickness"]),
+            ('<standard_surface name="S" type="surfaceshader"><input name="opacity" type="color3" value="0.2, 0.4, 0.6"/></standard_surface>',
+             "Alpha", [0.4], ["opacity"]),
+            ('<standard_surface name="S" type="surfaceshader"><input name="specular" type="float" value="1"/><input name="specular_IOR" type="float" value="1.5"/></standard_surface>',
+             "Specular", [0.5], []),
+            ('<open_pbr_surface name="S" type="surfaceshader"><input name="coat_darkening" type="float" value="0.5"/><input name="fuzz_weight" type="float" value="0.3"/></open_pbr_surface>',
+             "Sheen", [0.3], []), # there is no coat
+            ('<open_pbr_surface name="S" type="surfaceshader"><input name="coat_darkening" type="float" value="0.5"/><input name="coat_weight" type="float" value="0.3"/></open_pbr_surface>',
+             "Clearcoat", [0.3], ["coat_darkening"]),
+            ('<gltf_pbr name="S" type="surfaceshader"><input name="metallic" type="float" value="0.25"/></gltf_pbr>', "Metallic", [0.25], []),
+            ('<UsdPreviewSurface name="S" type="surfaceshader"><input name="diffuseColor" type="color3" value="0.1, 0.2, 0.3"/></UsdPreviewSurface>',
+             "Base Color", [0.1, 0.2, 0.3, 1], []),
+            ('<standard_surface name="S" type="surfaceshader"><input name="base_color" type="color3" nodename="n"/></standard_surface>'
+             '<noise2d name="n" type="color3"/>', "Metallic", [0], ["base_color"]),
+            ('<standard_surface name="S" type="surfaceshader"><input name="base_color" type="color3" nodename="n"/></standard_surface>'
+             '<image name="n" type="color3"><input name="file" type="filename" value="gone.png"/></image>', "Metallic", [0], ["base_color"])):
+        clear()
+        made, losses = import_file(text_of(WORK / "model.mtlx", document(shader)))
+        check(len(made) == 1 and close(values_of(made[0])[socket], expected), f"{socket} is {values_of(made[0]).get(socket)}, not {expected}: {shader}")
+        check([loss.what for loss in losses] == lost, f"losses {losses}, not {lost}: {shader}")
+    made, losses = import_file(text_of(WORK / "model.mtlx", document('<surface name="S" type="surfaceshader"/>')))
+    check(not made and "has no counterpart" in losses[0].reason, f"a surface of BSDF nodes: {losses}")
+
+
+def fails(operator, *words, **arguments):
+    """Whether an operator reports an error with the words."""
+    try:
+        operator(**arguments)
+    except RuntimeError as error:
+        return all(word in str(error) for word in words) or print(error)
+    return False
+
+
+def check_operators():
+    clear()
+    mxgen_materials.register()
+    bpy.ops.mesh.primitive_cube_add()
+    check(bpy.ops.mxgen.import_document(filepath=str(ROOT / "examples/gold.mtlx")) == {"FINISHED"}, "the operator imports")
+    material = bpy.context.object.active_material
+    check(material is not None and material.name == "Gold" and close(values_of(material)["Metallic"], [1]), "and assigns the material")
+    check("specular_color" in bpy.data.texts["mxgen report"].as_string(), "the report lists the losses")
+    check(bpy.ops.mxgen.export_document(filepath=str(WORK / "out.mtlx")) == {"FINISHED"} and (WORK / "out.mtlx").exists(), "the operator exports")
+    broken = text_of(WORK / "broken.mtlx", document('<standard_surface name="S" type="surfaceshader"><input name="base" type="float" value="red"/></standard_surface>'))
+    count = len(bpy.data.materials)
+    check(fails(bpy.ops.mxgen.import_document, "broken.mtlx:1:", "bad-value", filepath=broken), "a broken document is an error with its place")
+    check(len(bpy.data.materials) == count, "and makes nothing")
+    check(fails(bpy.ops.mxgen.import_document, "none.mtlx", filepath=str(WORK / "none.mtlx")), "a missing document is an error")
+    check(fails(bpy.ops.mxgen.import_document, "no surface material", filepath=text_of(WORK / "empty.mtlx", '<materialx version="1.39"/>')), "an empty document")
+    check(fails(bpy.ops.mxgen.export_document, "No such file", filepath=str(WORK / "none/out.mtlx")), "a missing folder is an error")
+    check(bpy.ops.mxgen.preview(size=32) == {"FINISHED"} and tuple(bpy.data.images["mxgen preview"].size) == (32, 32), "the preview")
+    clear()
+    check(fails(bpy.ops.mxgen.export_document, "no material", filepath=str(WORK / "x.mtlx")), "nothing to export")
+    mxgen_materials.unregister()
+    check(not hasattr(bpy.types, "MXGEN_OT_import_document"), "the add-on goes without a trace")
+
+
+check_round_trips()
+check_textures()
+check_models()
+check_operators()
+finish("blender")

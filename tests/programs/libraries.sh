@@ -1,0 +1,146 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Several libraries, and the folders in which mxgen looks for their files. Argument: mxgen.
+mxgen=$(realpath "$1")
+. "$(dirname "$0")/common.sh"
+
+# A library in parts, as vendors have them: "folder/maker" with definitions, and source whose `file` begins at the folder above.
+mkdir -p vendor/folder/maker/glsl vendor/folder/changes parts documents
+cat >vendor/folder/maker/defs.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_ash" node="ash"><input name="in" type="float" value="0.25"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_ash" nodedef="ND_ash" target="genglsl" file="folder/maker/glsl/ash.glsl" function="ash"/>
+  <implementation name="IM_ash_genmsl" nodedef="ND_ash" target="genmsl" file="folder/maker/msl/ash.metal" function="ash"/>
+</materialx>
+END
+cat >vendor/folder/maker/glsl/ash.glsl <<'END'
+#include "folder/maker/glsl/twice.glsl"
+void ash(float in1, out float result) { result = twice(in1); }
+END
+echo 'float twice(float x) { return 2.0 * x; }' >vendor/folder/maker/glsl/twice.glsl
+sed 's/ash.glsl/grey.glsl/' vendor/folder/maker/defs.mtlx | grep -v 'nodedef name\|genmsl' >vendor/folder/changes/defs.mtlx
+mkdir -p vendor/folder/changes
+sed -i 's|folder/maker/glsl/||' vendor/folder/changes/defs.mtlx
+echo 'void ash(float in1, out float result) { result = 3.0 * in1; }' >vendor/folder/changes/grey.glsl
+cat >document.mtlx <<'END'
+<materialx version="1.39"><ash name="a" type="float"/><output name="o" type="float" nodename="a"/></materialx>
+END
+
+# draws VALUE ARGUMENT...: what the output is, with all inputs compiled in.
+draws() {
+    local value=$1
+    shift
+    exits 0 "$mxgen" document.mtlx --interface reduced -o made "$@" && grep -F "vec4($value, $value, $value, 1.0)" made/o.frag
+}
+check '`file` from the folder above a library' draws 0.5 --library vendor/folder
+check 'a part of the library' exits 1 "$mxgen" document.mtlx --library vendor/folder/maker -o made
+check 'which lacks a file' grep -q "defs.mtlx:3:.*folder/maker/glsl/ash.glsl.*\[missing-source-file\]" err
+check '--source-path' draws 0.5 --library vendor/folder/maker --source-path vendor
+check 'the later of two libraries' draws 0.75 --library vendor/folder/maker --library vendor/folder/changes --source-path vendor
+check 'names both' grep -q "'IM_ash' of 'vendor/folder/changes/defs.mtlx' replaces 'IM_ash' of 'vendor/folder/maker/defs.mtlx'" err
+check 'in the other order' draws 0.5 --library vendor/folder/changes/defs.mtlx --library vendor/folder/maker --source-path vendor
+check 'a library twice' draws 0.5 --library vendor/folder/maker --library vendor/folder/maker --source-path vendor
+check 'replaces nothing' test "$(grep -c replaced-implementation err)" = 0
+
+# Implementations for targets that mxgen does not have are left aside, which `library list` says.
+check 'library list' exits 0 "$mxgen" library list ash vendor/folder
+check 'of foreign targets' grep -q 'note: 1 implementations are for .*: genmsl (1) \[foreign-implementations\]' err
+check 'library list --quiet' exits 0 "$mxgen" library list ash vendor/folder --quiet
+check 'says no note' test ! -s err
+check 'other commands do not say it' draws 0.75 --library vendor/folder/maker --library vendor/folder/changes --source-path vendor
+check 'no note' test "$(grep -c foreign-implementations err)" = 0
+check 'an image keeps it' exits 0 "$mxgen" library pack vendor/folder/maker --source-path vendor -o maker.mxlib
+check 'library list of an image' exits 0 "$mxgen" library list ash maker.mxlib
+check 'of foreign targets' grep -q 'genmsl (1) \[foreign-implementations\]' err
+
+# Included documents, too.
+cat >documents/outer.mtlx <<'END'
+<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">
+  <xi:include href="shared/ash.mtlx"/><output name="o" type="float" nodename="a"/>
+</materialx>
+END
+mkdir -p elsewhere/shared
+echo '<materialx version="1.39"><constant name="a" type="float"><input name="value" type="float" value="0.125"/></constant></materialx>' >elsewhere/shared/ash.mtlx
+check 'an include that is elsewhere' exits 1 "$mxgen" documents/outer.mtlx -o made
+check 'is missing' grep -q 'outer.mtlx:2:.*include-missing' err
+check 'an include of a search path' exits 0 "$mxgen" documents/outer.mtlx -o made --interface reduced --source-path elsewhere
+check 'is read' grep -qF 'vec4(0.125, 0.125, 0.125, 1.0)' made/o.frag
+mkdir -p documents/shared
+sed 's/0.125/0.75/' elsewhere/shared/ash.mtlx >documents/shared/ash.mtlx
+check 'a file beside the document' exits 0 "$mxgen" documents/outer.mtlx -o made --interface reduced --source-path elsewhere
+check 'comes first' grep -qF 'vec4(0.75, 0.75, 0.75, 1.0)' made/o.frag
+rm documents/shared/ash.mtlx && mkdir documents/shared/ash.mtlx
+check 'an include that cannot be read' exits 1 "$mxgen" documents/outer.mtlx -o made --source-path elsewhere
+check 'is not looked for elsewhere' grep -q 'outer.mtlx:2:' err
+
+# Source for genglsl is read as portable where it can be: functions of MaterialX's generators, words as numbers, implicit inputs, tokens of
+# textures. So it folds.
+mkdir -p portable
+cat >portable/defs.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_rest" node="rest"><input name="in" type="float" value="1"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_rest" nodedef="ND_rest" target="genglsl" sourcecode="mx_mod({{in}}, 0.75) * mx_square(M_PI / M_PI);"/>
+  <nodedef name="ND_pick" node="pick">
+    <input name="mode" type="string" value="third" enum="first, second, third" uniform="true"/><output name="out" type="float"/>
+  </nodedef>
+  <implementation name="IM_pick" nodedef="ND_pick" target="genglsl" file="pick.glsl" function="pick"/>
+  <nodedef name="ND_read" node="read"><input name="file" type="filename" value="" uniform="true"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_read" nodedef="ND_read" target="genglsl" file="read.glsl" function="read"/>
+</materialx>
+END
+cat >portable/pick.glsl <<'END'
+#include "lib/$fileTransformUv"
+void pick(int mode, vec2 uv_scale, vec2 uv_offset, out float result)
+{
+    result = mx_transform_uv(vec2(float(mode) * 0.25), uv_scale, uv_offset).x;
+}
+END
+mkdir -p portable/lib
+echo 'vec2 mx_transform_uv(vec2 uv, vec2 scale, vec2 offset) { return uv * scale + offset; }' >portable/lib/mx_transform_uv.glsl
+cat >portable/read.glsl <<'END'
+void read($texSamplerSignature, out float result)
+{
+    result = texture($texSamplerSampler2D, vec2(0.25)).x;
+}
+END
+cat >portable.mtlx <<'END'
+<materialx version="1.39">
+  <rest name="a" type="float"/><output name="rest" type="float" nodename="a"/>
+  <pick name="b" type="float"/><output name="pick" type="float" nodename="b"/>
+  <read name="c" type="float"><input name="file" type="filename" value="x.png"/></read><output name="read" type="float" nodename="c"/>
+</materialx>
+END
+check 'source for genglsl' exits 0 "$mxgen" portable.mtlx --interface reduced --library portable -o made
+check 'functions of the generators fold' grep -qF 'vec4(0.25, 0.25, 0.25, 1.0)' made/rest.frag
+check 'a word is a number, and inputs are implicit' grep -qF 'vec4(0.5, 0.5, 0.5, 1.0)' made/pick.frag
+check 'tokens of textures' grep -q 'texture(.*vec2(0.25))' made/read.frag
+check 'without a copied function' test "$(grep -c 'void read' made/read.frag)" = 0
+
+# Operators and materials that only foreign targets implement are mxgen's own.
+cat >operators.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_surface" node="surface">
+    <input name="bsdf" type="BSDF" value=""/><input name="edf" type="EDF" value=""/>
+    <input name="opacity" type="float" value="1"/><input name="thin_walled" type="boolean" value="false" uniform="true"/>
+    <output name="out" type="surfaceshader"/>
+  </nodedef>
+  <implementation name="IM_surface" nodedef="ND_surface" target="genmdl" file="none.mdl" function="surface"/>
+  <nodedef name="ND_surfacematerial" node="surfacematerial">
+    <input name="surfaceshader" type="surfaceshader" value=""/><input name="backsurfaceshader" type="surfaceshader" value=""/>
+    <input name="displacementshader" type="displacementshader" value=""/><output name="out" type="material"/>
+  </nodedef>
+  <nodedef name="ND_other" node="other"><output name="out" type="surfaceshader"/></nodedef>
+</materialx>
+END
+cat >material.mtlx <<'END'
+<materialx version="1.39">
+  <surface name="s" type="surfaceshader"/>
+  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+</materialx>
+END
+check 'operators without implementations' exits 0 "$mxgen" material.mtlx --no-builtin-library --library operators.mtlx -o made
+sed 's/<surface name="s" type="surfaceshader"/<other name="s" type="surfaceshader"/' material.mtlx >other.mtlx
+check 'other nodes without implementations' exits 1 "$mxgen" other.mtlx --no-builtin-library --library operators.mtlx -o made
+check 'are an error' grep -q 'missing-implementation' err
+
+finish libraries

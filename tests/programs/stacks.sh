@@ -1,0 +1,230 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Shaders of stacks (docs/slots.md, "Shaders"). Arguments: mxgen, mxgen-compile ('' to compile nothing).
+mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")}
+here=$(cd "$(dirname "$0")" && pwd)
+examples=$here/../../examples
+. "$here/common.sh"
+[ -n "$compile" ] || skip 'without glslang no shader is compiled'
+
+# shader PATH...: the pixel stage of the stack of the primitive /PATH, and its main function in the file main.
+stacks() { "$mxgen" look.mtlx --stage stage.txt --target vulkan --interface reduced -o out.d "$@"; }
+program() { # PATH
+    python3 -c "
+import json, sys
+d = json.load(open('out.d/bindings.json'))
+stack = {p['path']: p['stack'] for p in d['primitives']}['$1']
+print({s['name']: s['program'] for s in d['stacks']}[stack])"
+}
+shader() { sed -n '/void main/,$p' "out.d/$(program "$1").frag" >main; }
+# Runs Python on bindings.json: `d`, its stacks by name `s`, the stack of a primitive `of(path)`.
+json() {
+    python3 -c "
+import json
+d = json.load(open('out.d/bindings.json'))
+s = {x['name']: x for x in d['stacks']}
+of = lambda path: s[next(p['stack'] for p in d['primitives'] if p['path'] == path)]
+value = lambda path, name: next(v['value'] for v in of(path)['values'] if v['name'] == name)
+assert $1, d"
+}
+
+document() { # LOOK...: the lines of a look over materials
+    cat >look.mtlx <<XML
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <surface_unlit name="s_red" type="surfaceshader"><input name="emission_color" type="color3" value="1, 0, 0"/></surface_unlit>
+  <surface_unlit name="s_blue" type="surfaceshader"><input name="emission_color" type="color3" value="0, 0, 1"/></surface_unlit>
+  <surface_unlit name="s_half" type="surfaceshader">
+    <input name="emission_color" type="color3" value="0, 1, 0"/><input name="opacity" type="float" value="0.5"/>
+  </surface_unlit>
+  <surfacematerial name="red" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s_red"/></surfacematerial>
+  <surfacematerial name="half" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s_half"/></surfacematerial>
+  <substance name="quarter" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s_blue"/><input name="mask" type="float" value="0.25"/>
+  </substance>
+  <substance name="leaf" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s_red"/><input name="cutout" type="float" value="0.5"/>
+  </substance>
+  <nodegraph name="NG_half"><constant name="c" type="float"><input name="value" type="float" value="0.5"/></constant>
+    <output name="mask" type="float" nodename="c"/></nodegraph>
+  <nodegraph name="NG_green"><constant name="c" type="color3"><input name="value" type="color3" value="0, 1, 0"/></constant>
+    <output name="emission_color" type="color3" nodename="c"/></nodegraph>
+  $1
+</materialx>
+XML
+}
+# out1 is a constant in these documents: the colour of the layers by their weights.
+out1() { grep -qF "out1 = $1;" main; }
+
+printf '/a/b\n/c\n' >stage.txt
+document '<look name="L"><materialassign material="red" geom="/"/><materialassign slot="050" material="quarter" geom="/a/b"/>
+  <materialassign slot="060" material="half" geom="/a/b"/></look>'
+check 'weights' exits 0 stacks
+check 'a line tells programs' grep -qx '2 stacks, 2 programs' out
+shader /a/b
+# 060: 0.5; 050: 0.25 · 0.5; 000: 0.75 · 0.5
+check 'opacity and mask hide what is below' out1 'vec4(0.375, 0.5, 0.125, 1.0)'
+shader /c
+check 'one layer' out1 'vec4(1.0, 0.0, 0.0, 1.0)'
+document '<look name="L"><materialassign material="quarter" geom="/"/></look>'
+check 'a masked layer alone' exits 0 stacks
+shader /c
+check 'is transparent where no mask is' out1 'vec4(0.0, 0.0, 0.25, 0.25)'
+document '<look name="L"><materialassign material="leaf" geom="/"/><materialassign slot="050" material="quarter" geom="/"/></look>'
+check 'a cutout' exits 0 stacks
+shader /c
+check 'makes a hole in all layers' out1 'vec4(0.375, 0.0, 0.125, 0.5)'
+document '<oren_nayar_diffuse_bsdf name="matt" type="BSDF"><input name="weight" type="float" value="0.5"/></oren_nayar_diffuse_bsdf>
+  <surface name="s_matt" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="matt"/></surface>
+  <substance name="coat" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s_matt"/><input name="mask" type="float" value="0.5"/>
+  </substance>
+  <look name="L"><materialassign material="red" geom="/"/><materialassign slot="000|010" material="coat" geom="/a"/>
+    <materialassign slot="000|020" material="coat" geom="/a/b"/><materialassign slot="000|010" material="half" geom="/c"/></look>'
+check 'vertical layers' exits 0 stacks --environment none --lights none
+shader /a
+# T of the coat is 0.5: 1 - 0.5 + 0.5 · 0.5
+check 'take light of the base' out1 'vec4(0.75, 0.0, 0.0, 1.0)'
+shader /a/b
+check 'lie on each other' out1 'vec4(0.5625, 0.0, 0.0, 1.0)'
+shader /c
+check 'add their own' out1 'vec4(1.0, 0.5, 0.0, 1.0)'
+document '<look name="L"><materialassign material="red" geom="/a"/></look>'
+check 'a primitive without layers' exits 0 stacks --environment none
+shader /c
+check 'is white' grep -q '0.8' main
+
+document '<look name="L"><materialassign material="red" geom="/"/><materialassign slot="000::010" nodegraph="NG_half" geom="/a"/>
+  <materialassign slot="000::020" nodegraph="NG_green" geom="/a/b"/></look>'
+check 'overrides' exits 0 stacks
+shader /a
+check 'of the mask that every material has' out1 'vec4(0.5, 0.0, 0.0, 0.5)'
+shader /a/b
+check 'of a shader' out1 'vec4(0.0, 0.5, 0.0, 0.5)'
+check 'as uniforms' exits 0 stacks --interface complete
+check 'share a program' grep -qx '3 stacks, 2 programs' out
+check 'have the names of slots' json 'value("/c", "x000_s_red_emission_color") == [1, 0, 0] and of("/c")["values"][0]["slot"] == "000"'
+check 'of the program, with values of the stack' json 'value("/a/b", "x000_s_red_emission_color") == [0, 1, 0] if of("/a/b")["program"] == of("/a")["program"] else 0'
+
+# One layer runs: each pattern stands in a block of its own, and no two conditions hold for one number.
+cat >look.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <worleynoise3d name="worley" type="float"/><fractal3d name="fractal" type="float"/><cellnoise3d name="cell" type="float"/>
+  <image name="photo" type="float"><input name="file" type="filename" value="photo.png"/></image>
+  <noise2d name="noise" type="float"/><image name="stencil" type="float"><input name="file" type="filename" value="stencil.png"/></image>
+  <standard_surface name="a" type="surfaceshader"><input name="base" type="float" nodename="worley"/></standard_surface>
+  <standard_surface name="b" type="surfaceshader"><input name="specular_roughness" type="float" nodename="fractal"/></standard_surface>
+  <standard_surface name="c" type="surfaceshader"><input name="base" type="float" nodename="photo"/><input name="specular" type="float" nodename="cell"/></standard_surface>
+  <substance name="A" type="material"><input name="surfaceshader" type="surfaceshader" nodename="a"/></substance>
+  <substance name="B" type="material"><input name="surfaceshader" type="surfaceshader" nodename="b"/><input name="mask" type="float" nodename="noise"/></substance>
+  <substance name="C" type="material"><input name="surfaceshader" type="surfaceshader" nodename="c"/><input name="mask" type="float" nodename="stencil"/></substance>
+  <look name="L"><materialassign material="A" geom="/"/><materialassign slot="050" material="B" geom="/"/><materialassign slot="060" material="C" geom="/"/></look>
+</materialx>
+XML
+cat >layers.py <<'PY'
+"""The layers that run for a number: those whose patterns stand in a block whose condition holds. Argument: the file of the main function."""
+import re
+import sys
+
+patterns = {"000": r"worley", "050": r"fractal", "060": r"textureGrad\("}
+blocks, open_blocks = {slot: [] for slot in patterns}, []
+for line in open(sys.argv[1]).read().split("\n"):
+    text = line.strip()
+    for slot, pattern in patterns.items():
+        if re.search(pattern, text):
+            blocks[slot].append([b for b in open_blocks if "pick" in b])
+    open_blocks += [text] if text.endswith("{") else []
+    open_blocks = open_blocks[:-1] if text.startswith("}") else open_blocks
+assert all(blocks.values()), f"a pattern is missing: {blocks}"
+conditions = {slot: {c for found in list_ for c in found} for slot, list_ in blocks.items()}
+assert all(len(list_) == 1 for found in blocks.values() for list_ in found), f"a pattern runs for all layers: {blocks}"
+assert all(len(c) == 1 for c in conditions.values()) and len(set.union(*conditions.values())) == 3, conditions
+PY
+check 'stochastic' exits 0 stacks --slots stochastic
+shader /c
+check 'runs one layer' python3 layers.py main
+check 'its textures have derivatives from before' eval 'grep -n "dFdx" main | head -1 | cut -d: -f1 | { read at; [ "$at" -lt "$(grep -n "if (pick" main | head -1 | cut -d: -f1)" ]; }'
+check 'masks are read for all layers' eval 'grep -q "^    .*texture(.*stencil" main && grep -q "^    .*mx_noise_float" main'
+check 'blend' exits 0 stacks
+shader /c
+check 'runs all' exits 1 python3 layers.py main
+for target in glsl essl hlsl; do
+    [ -z "$compile" ] || check "stochastic, $target" exits 0 "$compile" look.mtlx --stage stage.txt --slots stochastic --targets $target --interfaces complete
+done
+check 'stochastic, osl' exits 0 "$mxgen" look.mtlx --stage stage.txt --slots stochastic --target osl -o osl.d
+check 'picks a closure' eval 'grep -q "if (layerSample" osl.d/*.osl && grep -q "hashnoise(P, time)" osl.d/*.osl'
+check 'a path tracer' exits 0 stacks --integrator scatter
+check 'picks a layer' eval '[ "$(grep -cE "^    if \(.*(distance|product|random|w)" out.d/$(program /c).frag)" -ge 1 ]'
+
+# Textures: equal ones count once, and a target has few.
+pictures() { # NUMBER NAME OFFSET: a surface that reads so many pictures
+    echo "<nodegraph name='NG_$2'>"
+    for i in $(seq "$1"); do
+        echo "<image name='i$i' type='float'><input name='file' type='filename' value='$((i + $3)).png'/></image>"
+        echo "<add name='s$i' type='float'><input name='in1' type='float' nodename='i$i'/>"
+        [ "$i" = 1 ] || echo "<input name='in2' type='float' nodename='s$((i - 1))'/>"
+        echo '</add>'
+    done
+    echo "<output name='out' type='float' nodename='s$1'/></nodegraph>"
+    echo "<standard_surface name='s_$2' type='surfaceshader'><input name='base' type='float' nodegraph='NG_$2'/><input name='opacity' type='color3' value='0.5, 0.5, 0.5'/></standard_surface>"
+    echo "<surfacematerial name='$2' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s_$2'/></surfacematerial>"
+}
+document "$(pictures 8 P 0) $(pictures 8 Q 4) <look name='L'><materialassign material='P' geom='/'/><materialassign slot='050' material='Q' geom='/'/></look>"
+check 'textures of layers' exits 0 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
+check 'merge' json 'sorted(t["file"] for t in of("/c")["textures"]) == sorted(f"{i}.png" for i in range(1, 13))'
+document "$(pictures 12 P 0) $(pictures 8 Q 12) <look name='L'><materialassign material='P' geom='/'/><materialassign slot='050' material='Q' geom='/'/></look>"
+check 'too many textures' exits 1 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
+check 'name their slots' grep -q "reads 20 textures, .* at most 16 in essl; .*: '000', '050' \[texture-limit\]" err
+check 'another target has no such limit' exits 0 "$mxgen" look.mtlx --stage stage.txt --target vulkan --environment none -o out.d
+
+# Many layers: memory that grows with their square would not fit.
+python3 - <<'PY'
+lines, assigns = [], []
+for i in range(3000):
+    lines.append(f'<surface_unlit name="s{i}" type="surfaceshader"/><substance name="m{i}" type="material">'
+                 f'<input name="surfaceshader" type="surfaceshader" nodename="s{i}"/><input name="mask" type="float" value="0.5"/></substance>')
+    assigns.append(f'<materialassign slot="{i:05}" material="m{i}" geom="/"/>')
+open("look.mtlx", "w").write('<?xml version="1.0"?><materialx version="1.39">' + "\n".join(lines) + '<look name="L">' + "\n".join(assigns) + "</look></materialx>")
+PY
+for mode in blend stochastic; do
+    check "3,000 layers, $mode" exits 0 stacks --slots $mode --max-memory 150000000
+done
+
+# Looks without a scene.
+document '<look name="base"><materialassign slot="a b" material="red" geom="/"/><materialassign slot="050" nodegraph="NG_half" geom="/"/></look>
+  <look name="day" inherit="base"><materialassign material="red" geom="/{a"/><materialassign material="nothing" geom="/"/></look><look name="night" inherit="base"/>'
+check 'validate' exits 1 "$mxgen" validate look.mtlx
+check 'reports slots, once' eval '[ "$(grep -c "\[bad-slot\]" err)" = 1 ] && [ "$(grep -c "\[override-needed\]" err)" = 1 ]'
+check 'and what other rules report' grep -q '\[bad-geometry-name\]' err
+check 'and each place once' eval '[ "$(grep -cE "look.mtlx:.*: (error|warning)" err)" = "$(grep -oE "look.mtlx:[0-9]*:[0-9]*: (error|warning)" err | sort -u | wc -l)" ]'
+
+# Faults of overrides: once each, whatever the number of primitives.
+document '<nodegraph name="NG_text"><geompropvalue name="g" type="float"><input name="geomprop" type="string" value="g"/></geompropvalue>
+    <constant name="c" type="string"/>
+    <output name="emission_colour" type="float" nodename="g"/><output name="emission" type="string" nodename="c"/></nodegraph>
+  <nodegraph name="NG_mode"><geompropvalue name="m" type="string"><input name="geomprop" type="string" value="m"/></geompropvalue>
+    <output name="normal_mode" type="string" nodename="m"/></nodegraph>
+  <look name="L"><materialassign material="quarter" geom="/"/><materialassign slot="000::010" nodegraph="NG_text" geom="/"/>
+    <materialassign slot="000::020" nodegraph="NG_mode" geom="/"/></look>'
+check 'faulty overrides' exits 1 stacks
+check 'an output that drives nothing' eval '[ "$(grep -c override-unmatched err)" = 1 ] && grep -q "did you mean .emission_color" err'
+check 'an output of another type' eval '[ "$(grep -c override-type err)" = 1 ] && grep -q "s_blue/emission. *, which has the type float" err'
+check 'a uniform input that varies' eval '[ "$(grep -c override-varies err)" = 1 ] && grep -q "quarter/normal_mode" err'
+
+# The example in every target.
+for look in base metal replaced red dirty finished; do
+    check "examples/slots.mtlx, $look" exits 0 "$mxgen" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look "$look" --target osl -o osl.d
+    [ -z "$compile" ] || check "examples/slots.mtlx, $look, compiles" exits 0 "$compile" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look "$look"
+done
+if [ -n "$compile" ]; then
+    check 'in every other target' exits 0 "$compile" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished \
+        --targets hlsl,essl310 --interfaces reduced
+fi
+
+# Arguments that do not go together.
+check 'a look without a scene' exits 2 "$mxgen" look.mtlx --look L
+check 'an element of a scene' exits 2 stacks --element red
+check 'a scene on standard output' exits 2 stacks --stdout
+check 'a network of a scene' exits 2 "$mxgen" look.mtlx --stage stage.txt --target osl --osl-network -o out.d
+finish stacks

@@ -1,0 +1,292 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Scenes in pictures: mxgen render --stage. Argument: mxgen-render.
+render=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+examples=$here/../../examples
+. "$here/common.sh"
+export MESA_SHADER_CACHE_DISABLE=true
+if ! has_device "$render"; then
+    skip 'no Vulkan device'
+    finish stage
+fi
+
+# Materials of one colour each, and two that show primvars.
+{
+    echo '<materialx version="1.39">'
+    while read -r name color; do
+        echo "<surface_unlit name='S$name' type='surfaceshader'><input name='emission_color' type='color3' value='$color'/></surface_unlit>
+          <surfacematerial name='$name' type='material'><input name='surfaceshader' type='surfaceshader' nodename='S$name'/></surfacematerial>"
+    done <<<'Red 1,0,0
+Green 0,1,0
+Blue 0,0,1'
+    for name in paint number; do
+        echo "<geompropvalue name='G$name' type='$([ $name = paint ] && echo color3 || echo integer)'><input name='geomprop' type='string' value='$name'/></geompropvalue>"
+    done
+    cat <<'XML'
+  <convert name="asfloat" type="float"><input name="in" type="integer" nodename="Gnumber"/></convert>
+  <combine3 name="numbered" type="color3"><input name="in3" type="float" nodename="asfloat"/></combine3>
+  <add name="sum" type="color3"><input name="in1" type="color3" nodename="Gpaint"/><input name="in2" type="color3" nodename="numbered"/></add>
+  <surface_unlit name="SP" type="surfaceshader"><input name="emission_color" type="color3" nodename="sum"/></surface_unlit>
+  <surfacematerial name="Painted" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SP"/></surfacematerial>
+  <position name="where" type="vector3"><input name="space" type="string" value="object"/></position>
+  <convert name="local" type="color3"><input name="in" type="vector3" nodename="where"/></convert>
+  <surface_unlit name="SO" type="surfaceshader"><input name="emission_color" type="color3" nodename="local"/></surface_unlit>
+  <surfacematerial name="Object" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SO"/></surfacematerial>
+  <look name="parts"><materialassign material="Red" geom="//left"/><materialassign material="Green" geom="//right"/></look>
+</materialx>
+XML
+} >colors.mtlx
+
+# A camera that sees -4..4 at z = 0, over cells of 8 pixels. square NAME X Y: a quad of side 0.8 in a cell.
+head='#usda 1.0
+( upAxis = "Y" metersPerUnit = 1 )
+def Camera "camera"
+{
+    float focalLength = 10
+    float horizontalAperture = 8
+    float verticalAperture = 8
+    double3 xformOp:translate = (0, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}'
+head=${head/\( upAxis = \"Y\" metersPerUnit/(
+ upAxis = \"Y\"
+ metersPerUnit}
+quad='point3f[] points = [(-0.4, -0.4, 0), (0.4, -0.4, 0), (0.4, 0.4, 0), (-0.4, 0.4, 0)]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]'
+at() { printf 'double3 xformOp:translate = (%s, %s, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate"]' "$1" "$2"; }
+# cell FILE X Y: which colour is seen there: the letters of the channels above 100, or "-".
+cell() {
+    python3 - "$@" <<'P'
+import sys
+data = open(sys.argv[1], "rb").read()
+header, pixels = data.split(b"255\n", 1)
+width = int(header.split()[1])
+x, y = (int((float(v) + 4) * width / 8) for v in sys.argv[2:4])
+at = 3 * ((width - 1 - y) * width + x)
+print("".join(c for c, v in zip("rgb", pixels[at : at + 3]) if v > 100) or "-")
+P
+}
+# draw FILE ARGUMENT...: raster and path traced, to FILE.ppm and FILE.path.ppm.
+draw() {
+    exits 0 "$render" "${document:-colors.mtlx}" --stage "$1.usda" -s 64 --background environment --environment black.ppm -o "$1.ppm" "${@:2}" || return
+    exits 0 "$render" "${document:-colors.mtlx}" --stage "$1.usda" -s 64 --background environment --environment black.ppm -o "$1.path.ppm" --path-trace --paths 4 "${@:2}"
+}
+# sees WHAT FILE X Y COLOUR
+sees() {
+    local picture
+    for picture in "$2.ppm" "$2.path.ppm"; do
+        check "$1 ($picture)" test "$(cell "$picture" "$3" "$4")" = "$5"
+    done
+}
+printf 'P3 2 1 255 0 0 0 0 0 0\n' >black.ppm
+
+cat >scene.usda <<USD
+$head
+def Mesh "plain" { rel material:binding = </Red>
+    $quad
+    $(at -3.5 3.5)
+}
+def Xform "moved" { rel material:binding = </Green>
+    float xformOp:rotateZ = 90
+    double3 xformOp:translate = (3.5, 2.5, 0)
+    uniform token[] xformOpOrder = ["xformOp:rotateZ", "xformOp:translate"]
+    def Mesh "below" {
+        $quad
+    }
+    def Mesh "hidden" { token visibility = "invisible"
+        $quad
+        double3 xformOp:translate = (-1, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def Mesh "reset" {
+        $quad
+        matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (-1.5, 3.5, 0, 1))
+        uniform token[] xformOpOrder = ["!resetXformStack!", "xformOp:transform"]
+    }
+}
+def Mesh "parts" { rel material:binding = </Red>
+    point3f[] points = [(-0.4, -0.4, 0), (0.4, -0.4, 0), (0.4, 0.4, 0), (-0.4, 0.4, 0), (1.4, -0.4, 0), (1.4, 0.4, 0)]
+    int[] faceVertexCounts = [4, 4]
+    int[] faceVertexIndices = [0, 1, 2, 3, 1, 4, 5, 2]
+    $(at 0.5 3.5)
+    def GeomSubset "second" { rel material:binding = </Blue>
+        uniform token elementType = "face"
+        uniform token familyName = "materialBind"
+        int[] indices = [1]
+    }
+}
+def Xform "colors" { color3f primvars:paint = (0, 1, 0)
+    rel material:binding = </Painted>
+    int primvars:number = 0
+    def Mesh "inherits" {
+        $quad
+        $(at -3.5 0.5)
+    }
+    def Mesh "by_face" { int[] primvars:number = [0, 1] (
+            interpolation = "uniform"
+        )
+        point3f[] points = [(-0.4, -0.4, 0), (0.4, -0.4, 0), (0.4, 0.4, 0), (-0.4, 0.4, 0), (1.4, -0.4, 0), (1.4, 0.4, 0)]
+        int[] faceVertexCounts = [4, 4]
+        int[] faceVertexIndices = [0, 1, 2, 3, 1, 4, 5, 2]
+        $(at -1.5 0.5)
+    }
+    def Mesh "indexed" { color3f[] primvars:paint = [(1, 0, 0), (0, 0, 1)] (
+            interpolation = "faceVarying"
+        )
+        int[] primvars:paint:indices = [0, 1, 1, 0]
+        $quad
+        $(at 1.5 0.5)
+    }
+}
+def Sphere "ball" { rel material:binding = </Red>
+    double radius = 0.4
+    $(at -3.5 -1.5)
+}
+def Cube "cube" { rel material:binding = </Green>
+    double size = 0.8
+    $(at -2.5 -1.5)
+}
+def Cylinder "cylinder" { rel material:binding = </Blue>
+    double radius = 0.3
+    double height = 1.8
+    token axis = "X"
+    $(at -1 -1.5)
+}
+def Cone "cone" { rel material:binding = </Red>
+    double radius = 0.4
+    double height = 0.9
+    token axis = "Y"
+    $(at 0.5 -1.5)
+}
+def Capsule "capsule" { rel material:binding = </Green>
+    double radius = 0.2
+    double height = 0.5
+    token axis = "Y"
+    $(at 1.5 -1.5)
+}
+def Plane "plane" { rel material:binding = </Blue>
+    double width = 0.8
+    double length = 0.8
+    $(at 2.5 -1.5)
+}
+def PointInstancer "many" { point3f[] positions = [(-3.5, -3.5, 0), (-2.5, -3.5, 0), (-1.5, -3.5, 0)]
+    int[] protoIndices = [1, 0, 0]
+    int64[] invisibleIds = [2]
+    rel prototypes = [</many/a>, </many/b>]
+    def Mesh "a" { rel material:binding = </Red>
+        $quad
+    }
+    def Mesh "b" { rel material:binding = </Green>
+        $quad
+    }
+}
+over "Flattened_Prototype_1" {
+    def Mesh "leaf" {
+        $quad
+    }
+}
+def Xform "instance" (
+    instanceable = true
+    references = </Flattened_Prototype_1>
+) { rel material:binding = </Blue>
+    $(at 0.5 -3.5)
+}
+def Mesh "local" { rel material:binding = </Object>
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    $(at 2 -4)
+}
+USD
+check 'a stage with its own bindings' draw scene
+check 'without a message' test ! -s err
+sees 'a mesh with its material' scene -3.5 3.5 r
+sees 'nothing below it' scene -3.5 2.5 -
+sees 'transforms in their order, for children' scene -2.5 3.5 g
+sees 'nothing that is invisible' scene -2.5 2.5 -
+sees 'a transform that begins anew' scene -1.5 3.5 g
+sees 'the faces of a mesh' scene 0.5 3.5 r
+sees 'the faces of a subset' scene 1.5 3.5 b
+sees 'a primvar of the group above' scene -3.5 0.5 g
+sees 'a primvar of faces, first' scene -1.5 0.5 g
+sees 'a primvar of faces, second' scene -0.5 0.5 gb
+sees 'a primvar of corners with indices, left' scene 1.2 0.5 r
+sees 'a primvar of corners with indices, right' scene 1.8 0.5 b
+sees 'a sphere' scene -3.5 -1.5 r
+sees 'round' scene -3.95 -1.15 -
+sees 'a cube' scene -2.5 -1.5 g
+sees 'a cylinder along x' scene -0.2 -1.5 b
+sees 'a cone, wide below' scene 0.25 -1.85 r
+sees 'and pointed above' scene 0.25 -1.15 -
+sees 'a capsule' scene 1.5 -1.1 g
+sees 'a plane' scene 2.5 -1.5 b
+sees 'an instance of the second prototype' scene -3.5 -3.5 g
+sees 'an instance of the first' scene -2.5 -3.5 r
+sees 'no instance with an invisible id' scene -1.5 -3.5 -
+sees 'no prototype by itself' scene 0 0 -
+sees 'an instance of a reference' scene 0.5 -3.5 b
+sees 'object space, right below' scene 2.9 -3.8 r
+sees 'object space, left above' scene 2.1 -3.1 g
+
+# z upwards, and a camera of the studio around it: the cube above is green.
+cat >upright.usda <<'USD'
+#usda 1.0
+(
+    upAxis = "Z"
+)
+def Cube "low" { rel material:binding = </Red> }
+def Cube "high" { rel material:binding = </Green>
+    double3 xformOp:translate = (0, 0, 2)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+USD
+check 'a stage with z upwards' draw upright --camera 30,0
+sees 'what is above' upright 0 1 g
+sees 'what is below' upright 0 -1 r
+
+# Groups of a file of Assimp, assigned by a look.
+cat >two.obj <<'OBJ'
+v -1 -1 0
+v 0 -1 0
+v 0 1 0
+v -1 1 0
+v 1 -1 0
+v 1 1 0
+g left
+f 1 2 3 4
+g right
+f 2 5 6 3
+OBJ
+for more in '' '--path-trace --paths 4'; do
+    # shellcheck disable=SC2086
+    check "groups of OBJ $more" exits 0 "$render" colors.mtlx --stage two.obj --look parts --camera 0,0 -s 64 -o two.ppm $more
+    check 'left' test "$(cell two.ppm -1 0)" = r
+    check 'right' test "$(cell two.ppm 1 0)" = g
+done
+
+# fails ID TEXT ARGUMENT...
+fails() { exits 1 "$render" "${@:3}" -s 16 -o no.ppm && grep -F "[$1]" err | grep -qF "$2"; }
+broken() { sed "$1" scene.usda >broken.usda && ! cmp -s scene.usda broken.usda && fails bad-geometry "$2" colors.mtlx --stage broken.usda; }
+check 'an index without a point' broken '0,/faceVertexIndices = \[0, 1, 2, 3\]/s//faceVertexIndices = [0, 1, 2, 4]/' "'/plain.faceVertexIndices' (broken.usda:"
+check 'another number of corners' broken '0,/faceVertexCounts = \[4\]/s//faceVertexCounts = [5]/' 'faceVertexCounts asks for another number'
+check 'too few values of a primvar' broken 's/primvars:number = \[0, 1\]/primvars:number = [0]/' "'uniform'"
+check 'no operation of a transform' broken 's/\["xformOp:rotateZ", /["xformOp:spin", /' 'xformOp:spin'
+check 'a prototype that is missing' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [2, 0, 0]/' 'protoIndices'
+check 'instances without a prototype each' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [1, 0]/' 'has 2 numbers for 3 positions'
+check 'a face that a subset lacks' broken 's/int\[\] indices = \[1\]/int[] indices = [2]/' 'the mesh has 2 faces'
+check 'a primvar that is missing' eval 'sed "/int primvars:number = 0/d" scene.usda >lacking.usda; exits 0 "$render" colors.mtlx --stage lacking.usda -s 16 -o no.ppm && grep -qF "[missing-primvar]" err'
+check 'a camera that is missing' fails unknown-camera "there is '/camera'" colors.mtlx --stage scene.usda --camera /kamera
+check 'a camera by its path' exits 0 "$render" colors.mtlx --stage scene.usda --camera /camera -s 16 -o yes.ppm
+check 'a stage without geometry' eval 'printf "#usda 1.0\n" >empty.usda; fails empty-mesh empty.usda colors.mtlx --stage empty.usda'
+check 'a syntax error' eval 'echo "def x" >>empty.usda; fails usda-syntax empty.usda:2:6 colors.mtlx --stage empty.usda'
+check 'options that a stage does not take' exits 2 "$render" colors.mtlx --stage scene.usda --mesh cube -o no.ppm
+check 'a purpose without a stage' exits 2 "$render" colors.mtlx --purpose full -o no.ppm
+
+# The example: each look draws, and differs from the one before.
+for look in base metal replaced red dirty finished; do
+    check "the look $look" exits 0 "$render" "$examples/slots.mtlx" --stage "$examples/slots.usda" --look $look -s 48 -o $look.ppm
+done
+check 'looks differ' test "$(md5sum base.ppm metal.ppm replaced.ppm red.ppm dirty.ppm finished.ppm | cut -c -32 | sort -u | wc -l)" = 6
+finish stage

@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture: a shader of the target essl on a shape, bound from its reflection, by WebGL 2.
+
+import { attributeOf, backToFront, CAMERA, lightValue, makeMesh, makeSky, uniformOf } from "./scene.js";
+
+const MAX_LIGHTS = 3;
+const OVERSAMPLING = 2; // samples of a pixel in each direction, when the picture rests
+const IDLE = 150; // milliseconds until it does
+
+// Averages the samples of a pixel over a grey background, and encodes sRGB (IEC 61966-2-1), like render/picture.c.
+const DEVELOP_VERTEX = `#version 300 es
+void main()
+{
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    gl_Position = vec4(corner * 4.0 - 1.0, 0.0, 1.0);
+}`;
+const DEVELOP_PIXEL = `#version 300 es
+precision highp float;
+precision highp sampler2D;
+uniform sampler2D u_samples;
+uniform int u_oversampling;
+uniform float u_height;
+out vec4 color;
+void main()
+{
+    ivec2 first = ivec2(gl_FragCoord.xy) * u_oversampling;
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < u_oversampling; ++y)
+        for (int x = 0; x < u_oversampling; ++x)
+            sum += texelFetch(u_samples, first + ivec2(x, y), 0);
+    sum /= float(u_oversampling * u_oversampling);
+    float behind = 0.06 + 0.12 * (gl_FragCoord.y + 0.5) / u_height;
+    vec3 linear = clamp(0.6 * sum.rgb + (1.0 - min(sum.a, 1.0)) * behind, 0.0, 1.0);
+    color = vec4(mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, linear)), 1.0);
+}`;
+
+/** A fault that a person can read. */
+export class ViewError extends Error {}
+
+export class View {
+    #canvas;
+    #gl;
+    #parallel;
+    #pending = null; // a program that the driver compiles
+    #drawn = null; // the program that is drawn
+    #meshes = new Map();
+    #buffers = new Map();
+    #textures = new Map(); // by file
+    #sky;
+    #target = null;
+    #frame = 0;
+    #rest = 0;
+    #shape = "ball";
+    camera = { ...CAMERA };
+    hasMoved = false; // an input has another value than the document of the shader
+    onChange = () => {}; // the picture is out of date
+    onPicture = () => {}; // the picture is drawn; the argument tells whether with all samples
+    onError = () => {};
+
+    constructor(canvas) {
+        this.#canvas = canvas;
+        this.#gl = canvas.getContext("webgl2", { alpha: false, antialias: false, preserveDrawingBuffer: true });
+        if (!this.#gl)
+            throw new ViewError("This browser has no WebGL 2, so there is no picture. Everything else works.");
+        if (!this.#gl.getExtension("EXT_color_buffer_float"))
+            throw new ViewError("This device cannot draw to textures of floating point, so there is no picture. Everything else works.");
+        this.#open();
+        canvas.addEventListener("webglcontextlost", event => event.preventDefault());
+        canvas.addEventListener("webglcontextrestored", () => this.#open());
+        new ResizeObserver(() => this.draw()).observe(canvas);
+        this.#listen();
+    }
+
+    /** Makes what does not depend on a document, also after the device lost everything. */
+    #open() {
+        const gl = this.#gl;
+        this.#meshes.clear();
+        this.#buffers.clear();
+        this.#target = null;
+        gl.getExtension("EXT_color_buffer_float");
+        this.#parallel = gl.getExtension("KHR_parallel_shader_compile");
+        this.#develop = this.#link(DEVELOP_VERTEX, DEVELOP_PIXEL);
+        this.#sky ??= makeSky();
+        this.#maps = Object.fromEntries(Object.entries(this.#sky).map(([name, levels]) => [name, this.#upload(levels)]));
+        this.#missing = this.#checker();
+        for (const [file, { image }] of this.#textures)
+            this.setTexture(file, image);
+        const { shader } = this.#pending ?? this.#drawn ?? {};
+        this.#drawn = this.#pending = null;
+        if (shader)
+            this.setShader(shader);
+    }
+
+    #develop;
+    #maps;
+    #missing;
+
+    // ---- Programs ----
+
+    #link(vertex, pixel) {
+        const gl = this.#gl, program = gl.createProgram();
+        for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, pixel]]) {
+            const shader = gl.createShader(type);
+            gl.shaderSource(shader, source);
+            gl.compileShader(shader);
+            gl.attachShader(program, shader);
+            gl.deleteShader(shader);
+        }
+        gl.linkProgram(program);
+        return program;
+    }
+
+    #faultOf(program) {
+        const gl = this.#gl;
+        if (gl.getProgramParameter(program, gl.LINK_STATUS) || gl.isContextLost())
+            return null;
+        const logs = gl.getAttachedShaders(program).map(shader => gl.getShaderInfoLog(shader)).filter(Boolean);
+        return logs.join("\n") || gl.getProgramInfoLog(program) || "the driver refuses the shader";
+    }
+
+    /** Draws with another shader as soon as the driver has compiled it. `shader` has the sources, the info and the variables. */
+    setShader(shader) {
+        this.hasMoved = false;
+        if (this.#drawn && shader.vertex === this.#drawn.shader.vertex && shader.pixel === this.#drawn.shader.pixel) {
+            this.#drawn.shader = shader;
+            this.#drop(null);
+            this.draw();
+            return;
+        }
+        this.#drop({ shader, program: this.#link(shader.vertex, shader.pixel) });
+        this.draw();
+    }
+
+    #drop(pending) {
+        if (this.#pending)
+            this.#gl.deleteProgram(this.#pending.program);
+        this.#pending = pending;
+    }
+
+    /** Takes the pending program if it is ready; true: it is not. */
+    #wait() {
+        const gl = this.#gl, pending = this.#pending;
+        if (!pending)
+            return false;
+        if (this.#parallel && !gl.getProgramParameter(pending.program, this.#parallel.COMPLETION_STATUS_KHR))
+            return true;
+        const fault = this.#faultOf(pending.program);
+        if (fault) {
+            this.onError(fault);
+            this.#drop(null);
+            return false;
+        }
+        if (this.#drawn)
+            gl.deleteProgram(this.#drawn.program);
+        this.#drawn = { ...pending, locations: new Map() };
+        this.#pending = null;
+        return false;
+    }
+
+    // ---- Textures ----
+
+    #upload(levels) {
+        const gl = this.#gl, texture = gl.createTexture();
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, false);
+        levels.forEach(({ width, height, pixels }, level) => gl.texImage2D(gl.TEXTURE_2D, level, gl.RGBA16F, width, height, 0, gl.RGBA, gl.FLOAT, pixels));
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAX_LEVEL, levels.length - 1);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, levels.length > 1 ? gl.LINEAR_MIPMAP_LINEAR : gl.LINEAR);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+        return texture;
+    }
+
+    /** Stands in for a missing texture. */
+    #checker() {
+        const gl = this.#gl, texture = gl.createTexture(), size = 16;
+        const pixels = Uint8Array.from({ length: size * size * 4 }, (_, i) => i % 4 === 3 || ((i >> 2) + (i >> 6)) % 2 && i % 4 !== 1 ? 255 : 0);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, size, size, 0, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+        return texture;
+    }
+
+    /** The picture of a texture file. Its numbers go to the shader as they are: the shader knows its colour space. */
+    setTexture(file, image) {
+        const gl = this.#gl, texture = gl.createTexture();
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, false); // the ImageBitmap is flipped
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, image);
+        gl.generateMipmap(gl.TEXTURE_2D);
+        this.#textures.set(file, { image, texture });
+        this.draw();
+    }
+
+    // ---- Drawing ----
+
+    get shape() {
+        return this.#shape;
+    }
+
+    set shape(name) {
+        this.#shape = name;
+        this.draw();
+    }
+
+    /** Asks for a frame: now with one sample for each pixel, and with all when the picture rests. */
+    draw() {
+        this.onChange();
+        clearTimeout(this.#rest);
+        this.#rest = setTimeout(() => this.#request(OVERSAMPLING), IDLE);
+        this.#request(1);
+    }
+
+    #request(oversampling) {
+        cancelAnimationFrame(this.#frame);
+        this.#frame = requestAnimationFrame(() => {
+            if (this.#gl.isContextLost())
+                return;
+            if (this.#wait())
+                this.#request(oversampling);
+            else if (this.#drawn)
+                this.#drawFrame(oversampling);
+        });
+    }
+
+    #bindTarget(width, height) {
+        const gl = this.#gl;
+        if (this.#target?.width !== width || this.#target?.height !== height) {
+            if (this.#target) {
+                gl.deleteFramebuffer(this.#target.framebuffer);
+                gl.deleteTexture(this.#target.color);
+                gl.deleteRenderbuffer(this.#target.depth);
+            }
+            const framebuffer = gl.createFramebuffer(), color = gl.createTexture(), depth = gl.createRenderbuffer();
+            gl.bindTexture(gl.TEXTURE_2D, color);
+            gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA16F, width, height);
+            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+            gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
+            gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
+            gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+            gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, color, 0);
+            gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
+            this.#target = { width, height, framebuffer, color, depth };
+        }
+        gl.bindFramebuffer(gl.FRAMEBUFFER, this.#target.framebuffer);
+        gl.viewport(0, 0, width, height);
+    }
+
+    /** With its values of now; an input that moved since may have made it transparent. */
+    #isBlended() {
+        const { info } = this.#drawn.shader;
+        return info.alpha === "blend" && (info.alphaNow === "blend" || this.hasMoved);
+    }
+
+    #drawFrame(oversampling) {
+        const gl = this.#gl, { shader, program } = this.#drawn, canvas = this.#canvas;
+        const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)), height = Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio));
+        if (canvas.width !== width || canvas.height !== height)
+            Object.assign(canvas, { width, height });
+        this.#bindTarget(width * oversampling, height * oversampling);
+        gl.clearColor(0, 0, 0, 0);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        gl.useProgram(program);
+        this.#bindUniforms(width / height);
+        const mesh = this.#bindMesh(shader.info.displaced ? 4 : 1), blends = this.#isBlended();
+        const capability = (name, on) => on ? gl.enable(name) : gl.disable(name);
+        capability(gl.DEPTH_TEST, !blends);
+        capability(gl.BLEND, blends);
+        gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+        if (blends)
+            gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, backToFront(mesh, uniformOf("u_viewDirection", this.camera, width / height, 0)), gl.DYNAMIC_DRAW);
+        gl.drawElements(gl.TRIANGLES, mesh.indices.length, gl.UNSIGNED_INT, 0);
+        this.#developFrame(width, height, oversampling);
+        this.onPicture(oversampling === OVERSAMPLING);
+    }
+
+    #developFrame(width, height, oversampling) {
+        const gl = this.#gl;
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+        gl.viewport(0, 0, width, height);
+        for (const name of [gl.DEPTH_TEST, gl.BLEND])
+            gl.disable(name);
+        gl.useProgram(this.#develop);
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_2D, this.#target.color);
+        gl.bindSampler(0, null);
+        gl.uniform1i(gl.getUniformLocation(this.#develop, "u_samples"), 0);
+        gl.uniform1i(gl.getUniformLocation(this.#develop, "u_oversampling"), oversampling);
+        gl.uniform1f(gl.getUniformLocation(this.#develop, "u_height"), height);
+        gl.bindVertexArray(null);
+        gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+
+    #mesh(detail) {
+        const key = `${this.#shape} ${detail}`;
+        if (!this.#meshes.has(key))
+            this.#meshes.set(key, makeMesh(this.#shape, detail));
+        return { key, mesh: this.#meshes.get(key) };
+    }
+
+    #buffer(key, target, make) {
+        const gl = this.#gl;
+        if (!this.#buffers.has(key)) {
+            const made = make(), buffer = gl.createBuffer();
+            gl.bindBuffer(target, buffer);
+            gl.bufferData(target, made.values, gl.STATIC_DRAW);
+            this.#buffers.set(key, { buffer, components: made.components });
+        }
+        const found = this.#buffers.get(key);
+        gl.bindBuffer(target, found.buffer);
+        return found;
+    }
+
+    #bindMesh(detail) {
+        const gl = this.#gl, { shader, program } = this.#drawn, { key, mesh } = this.#mesh(detail);
+        gl.bindVertexArray(this.#drawn.array ??= gl.createVertexArray());
+        for (const { name, type } of shader.variables.filter(({ block }) => block === "appData")) {
+            const at = gl.getAttribLocation(program, name);
+            if (at < 0)
+                continue;
+            if (/^(u?int|u?ivec)/.test(type)) {
+                gl.disableVertexAttribArray(at);
+                gl.vertexAttribI4i(at, 3, 3, 3, 3);
+                continue;
+            }
+            if (!attributeOf({ ...mesh, count: 0 }, name)) {
+                gl.disableVertexAttribArray(at);
+                continue;
+            }
+            const { components } = this.#buffer(`${key} ${name}`, gl.ARRAY_BUFFER, () => attributeOf(mesh, name));
+            gl.enableVertexAttribArray(at);
+            gl.vertexAttribPointer(at, components, gl.FLOAT, false, 0, 0);
+        }
+        this.#buffer(`${key} ${this.#isBlended() ? "sorted" : ""}`, gl.ELEMENT_ARRAY_BUFFER, () => ({ values: mesh.indices }));
+        return mesh;
+    }
+
+    // ---- Uniforms ----
+
+    #setUniform(name, type, values) {
+        const gl = this.#gl, { program, locations } = this.#drawn;
+        if (!locations.has(name))
+            locations.set(name, gl.getUniformLocation(program, name));
+        const at = locations.get(name);
+        if (at === null)
+            return;
+        const floats = { float: "uniform1fv", vec2: "uniform2fv", vec3: "uniform3fv", vec4: "uniform4fv" };
+        const integers = { int: "uniform1iv", bool: "uniform1iv", ivec2: "uniform2iv", ivec3: "uniform3iv", ivec4: "uniform4iv" };
+        const matrices = { mat2: "uniformMatrix2fv", mat3: "uniformMatrix3fv", mat4: "uniformMatrix4fv" };
+        if (type in floats)
+            gl[floats[type]](at, values);
+        else if (type in integers)
+            gl[integers[type]](at, values.map(Math.trunc));
+        else if (type in matrices)
+            gl[matrices[type]](at, false, values);
+    }
+
+    #bindUniforms(aspect) {
+        const { shader } = this.#drawn, numLevels = this.#sky.radiance.length;
+        let unit = 0;
+        for (const variable of shader.variables) {
+            const { name, type, block, values } = variable;
+            if (block === "textures")
+                this.#bindTexture(variable, unit++);
+            else if (block === "publicUniforms" || block === "privateUniforms") {
+                const value = block === "privateUniforms" ? uniformOf(name, this.camera, aspect, numLevels) ?? values : values;
+                const count = { float: 1, int: 1, bool: 1, vec2: 2, vec3: 3, vec4: 4, ivec2: 2, ivec3: 3, ivec4: 4, mat2: 4, mat3: 9, mat4: 16 }[type];
+                if (value.length >= count)
+                    this.#setUniform(name, type, variable.arrayLength ? value : value.slice(0, count));
+            } else if (block === "lightData") {
+                for (let light = 0; light < MAX_LIGHTS; light++) {
+                    const value = lightValue(light, name) ?? values;
+                    if (value.length)
+                        this.#setUniform(`u_lightData[${light}].${name}`, type, value);
+                }
+            }
+        }
+    }
+
+    #bindTexture({ name, file, uaddressmode, vaddressmode, filtertype }, unit) {
+        const gl = this.#gl, modes = { clamp: gl.CLAMP_TO_EDGE, mirror: gl.MIRRORED_REPEAT, constant: gl.CLAMP_TO_EDGE };
+        const map = { u_envRadiance: this.#maps.radiance, u_envIrradiance: this.#maps.irradiance }[name];
+        const found = map ?? this.#textures.get(file)?.texture;
+        gl.activeTexture(gl.TEXTURE0 + unit);
+        gl.bindTexture(gl.TEXTURE_2D, found ?? this.#missing);
+        if (found && !map) {
+            const closest = filtertype === "closest";
+            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, modes[uaddressmode] ?? gl.REPEAT);
+            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, modes[vaddressmode] ?? gl.REPEAT);
+            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, closest ? gl.NEAREST : gl.LINEAR_MIPMAP_LINEAR);
+            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, closest ? gl.NEAREST : gl.LINEAR);
+        }
+        this.#setUniform(name, "int", [unit]);
+    }
+
+    // ---- The camera ----
+
+    #turn(right, up) {
+        this.camera.azimuth -= right;
+        this.camera.elevation = Math.max(-89, Math.min(89, this.camera.elevation + up));
+        this.draw();
+    }
+
+    #listen() {
+        const canvas = this.#canvas;
+        canvas.addEventListener("pointerdown", event => canvas.setPointerCapture(event.pointerId));
+        canvas.addEventListener("pointermove", event => {
+            if (event.buttons & 1)
+                this.#turn(event.movementX / 2, event.movementY / 2);
+        });
+        canvas.addEventListener("wheel", event => {
+            event.preventDefault();
+            this.camera.zoom = Math.max(0.25, Math.min(4, this.camera.zoom * Math.exp(-event.deltaY / 500)));
+            this.draw();
+        }, { passive: false });
+        canvas.addEventListener("dblclick", () => {
+            Object.assign(this.camera, CAMERA);
+            this.draw();
+        });
+        canvas.addEventListener("keydown", event => {
+            const [right, up] = { ArrowLeft: [-10, 0], ArrowRight: [10, 0], ArrowUp: [0, 10], ArrowDown: [0, -10] }[event.key] ?? [0, 0];
+            if (right || up) {
+                event.preventDefault();
+                this.#turn(right, up);
+            }
+        });
+    }
+}

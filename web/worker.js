@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The compiler of the page, in a worker, so that the page answers while it works. A message is { id, kind, … }; the answer has the same id.
+
+import { DocumentError, instantiate } from "../js/mxgen/mxgen.js";
+import compressed from "mxgen.wasm.gz";
+
+const OPTIONS = { "sample-filter": "narrow" }; // as in `mxgen render`
+const files = new Map(); // texts that documents include, by their last name
+
+const nameOf = path => path.slice(path.lastIndexOf("/") + 1);
+
+async function begin() {
+    const wasm = new Response(new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip")));
+    const mxgen = await instantiate(await wasm.arrayBuffer());
+    const context = mxgen.createContext({ resolver: (_, ref) => files.get(nameOf(ref)) ?? null });
+    return { mxgen, context };
+}
+
+const ready = begin();
+
+/** Calls `use` with the document of a text; diagnostics of errors go to `found`. */
+function withDocument(context, text, found, use) {
+    let document;
+    try {
+        document = context.parse(text, { name: "document.mtlx" });
+    } catch (error) {
+        if (!(error instanceof DocumentError))
+            throw error;
+        found.push(...error.diagnostics);
+        ({ document } = error);
+    }
+    try {
+        return document && use(document);
+    } finally {
+        document?.destroy();
+    }
+}
+
+/** The shader of an element, as plain data. */
+function shaderOf(document, element, found) {
+    let shader;
+    try {
+        shader = document.generate("essl", { element, options: OPTIONS });
+    } catch (error) {
+        if (!(error instanceof DocumentError))
+            throw error;
+        found.push(...error.diagnostics);
+        return null;
+    }
+    const { info: { name, displaced, alpha }, vertex, pixel, variables } = shader;
+    found.push(...shader.diagnostics);
+    shader.destroy();
+    // What the values of the document make of it: most materials are opaque, although their opacity is a uniform.
+    const reduced = document.generate("essl", { element, options: { ...OPTIONS, interface: "reduced" }, withoutSource: true });
+    const { alpha: alphaNow, numClosures } = reduced.info;
+    reduced.destroy();
+    return { info: { name, displaced, alpha, alphaNow, numClosures }, vertex, pixel, variables };
+}
+
+/** The same fault can stand in the diagnostics of the document and of the shader. */
+function distinct(diagnostics) {
+    return [...new Map(diagnostics.map(item => [JSON.stringify({ ...item, parent: 0 }), item])).values()];
+}
+
+const KINDS = {
+    async about() {
+        const { mxgen } = await ready;
+        return { version: mxgen.version, targets: mxgen.targets.map(({ name }) => name) };
+    },
+
+    addFiles({ added }) {
+        for (const [name, text] of added)
+            files.set(name, text);
+        return {};
+    },
+
+    /** The shader, diagnostics and renderables of a document. Without errors, its warnings too. */
+    async compile({ text, element }) {
+        const { context } = await ready, diagnostics = [];
+        const answer = withDocument(context, text, diagnostics, document => {
+            const { renderables } = document, chosen = renderables.some(({ path }) => path === element) ? element : renderables[0]?.path ?? null;
+            const shader = chosen === null ? null : shaderOf(document, chosen, diagnostics);
+            diagnostics.push(...document.validate());
+            return { renderables, element: chosen, shader };
+        });
+        return { renderables: [], element: null, shader: null, ...answer, diagnostics: distinct(diagnostics) };
+    },
+
+    /** The source for a target, and the closures. */
+    async inspect({ text, element, target }) {
+        const { context } = await ready, faults = [];
+        const attempt = work => {
+            try {
+                return work();
+            } catch (error) {
+                if (!(error instanceof DocumentError))
+                    throw error;
+                return error.message;
+            }
+        };
+        const answer = withDocument(context, text, faults, document => ({
+            source: attempt(() => {
+                const shader = document.generate(target, { element }), source = shader.pixel ?? shader.vertex;
+                shader.destroy();
+                return source;
+            }),
+            closures: attempt(() => document.inspect("closures", { element })),
+        }));
+        return answer ?? { source: "", closures: "" };
+    },
+
+    /** The text of the document with another value of an input. */
+    async setValue({ text, path, value, type }) {
+        const { context } = await ready, slash = path.lastIndexOf("/");
+        return withDocument(context, text, [], document => {
+            const edit = document.edit(), node = edit.find(path.slice(0, slash));
+            if (!node) {
+                edit.cancel();
+                return { text: null };
+            }
+            node.value(path.slice(slash + 1), value, type);
+            return { text: edit.end().xml() };
+        });
+    },
+
+    async format({ text }) {
+        const { context } = await ready;
+        return { text: context.format(text, { name: "document.mtlx" }) };
+    },
+};
+
+addEventListener("message", async ({ data: { id, kind, ...request } }) => {
+    try {
+        postMessage({ id, answer: await KINDS[kind](request) });
+    } catch (error) {
+        postMessage({ id, error: String(error?.message ?? error) });
+    }
+});
