@@ -353,10 +353,9 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
 {
     s->list = &layer->list;
     s->scale = scale_of(s, layer->alpha);
-    s->emission = layer->emission
-                      ? ir_convert(s->graph, IR_TYPE_VEC3,
-                                   closure_mul(s->graph, layer->emission, s->scale))
-                      : grey(s, 0.0f);
+    s->emission = layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3,
+                                               closure_mul(s->graph, layer->emission, s->scale))
+                                  : grey(s, 0.0f);
     find_shares(s);
     if (!layer->chance) {
         declare_locals(s, op2(s, IR_MUL, random_number(s->shader), s->total));
