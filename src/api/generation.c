@@ -243,6 +243,7 @@ bool generation_build(struct generation *g)
 {
     g->builder =
         build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
+    build_know_slabs(g->builder);
     if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
     g->root = g->desc.bindings ? build_stack(g->builder, &g->desc.bindings->bindings, g->desc.stack)

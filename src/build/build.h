@@ -109,6 +109,8 @@ const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned 
 
 /* closures.c: what the closure room asks. */
 struct closure_host build_closure_host(struct builder *builder, struct closure_point *point);
+/* Before the build: the layers of stacks may have slabs. */
+void build_know_slabs(struct builder *builder);
 /* slabs_walk with the library's slabs. */
 ir_ref build_walk_slabs(struct builder *builder, const struct closure_host *closures, ir_ref root);
 

@@ -68,6 +68,7 @@ struct builder {
     void (*apply)(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
                   ir_ref *results);
     struct lang_host host;
+    ir_ref (*without_slabs)(struct builder *b, ir_ref root); /* NULL: there are none */
     struct instance *document;
     VEC(struct frame) frames;
     VEC(ir_ref) results;

@@ -34,3 +34,15 @@ ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, 
     struct slabs_host host = {.user_data = b, .lobes = slab_lobes, .closures = closures};
     return slabs_walk(b->shader, &host, root);
 }
+
+static ir_ref without_slabs(struct builder *b, ir_ref root)
+{
+    struct closure_point point = {0};
+    struct closure_host host = build_closure_host(b, &point);
+    return build_walk_slabs(b, &host, root);
+}
+
+void build_know_slabs(struct builder *b)
+{
+    b->without_slabs = without_slabs;
+}

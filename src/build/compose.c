@@ -70,9 +70,8 @@ static void name_value(struct builder *b, ir_ref value, const struct build_part 
 /* The opacity of slabs is that of their lobes. The layer keeps the slabs. */
 static ir_ref alpha_of(struct builder *b, ir_ref surface)
 {
-    struct closure_point point = {0};
-    struct closure_host host = build_closure_host(b, &point);
-    return closure_surface_alpha(b->shader, build_walk_slabs(b, &host, surface));
+    ir_ref seen = b->without_slabs ? b->without_slabs(b, surface) : surface;
+    return closure_surface_alpha(b->shader, seen);
 }
 
 /* How much of what is below a layer hides, and its share of displacement and normal. */
