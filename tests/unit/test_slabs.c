@@ -154,7 +154,7 @@ static void weigh_base(struct run *run)
         w->got = value_of(run, closure_weight(&g->result->shader, &list.leaves.items[i], way));
         return;
     }
-    REQUIRE(!"the base is in the list");
+    REQUIRE(false); /* the base is in the list */
 }
 
 static double weight_error(struct run *run, const struct stack *stack, double view, double way)
