@@ -263,6 +263,109 @@ static ir_ref measured_edf(const struct call *c)
                               c->frame->node.element);
 }
 
+/* ---- slabs ---- */
+
+/* A layer of an OSL network is complete before anyone knows where its slabs lie. */
+static bool is_in_network(const struct call *c)
+{
+    if (c->b->recorder)
+        diag_add(c->b->diags, DIAG_ID_slab_in_network,
+                 doc_place(&c->b->lib->doc, c->frame->node.element),
+                 build_text(c->b, c->def->node));
+    return c->b->recorder != NULL;
+}
+
+/* Parts of slabs that have no code yet: an error, so that none is lost in silence. */
+static ir_ref not_yet(const struct call *c, str_id input, const char *part)
+{
+    diag_add(c->b->diags, DIAG_ID_slab_part_missing,
+             doc_place(&c->b->lib->doc, c->frame->node.element), build_text(c->b, input),
+             build_text(c->b, c->def->node), part);
+    return ir_poison(c->b->graph, c->type);
+}
+
+/* True if an input has its default of 0, false or no file, or the definition lacks it. */
+static bool is_off(const struct call *c, str_id input)
+{
+    struct ir_value value;
+    ir_ref ref = arg(c, input);
+    if (!ref)
+        return true;
+    if (ir_get(c->b->graph, ref)->op == IR_TEXTURE)
+        return !*build_text(c->b,
+                            c->b->shader->variables.items[ir_get(c->b->graph, ref)->attr].file);
+    return build_initial(c->b, ref, &value) && value.w[0].u == 0;
+}
+
+static ir_ref build_slab(const struct call *c)
+{
+    static const str_id names[NUM_SLAB_INPUTS] = {
+#define SLAB_INPUT(name, type) STR_##name,
+#include "slabs/slabs.def"
+#undef SLAB_INPUT
+    };
+    if (!is_off(c, STR_glint_density))
+        return not_yet(c, STR_glint_density, "glints");
+    if (!is_off(c, STR_specular_lut))
+        return not_yet(c, STR_specular_lut, "tints by view and light");
+    if (build_slab_definition(c->b) == LIBRARY_NONE)
+        return misfit(c, "the library lacks the definition 'ND_slab_lobes'");
+    if (is_in_network(c))
+        return ir_poison(c->b->graph, c->type);
+    ir_ref args[NUM_SLAB_OPERANDS];
+    for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
+        args[i] = arg(c, names[i]);
+    args[SLAB_coverage] = ir_const_float(c->b->graph, 1.0f);
+    return build_op(c, IR_SLAB, args, NUM_SLAB_OPERANDS);
+}
+
+static ir_ref build_slab_layer(const struct call *c)
+{
+    ir_ref args[3] = {arg(c, STR_top), arg(c, STR_base), arg(c, STR_thickness)};
+    if (!is_off(c, STR_blend_parameters))
+        return not_yet(c, STR_blend_parameters, "parameter blending");
+    return args[0] ? build_op(c, IR_SLAB_LAYER, args, 3) : args[1];
+}
+
+/* bg (1 - share) + fg share; 0 is no matter. */
+static ir_ref beside(const struct call *c, ir_ref bg, ir_ref fg, ir_ref share)
+{
+    ir_ref args[3] = {bg, fg, share};
+    if (!is_off(c, STR_blend_parameters))
+        return not_yet(c, STR_blend_parameters, "parameter blending");
+    if (bg == fg || ir_const_is(c->b->graph, share, 0.0f))
+        return bg;
+    return ir_const_is(c->b->graph, share, 1.0f) ? fg : build_op(c, IR_CLOSURE_MIX, args, 3);
+}
+
+static ir_ref build_slab_mix(const struct call *c)
+{
+    return beside(c, arg(c, STR_bg), arg(c, STR_fg), arg(c, STR_mix));
+}
+
+static ir_ref build_slab_coverage(const struct call *c)
+{
+    return beside(c, 0, arg(c, STR_in), arg(c, STR_weight));
+}
+
+static ir_ref build_slab_select(const struct call *c)
+{
+    struct ir_graph *g = c->b->graph;
+    ir_ref is_second = ir_op2(g, IR_GT, arg(c, STR_mask), ir_const_float(g, 0.5f));
+    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
+    return beside(c, arg(c, STR_in1), arg(c, STR_in2), ir_op3(g, IR_SELECT, is_second, one, zero));
+}
+
+static ir_ref build_slab_surface(const struct call *c)
+{
+    struct ir_value thin;
+    if (!build_initial(c->b, arg(c, STR_thin), &thin))
+        return not_constant(c, STR_thin);
+    ir_ref args[3] = {arg(c, STR_bsdf), ir_const_bool(c->b->graph, thin.w[0].u != 0),
+                      arg(c, STR_surface_thickness)};
+    return build_op(c, IR_SLAB_SURFACE, args, 3);
+}
+
 /* ---- shaders ---- */
 
 static ir_ref build_surface(const struct call *c)
@@ -375,7 +478,7 @@ static ir_ref build_chosen_input(const struct call *c)
 #define SAME 0u /* as the output */
 static_assert(IR_NUM_TYPES <= 32, "a set of types has 32 bits");
 
-enum { MAX_NEEDED = 8 };
+enum { MAX_NEEDED = NUM_SLAB_INPUTS };
 
 static const struct dynamic_node {
     str_id node;
@@ -417,6 +520,31 @@ static const struct dynamic_node {
      measured_edf,
      OF(EDF),
      {{STR_color, OF(VEC3)}, {STR_normal, OF(VEC3)}, {STR_file, OF(SAMPLER)}}},
+    {STR_slab,
+     build_slab,
+     OF(BSDF),
+     {
+#define SLAB_INPUT(name, type) {STR_##name, OF(type)},
+#include "slabs/slabs.def"
+#undef SLAB_INPUT
+     }},
+    {STR_slab_layer,
+     build_slab_layer,
+     OF(BSDF),
+     {{STR_top, SAME}, {STR_base, SAME}, {STR_thickness, OF(FLOAT)}}},
+    {STR_slab_mix,
+     build_slab_mix,
+     OF(BSDF),
+     {{STR_bg, SAME}, {STR_fg, SAME}, {STR_mix, OF(FLOAT)}}},
+    {STR_slab_coverage, build_slab_coverage, OF(BSDF), {{STR_in, SAME}, {STR_weight, OF(FLOAT)}}},
+    {STR_slab_select,
+     build_slab_select,
+     OF(BSDF),
+     {{STR_in1, SAME}, {STR_in2, SAME}, {STR_mask, OF(FLOAT)}}},
+    {STR_slab_surface,
+     build_slab_surface,
+     OF(SURFACE),
+     {{STR_bsdf, OF(BSDF)}, {STR_thin, OF(BOOL)}, {STR_surface_thickness, OF(FLOAT)}}},
     {STR_surface,
      build_surface,
      OF(SURFACE),

@@ -83,6 +83,8 @@ enum family_member {
     FAMILY_REFRACTION,
     FAMILY_SAMPLE,
     FAMILY_PDF,
+    FAMILY_TRANSMITTANCE,
+    FAMILY_WAY,
     NUM_FAMILY_MEMBERS
 };
 

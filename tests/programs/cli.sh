@@ -343,7 +343,7 @@ check 'by path, the same topology' eval '"$mxgen" long.mtlx --reflect -o path &&
 # Other commands
 check 'validate' exits 0 "$mxgen" validate two.mtlx
 check 'validate finds' exits 1 "$mxgen" validate bad.mtlx
-for view in elements graph dot ir closures statistics; do
+for view in elements graph dot ir closures statistics slabs; do
     check "inspect --$view" exits 0 "$mxgen" inspect two.mtlx "--$view" --element A
     check "inspect --$view prints" test -s out
 done
