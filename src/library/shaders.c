@@ -55,8 +55,8 @@ static void report_missing(const struct library *lib, elem_id material, const st
     struct text source;
     text_init(&source, diags->arena);
     text_fmt(&source, shader ? "'%s'" : "a node", text_of(lib, shader));
-    diag_add(diags, DIAG_ID_no_shader, doc_name_place(&lib->doc, material),
-             text_of(lib, e->name), text_cstr(&source), text_of(lib, port->name));
+    diag_add(diags, DIAG_ID_no_shader, doc_name_place(&lib->doc, material), text_of(lib, e->name),
+             text_cstr(&source), text_of(lib, port->name));
 }
 
 /* True if a node, an interface or a fault of its own stands at the input. */
