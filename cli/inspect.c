@@ -5,7 +5,7 @@
 #include <string.h>
 
 struct inspect {
-    bool views[MXG_VIEW_STATISTICS + 1];
+    bool views[MXG_VIEW_SLABS + 1];
     const char *target, *element;
 };
 
@@ -34,7 +34,7 @@ static void print_views(struct cli *cli, const mxg_document *document,
                         const struct inspect *inspect)
 {
     bool any = false, good = true;
-    for (int view = 0; view <= MXG_VIEW_STATISTICS && good; ++view) {
+    for (int view = 0; view <= MXG_VIEW_SLABS && good; ++view) {
         if (!inspect->views[view])
             continue;
         any = true;
@@ -57,6 +57,8 @@ int command_inspect(const struct command *command, int argc, char **argv)
         {"closures", 0, ARG_FLAG, NULL, "closure leaves and their weights",
          &inspect.views[MXG_VIEW_CLOSURES]},
         {"statistics", 0, ARG_FLAG, NULL, "counts", &inspect.views[MXG_VIEW_STATISTICS]},
+        {"slabs", 0, ARG_FLAG, NULL, "slabs, their operators, media and features",
+         &inspect.views[MXG_VIEW_SLABS]},
         {"element", 'e', ARG_TEXT, "PATH", "path of an element (default: the first renderable)",
          &inspect.element},
         {"target", 't', ARG_TEXT, "T", "target language (default: glsl)", &inspect.target},

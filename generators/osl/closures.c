@@ -35,6 +35,46 @@ static ir_ref light(struct osl_tree *t, ir_ref edf, ir_ref intensity, ir_ref exp
     return osl_scaled(t, edf, scale);
 }
 
+/* True for the parts of slabs. Light of matter itself is no layer of OSL, either. */
+static bool is_of_slab(const struct osl_tree *t, ir_ref ref)
+{
+    return closure_has(t->shader, t->host, ref, LEAF_TRANSMITTANCE)
+           || (ir_type_of(t->graph, ref) == IR_TYPE_BSDF
+               && closure_has(t->shader, t->host, ref, LEAF_EMISSION));
+}
+
+static bool has_slab(const struct osl_tree *t, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(t->graph, ref);
+    bool has = node->op == IR_LEAF && is_of_slab(t, ref);
+    for (uint32_t i = 0; node->op != IR_LEAF && i < node->num_args; i++)
+        has |= t->slabs[ir_arg(t->graph, ref, i)];
+    return has;
+}
+
+/*
+ * OSL's layer knows reflection alone. Below slabs the base has the weight of the walk, with the way
+ * of the mirrored view, because a closure does not know the light.
+ */
+static ir_ref layered(struct osl_tree *t, ir_ref top, ir_ref base)
+{
+    if (!top || !base || !t->slabs[top])
+        return osl_layered(t, t->of[top], t->of[base]);
+    ir_ref view = closure_view(t->shader, t->host), way = closure_way(t->shader, t->host, view);
+    ir_ref through = closure_throughput(t->shader, t->host, top, way);
+    return osl_sum(t, t->of[top], osl_scaled(t, t->of[base], through));
+}
+
+/* The opacity is already in the closure if premultiplied. */
+static ir_ref surface(struct osl_tree *t, ir_ref closure, ir_ref opacity, bool premultiplied)
+{
+    if (!premultiplied || ir_const_is(t->graph, opacity, 1.0f))
+        return seen_through(t, closure, opacity);
+    t->shader->transparent = true;
+    ir_ref through = osl_scaled(t, osl_transparent(t), closure_one_minus(t->graph, opacity));
+    return osl_sum(t, closure, through);
+}
+
 static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
 {
     ir_ref a[4] = {0};
@@ -42,13 +82,15 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
     if (node->op == IR_LEAF)
         return osl_leaf(t, ref);
     memcpy(a, ir_args(t->graph, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *a);
+    bool premultiplied = node->attr != 0; /* of a surface */
     switch (node->op) {
-    case IR_LAYER: return osl_layered(t, t->of[a[0]], t->of[a[1]]);
+    case IR_LAYER: return layered(t, a[0], a[1]);
     case IR_CLOSURE_MIX:
     case IR_SHADER_MIX: return osl_mixed(t, t->of[a[0]], t->of[a[1]], a[2]);
     case IR_CLOSURE_ADD: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
     case IR_CLOSURE_SCALE: return osl_scaled(t, t->of[a[0]], a[1]);
-    case IR_SURFACE_SHADER: return seen_through(t, osl_sum(t, t->of[a[0]], t->of[a[1]]), a[2]);
+    case IR_SURFACE_SHADER:
+        return surface(t, osl_sum(t, t->of[a[0]], t->of[a[1]]), a[2], premultiplied);
     case IR_SURFACE_UNLIT: return unlit(t, a[0], a[1], a[2]);
     case IR_VOLUME_SHADER: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
     case IR_LIGHT_SHADER: return light(t, t->of[a[0]], a[1], a[2]);
@@ -72,10 +114,12 @@ static ir_ref closure_below(struct osl_tree *t, ir_ref root)
     if (!root)
         return 0;
     t->of = ARENA_ARRAY(t->shader->arena, ir_ref, root + 1);
+    t->slabs = ARENA_ARRAY(t->shader->arena, uint8_t, root + 1);
     uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++) {
         if (!needed[ref] || !(ir_get(t->graph, ref)->flags & IR_NODE_CLOSURE))
             continue;
+        t->slabs[ref] = has_slab(t, ref);
         ir_push_origin_of(t->graph, ref);
         t->of[ref] = rewrite(t, ref);
         ir_pop_origin(t->graph);

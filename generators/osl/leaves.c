@@ -31,6 +31,9 @@ enum argument_kind {
     ARGUMENT_BENT,
     ARGUMENT_TEXT,
     ARGUMENT_INT,
+    ARGUMENT_FLOAT,
+    ARGUMENT_GREY,
+    ARGUMENT_ALBEDO,
 };
 
 struct argument {
@@ -89,6 +92,18 @@ struct row {
 #define ARG_INT(value) \
     { \
         .kind = ARGUMENT_INT, .number = value \
+    }
+#define ARG_FLOAT(value) \
+    { \
+        .kind = ARGUMENT_FLOAT, .number = value \
+    }
+#define ARG_GREY(value) \
+    { \
+        .kind = ARGUMENT_GREY, .number = value \
+    }
+#define ARG_ALBEDO \
+    { \
+        .kind = ARGUMENT_ALBEDO \
     }
 #define ARG_KEYWORD(name) ARG_TEXT(#name), ARG(name)
 #define ARGUMENTS(...) ((const struct argument[]){__VA_ARGS__, {.kind = ARGUMENT_END}})
@@ -236,14 +251,27 @@ static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsign
     return built;
 }
 
+/* An argument that is no input; 0: it is one. */
+static ir_ref other_argument(const struct leaf *leaf, const struct argument *argument)
+{
+    const struct osl_tree *t = leaf->tree;
+    switch (argument->kind) {
+    case ARGUMENT_TEXT:
+        return ir_const_string(t->graph, str_intern_z(t->shader->strings, argument->text));
+    case ARGUMENT_INT: return ir_const_int(t->graph, argument->number);
+    case ARGUMENT_FLOAT: return ir_const_float(t->graph, (float)argument->number);
+    case ARGUMENT_GREY: return ir_const_splat(t->graph, IR_TYPE_VEC3, (float)argument->number);
+    case ARGUMENT_ALBEDO: return closure_call(t->shader, t->host, leaf->ref, LEAF_ALBEDO, NULL);
+    default: return 0;
+    }
+}
+
 static ir_ref argument(const struct leaf *leaf, const struct argument *argument)
 {
     struct ir_graph *g = leaf->tree->graph;
-    struct strpool *strings = leaf->tree->shader->strings;
-    if (argument->kind == ARGUMENT_TEXT)
-        return ir_const_string(g, str_intern_z(strings, argument->text));
-    if (argument->kind == ARGUMENT_INT)
-        return ir_const_int(g, argument->number);
+    ir_ref other = other_argument(leaf, argument);
+    if (other)
+        return other;
     ir_ref value = argument->input == INPUT_white ? ir_const_splat(g, IR_TYPE_VEC3, 1.0f)
                                                   : leaf->inputs[argument->input];
     assert(value); /* a row names only inputs of its leaf */
@@ -417,11 +445,16 @@ ir_ref osl_leaf(struct osl_tree *t, ir_ref ref)
     str_id family = t->graph->callees.items[node.attr].name;
     const struct row *row = find_row(str_text(t->shader->strings, family));
     ir_ref result = 0;
-    if (row) {
+    bool is_clear =
+        closure_has(t->shader, t->host, ref, LEAF_TRANSMITTANCE)
+        && ir_const_is(t->graph, closure_call(t->shader, t->host, ref, LEAF_ALBEDO, NULL), 0.0f);
+    if (is_clear) {
+        return 0;
+    } else if (row) {
         struct leaf leaf = {.tree = t, .ref = ref};
         find_inputs(&leaf);
         result = row_call(&leaf, row);
-    } else if (node.type == IR_TYPE_EDF) {
+    } else if (node.type == IR_TYPE_EDF || functions[LEAF_EMISSION] != LANG_NONE) {
         result = emission(t, ref);
     } else if (node.type == IR_TYPE_VDF) {
         result = medium(t, ref);

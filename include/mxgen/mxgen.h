@@ -779,6 +779,7 @@ typedef enum mxg_view {
     MXG_VIEW_IR,       /* the optimised IR, parseable (docs/ir.md) */
     MXG_VIEW_CLOSURES, /* leaves with weights */
     MXG_VIEW_STATISTICS,
+    MXG_VIEW_SLABS, /* the tree of slabs, with thickness, medium and features (docs/slabs.md) */
     MXG_VIEW_MAX_ENUM = 0x7fffffff
 } mxg_view;
 /*

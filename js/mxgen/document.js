@@ -267,7 +267,7 @@ export class Document extends Owner {
             "mxg_generate", "mxg_result_destroy", [this._handle], out => [this._pointer, desc, out])));
     }
 
-    /** A text for people: "elements", "graph", "dot", "ir", "closures" or "statistics". Throws DocumentError. */
+    /** A text for people: "elements", "graph", "dot", "ir", "closures", "statistics" or "slabs". Throws DocumentError. */
     inspect(view, { target = "glsl", ...request } = {}) {
         const number = numberOf("mxg_view", view, "view");
         return this.#made(() => this.#request(target, request, desc => this.context._make(

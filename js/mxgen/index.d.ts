@@ -11,7 +11,7 @@ export type Stage = "vertex" | "pixel";
 export type Block = "publicUniforms" | "privateUniforms" | "lightData" | "textures" | "appData" | "vertexData" | "outputs";
 /** opaque: without blending; mask: with the depth test alone; blend: back to front. Colours are premultiplied. */
 export type Alpha = "opaque" | "mask" | "blend";
-export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics";
+export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics" | "slabs";
 /** The effect of a new value of an input on a shader. */
 export type InputState = "unknown" | "unused" | "uniform" | "compiled" | "connected";
 export type ChangeKind = "nothing" | "values" | "shader";

@@ -59,6 +59,7 @@ class View(enum.IntEnum):
     IR = lib.MXG_VIEW_IR
     CLOSURES = lib.MXG_VIEW_CLOSURES
     STATISTICS = lib.MXG_VIEW_STATISTICS
+    SLABS = lib.MXG_VIEW_SLABS
 
 
 @dataclass(frozen=True)

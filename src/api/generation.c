@@ -249,6 +249,7 @@ bool generation_build(struct generation *g)
 {
     g->builder =
         build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
+    build_know_slabs(g->builder);
     if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
     g->root = g->desc.bindings ? build_stack(g->builder, &g->desc.bindings->bindings, g->desc.stack)
@@ -266,26 +267,10 @@ bool generation_build(struct generation *g)
 
 /* ---- Emit ---- */
 
-static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
+void generation_walk_slabs(struct generation *g)
 {
-    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR
-                       && (int)LEAF_PDF == FAMILY_PDF,
-                   "leaf functions are the first members of a family");
-    return build_leaf_family(user_data, callee)->functions;
-}
-
-static const char *leaf_input(void *user_data, uint32_t callee, unsigned index)
-{
-    return build_leaf_input(user_data, callee, index);
-}
-
-struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point)
-{
-    return (struct closure_host){.user_data = builder,
-                                 .point = point,
-                                 .leaf_functions = leaf_functions,
-                                 .leaf_input = leaf_input,
-                                 .lang = build_lang_host(builder)};
+    g->root = build_walk_slabs(g->builder, &g->closure_host, g->root);
+    ir_assert_valid(&g->result->graph, "after the walk of slabs");
 }
 
 void generation_start_closures(struct generation *g)
@@ -293,7 +278,7 @@ void generation_start_closures(struct generation *g)
     const struct option_value *lights = &g->options[OPTION_lights];
     if (!g->result->target->closures) /* otherwise the renderer has the lights */
         build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
-    g->closure_host = generation_closure_host(g->builder, &g->point);
+    g->closure_host = build_closure_host(g->builder, &g->point);
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
         .environment = g->options[OPTION_environment].number != 0,
@@ -305,6 +290,8 @@ void generation_start_closures(struct generation *g)
         .flips_v = g->options[OPTION_texture_origin].number != 0,
         .encodes = g->options[OPTION_encode].number != 0,
     };
+    g->closure_host.keeps_color = g->lighting.transparency == TRANSPARENCY_OPAQUE
+                                  || g->lighting.transparency == TRANSPARENCY_MASK;
 }
 
 struct shader_layout_rules generation_layout_rules(const struct generation *g)
@@ -357,6 +344,7 @@ bool generation_emit(struct generation *g)
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
+    generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
     if (!is_emitted)

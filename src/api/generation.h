@@ -84,6 +84,8 @@ bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
 /* prepares the closure room; generation_emit calls it itself */
 void generation_start_closures(struct generation *g);
+/* Replaces the slabs below the root by their lobes; needs the closures' host. */
+void generation_walk_slabs(struct generation *g);
 /* makes the effects of the stages; later steps cannot fail */
 bool generation_emit(struct generation *g);
 bool generation_finish(struct generation *g); /* scheduling and layout */
@@ -92,7 +94,6 @@ bool generation_spell(struct generation *g);  /* source */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* generation.c: shared with network.c. */
-struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point);
 struct shader_layout_rules generation_layout_rules(const struct generation *g);
 struct spell_options generation_spell_options(const struct generation *g);
 void generation_report_not_renderable(struct generation *g, const char *why);

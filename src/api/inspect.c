@@ -70,7 +70,14 @@ static void view_closures(struct generation *g, struct text *out)
     if (!generation_start(g) || !generation_build(g))
         return;
     generation_start_closures(g);
+    generation_walk_slabs(g);
     closure_describe(&g->result->shader, &g->closure_host, g->root, out);
+}
+
+static void view_slabs(struct generation *g, struct text *out)
+{
+    if (generation_start(g) && generation_build(g))
+        slabs_describe(&g->result->shader, g->root, out);
 }
 
 static void write_counts(struct text *out, const char *name, uint32_t count)
@@ -105,9 +112,10 @@ static const struct view {
     void (*write)(struct generation *g, struct text *out);
     bool generates; /* needs a target */
 } views[] = {
-    [MXG_VIEW_ELEMENTS] = {view_elements, false}, [MXG_VIEW_GRAPH] = {graph_view_text, false},
-    [MXG_VIEW_DOT] = {graph_view_dot, false},     [MXG_VIEW_IR] = {view_ir, true},
-    [MXG_VIEW_CLOSURES] = {view_closures, true},  [MXG_VIEW_STATISTICS] = {view_statistics, true},
+    [MXG_VIEW_ELEMENTS] = {view_elements, false},    [MXG_VIEW_GRAPH] = {graph_view_text, false},
+    [MXG_VIEW_DOT] = {graph_view_dot, false},        [MXG_VIEW_IR] = {view_ir, true},
+    [MXG_VIEW_SLABS] = {view_slabs, true},           [MXG_VIEW_CLOSURES] = {view_closures, true},
+    [MXG_VIEW_STATISTICS] = {view_statistics, true},
 };
 
 static void inspect(struct generation *g)

@@ -53,7 +53,7 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
         outputs[i] = (struct network_output){.value = results[i]};
         outputs[i].name = build_network_output(builder, node, i, &outputs[i].doc_type);
     }
-    struct closure_host host = generation_closure_host(builder, point);
+    struct closure_host host = build_closure_host(builder, point);
     bool is_emitted = g->result->target->network->emit_node(shader, &host, outputs,
                                                             node->num_outputs, &g->unknown_leaf);
     ir_assert_valid(shader->graph, "after closures");

@@ -12,6 +12,7 @@
 #include "base/names.h"
 #include "library/library.h"
 #include "shader/network.h"
+#include "slabs/slabs.h"
 
 /* The inputs that become uniforms: the option `interface`. */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
@@ -111,6 +112,13 @@ const struct lang_host *build_lang_host(struct builder *builder);
 const struct family *build_leaf_family(struct builder *builder, uint32_t callee);
 /* The input name of operand `index` + 1 of a LEAF node; NULL after the last. */
 const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned index);
+
+/* closures.c: what the closure room asks. */
+struct closure_host build_closure_host(struct builder *builder, struct closure_point *point);
+/* Before the build: the layers of stacks may have slabs. */
+void build_know_slabs(struct builder *builder);
+/* slabs_walk with the library's slabs. */
+ir_ref build_walk_slabs(struct builder *builder, const struct closure_host *closures, ir_ref root);
 
 /* Matches a path: '*' is any run without '/', '**' any run, '?' one character except '/'. */
 bool build_glob_matches(const char *glob, const char *path);

@@ -78,6 +78,7 @@ struct builder {
     void (*apply)(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
                   ir_ref *results);
     struct lang_host host;
+    ir_ref (*without_slabs)(struct builder *b, ir_ref root); /* NULL: there are none */
     struct instance *document;
     VEC(struct frame) frames;
     VEC(ir_ref) results;
@@ -301,6 +302,11 @@ uint32_t build_light_source(struct builder *b, const struct implementation *impl
 
 /* film.c: a thin film on a BSDF, as inputs of its microfacet leaves. `node` is the film node. */
 ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, elem_id node);
+
+/* slab.c: the lobes of a slab at a place, by the definition ND_slab_lobes of the library. */
+ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place);
+/* The definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
+uint32_t build_slab_definition(const struct builder *b);
 
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);

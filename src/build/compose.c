@@ -67,12 +67,19 @@ static void name_value(struct builder *b, ir_ref value, const struct build_part 
 
 /* ---- Weights ---- */
 
+/* The opacity of slabs is that of their lobes. The layer keeps the slabs. */
+static ir_ref alpha_of(struct builder *b, ir_ref surface)
+{
+    ir_ref seen = b->without_slabs ? b->without_slabs(b, surface) : surface;
+    return closure_surface_alpha(b->shader, seen);
+}
+
 /* How much of what is below a layer hides, and its share of displacement and normal. */
 static void find_presence(struct builder *b, struct build_part *part, const struct build_part *base,
                           unsigned side)
 {
     ir_ref surface = part->sides[side] ? part->sides[side] : part->sides[0];
-    ir_ref opacity = surface ? clamped(b, closure_surface_alpha(b->shader, surface)) : 0;
+    ir_ref opacity = surface ? clamped(b, alpha_of(b, surface)) : 0;
     ir_ref presence = times(b, part->mask, opacity);
     part->presence = presence ? presence : number(b, 1.0f);
     part->hides = surface ? part->presence : number(b, 0.0f);

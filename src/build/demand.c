@@ -85,6 +85,8 @@ static void resolve(struct builder *b, struct frame *frame, elem_id node)
     assert(b->resolved.bindings.len >= before);
     b->resolved.bindings.len = before;
     frame->bindings = copy;
+    if (layer == b->lib && frame->node.nodedef != LIBRARY_NONE)
+        library_check_shaders(b->lib, node, frame->node.nodedef, copy, b->diags);
 }
 
 static void push(struct builder *b, struct instance *scope, elem_id node)

@@ -5,6 +5,7 @@
  * host has.
  */
 #include "build/code.h"
+#include "build/dynamic.h"
 
 #include <stdio.h>
 
@@ -42,7 +43,7 @@ static mxg_ref op2(mxg_build *build, const char *op, mxg_ref a, mxg_ref b)
     return mxg_build_op(build, op, NULL, (mxg_ref[]){a, b}, 2);
 }
 
-static ir_ref arg(const mxg_build *build, str_id name)
+ir_ref dynamic_arg(const mxg_build *build, str_id name)
 {
     for (unsigned i = 0; i < build->def->num_inputs; i++)
         if (build->ports[i].name == name)
@@ -50,7 +51,7 @@ static ir_ref arg(const mxg_build *build, str_id name)
     return 0;
 }
 
-static bool misfit(const mxg_build *build, const char *fault)
+bool dynamic_misfit(const mxg_build *build, const char *fault)
 {
     struct builder *b = build->b;
     diag_add(b->diags, DIAG_ID_function_signature,
@@ -182,7 +183,7 @@ static void record_default(mxg_build *build, uint32_t index)
     assert(index < b->shader->variables.len);
     struct shader_variable *variable = &b->shader->variables.items[index];
     struct ir_value value;
-    if (!variable->has_default && build_initial(b, arg(build, STR_default), &value)
+    if (!variable->has_default && build_initial(b, dynamic_arg(build, STR_default), &value)
         && value.type == variable->type) {
         variable->has_default = true;
         variable->value = value;
@@ -244,8 +245,8 @@ static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
     results[0] =
-        code_issue(build, build_blur(build->b, arg(build, STR_in), arg(build, STR_size),
-                                     arg(build, STR_filtertype), build->frame->node.element));
+        code_issue(build, build_blur(build->b, dynamic_arg(build, STR_in), dynamic_arg(build, STR_size),
+                                     dynamic_arg(build, STR_filtertype), build->frame->node.element));
     return true;
 }
 
@@ -280,16 +281,16 @@ static bool thin_film(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
     results[0] =
-        code_issue(build, build_film(build->b, arg(build, STR_thickness), arg(build, STR_ior),
-                                     arg(build, STR_base), build->frame->node.element));
+        code_issue(build, build_film(build->b, dynamic_arg(build, STR_thickness), dynamic_arg(build, STR_ior),
+                                     dynamic_arg(build, STR_base), build->frame->node.element));
     return true;
 }
 
 static bool measured_edf(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    results[0] = code_issue(build, build_measured_edf(build->b, arg(build, STR_color),
-                                                      arg(build, STR_normal), arg(build, STR_file),
+    results[0] = code_issue(build, build_measured_edf(build->b, dynamic_arg(build, STR_color),
+                                                      dynamic_arg(build, STR_normal), dynamic_arg(build, STR_file),
                                                       build->frame->node.element));
     return true;
 }
@@ -354,7 +355,7 @@ static mxg_ref set_input(mxg_build *build, const char *name)
 /* A mask or cut-out; 0: it is 1. */
 static ir_ref set_share(const mxg_build *build, str_id name)
 {
-    ir_ref value = arg(build, name);
+    ir_ref value = dynamic_arg(build, name);
     return ir_const_is(build->b->graph, value, 1.0f) ? 0 : value;
 }
 
@@ -404,20 +405,20 @@ static bool build_chosen_input(void *user_data, mxg_build *build, mxg_ref *resul
     mxg_value number = MXG_INIT(mxg_value);
     (void)user_data;
     if (build->def->num_inputs < 2)
-        return misfit(build, "the built-in code needs a number and inputs to choose from");
+        return dynamic_misfit(build, "the built-in code needs a number and inputs to choose from");
     if (library_type_ir(b->lib, build->ports[0].type) != IR_TYPE_INT)
-        return misfit(build, "the built-in code needs an integer as its first input");
+        return dynamic_misfit(build, "the built-in code needs an integer as its first input");
     if (!mxg_build_constant(build, build_text(b, build->ports[0].name), &number))
         return false;
     if (number.integer < 0 || number.integer >= build->def->num_inputs - 1)
-        return misfit(build, "it has no input with this number");
+        return dynamic_misfit(build, "it has no input with this number");
     ir_ref chosen = build->frame->args[number.integer + 1];
     bool is_any = build->type == IR_TYPE_MATERIAL,
          may_be_absent =
              is_any || ir_type_is_closure(build->type) || ir_type_is_shader(build->type);
     bool fits = chosen ? is_any || ir_type_of(b->graph, chosen) == build->type : may_be_absent;
     results[0] = code_issue(build, chosen);
-    return fits || misfit(build, "the chosen input has another type than the output");
+    return fits || dynamic_misfit(build, "the chosen input has another type than the output");
 }
 
 /* ---- what the code needs of a definition, which may be one of the document ---- */
@@ -430,7 +431,7 @@ static bool build_chosen_input(void *user_data, mxg_build *build, mxg_ref *resul
 #define SAME 0u /* as the output */
 static_assert(IR_NUM_TYPES <= 32, "a set of types has 32 bits");
 
-enum { MAX_NEEDED = 8 };
+enum { MAX_NEEDED = NUM_SLAB_INPUTS };
 
 static const struct dynamic_node {
     str_id node;
@@ -472,6 +473,31 @@ static const struct dynamic_node {
      measured_edf,
      OF(EDF),
      {{STR_color, OF(VEC3)}, {STR_normal, OF(VEC3)}, {STR_file, OF(SAMPLER)}}},
+    {STR_slab,
+     dynamic_slab,
+     OF(BSDF),
+     {
+#define SLAB_INPUT(name, type) {STR_##name, OF(type)},
+#include "slabs/slabs.def"
+#undef SLAB_INPUT
+     }},
+    {STR_slab_layer,
+     dynamic_slab_layer,
+     OF(BSDF),
+     {{STR_top, SAME}, {STR_base, SAME}, {STR_thickness, OF(FLOAT)}}},
+    {STR_slab_mix,
+     dynamic_slab_mix,
+     OF(BSDF),
+     {{STR_bg, SAME}, {STR_fg, SAME}, {STR_mix, OF(FLOAT)}}},
+    {STR_slab_coverage, dynamic_slab_coverage, OF(BSDF), {{STR_in, SAME}, {STR_weight, OF(FLOAT)}}},
+    {STR_slab_select,
+     dynamic_slab_select,
+     OF(BSDF),
+     {{STR_in1, SAME}, {STR_in2, SAME}, {STR_mask, OF(FLOAT)}}},
+    {STR_slab_surface,
+     dynamic_slab_surface,
+     OF(SURFACE),
+     {{STR_bsdf, OF(BSDF)}, {STR_thin, OF(BOOL)}, {STR_surface_thickness, OF(FLOAT)}}},
     {STR_surface,
      build_surface,
      OF(SURFACE),
@@ -589,7 +615,7 @@ static bool build_by_code(void *user_data, mxg_build *build, mxg_ref *results)
         return false;
     }
     const char *fault = find_misfit(build, code);
-    return fault ? misfit(build, fault) : code->build(user_data, build, results);
+    return fault ? dynamic_misfit(build, fault) : code->build(user_data, build, results);
 }
 
 void build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)

@@ -127,18 +127,49 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
     return closure_call_all(shader, host, leaf, which, light, result) ? result[0] : 0;
 }
 
-ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf)
+/* True for a medium that scatters light, or may. */
+static bool may_scatter(struct shader *shader, const struct closure_host *host, ir_ref leaf)
+{
+    ir_ref albedo = closure_call(shader, host, leaf, LEAF_ALBEDO, NULL);
+    return albedo && !ir_const_is(shader->graph, albedo, 0.0f);
+}
+
+/* What a leaf lets through with the weight 1; 0: nothing. */
+static ir_ref unit_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                              ir_ref *out_decay)
 {
     struct ir_graph *g = shader->graph;
-    assert(ir_get(g, leaf)->op == IR_LEAF);
+    ir_ref through = closure_call(shader, host, leaf, LEAF_THROUGHPUT, NULL);
+    ir_ref decay = through ? closure_call(shader, host, leaf, LEAF_TRANSMITTANCE, NULL) : 0;
+    if (!decay || ir_const_is(g, decay, 1.0f) || ir_const_is(g, through, 0.0f))
+        return through;
+    if (host->spreads && may_scatter(shader, host, leaf)) {
+        ir_ref way = ir_const_float(g, CLOSURE_MEAN_WAY),
+               ways = ir_construct(g, IR_TYPE_VEC3, &way, 1);
+        return ir_op2(g, IR_MUL, through, ir_op2(g, IR_POW, decay, ways));
+    }
+    *out_decay = decay;
+    for (unsigned i = 0; i < host->way; i++)
+        through = ir_op2(g, IR_MUL, through, decay);
+    return through;
+}
+
+ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                               ir_ref *out_decay)
+{
+    struct ir_graph *g = shader->graph;
+    assert(ir_get(g, leaf)->op == IR_LEAF && host->way <= 2);
+    *out_decay = 0;
     if (ir_type_of(g, leaf) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
         return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
-    ir_ref through = closure_call(shader, host, leaf, LEAF_THROUGHPUT, NULL);
+    ir_ref through = unit_throughput(shader, host, leaf, out_decay);
     ir_ref weight = ir_arg(g, leaf, 0);
     if (!through) /* opaque */
         return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
     if (ir_const_is(g, weight, 1.0f))
         return through;
+    if (*out_decay)
+        *out_decay = CLOSURE_MIXED;
     /* 1 - w (1 - T) */
     ir_ref stopped = ir_op2(g, IR_MUL, closure_one_minus(g, through), weight);
     return closure_one_minus(g, stopped);

@@ -26,6 +26,8 @@ enum leaf_function {
     LEAF_REFRACTION,
     LEAF_SAMPLE,
     LEAF_PDF,
+    LEAF_TRANSMITTANCE,
+    LEAF_WAY,
     NUM_LEAF_FUNCTIONS
 };
 
@@ -55,16 +57,26 @@ struct closure_host {
      * throughput depends only on the view direction
      */
     const ir_ref *way_in;
+    /* the number of thicknesses that light goes through media on its way in: 0, 1 or 2 */
+    unsigned way;
+    /*
+     * for lobes that mirror: media that scatter spread their light, so its way is the mean one,
+     * and throughputs have it
+     */
+    bool spreads;
 };
 
 /*
  * A leaf of the flattened tree. Its weight is scalar · color. If scalar is 0, the shader skips the
- * leaf.
+ * leaf. Below media the weight depends on the way x of light through them, in thicknesses:
+ * scalar · (steady + color · decay^x).
  */
 struct closure_leaf {
     ir_ref leaf;   /* LEAF node with weight 1 */
     ir_ref scalar; /* float */
     ir_ref color;  /* vec3; 0 = white */
+    ir_ref decay;  /* vec3, 0 to 1; 0: no media above */
+    ir_ref steady; /* vec3; 0 = black */
     /* vec3: transmittance of the volume behind, for the light that the leaf refracts; 0 = 1 */
     ir_ref medium;
 };
@@ -115,6 +127,7 @@ struct closure_surface {
     ir_ref unlit;       /* colour that does not depend on lights */
     ir_ref alpha;       /* 0 = 1 */
     bool premultiplied; /* alpha already scales the parts */
+    bool is_matter;     /* and alpha is what the throughput of the bsdf says */
 };
 /* The parts of a surface shader, which may be made of others. root 0: a black one. */
 struct closure_surface closure_surface_of(struct shader *shader, const struct closure_host *host,
@@ -160,6 +173,19 @@ bool closure_is_surface(const struct shader *shader, ir_ref root);
  */
 ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                     enum leaf_function which, const ir_ref *light);
+
+/* The fraction of light on a way through media that a closure lets through. root 0: all light. */
+ir_ref closure_throughput(struct shader *shader, const struct closure_host *host, ir_ref root,
+                          ir_ref way);
+
+/*
+ * ways.c: the weight of a leaf for light on a way (float). Ways are those of a medium with index
+ * 1.5 for a direction: 1.5 / sqrt(1.25 + cos²).
+ */
+ir_ref closure_weight(struct shader *shader, const struct closure_leaf *leaf, ir_ref way);
+ir_ref closure_way(struct shader *shader, const struct closure_host *host, ir_ref direction);
+/* The mean over cosine-weighted directions: 4.5 - 1.5 sqrt(5). */
+#define CLOSURE_MEAN_WAY 1.1458980f
 
 /* The source of a LEAF; NULL: its functions are portable. */
 const struct source_leaf *closure_source(const struct shader *shader, ir_ref leaf);

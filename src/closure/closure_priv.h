@@ -52,8 +52,29 @@ struct closure_value closure_call_with(struct shader *shader, const struct closu
                                        ir_ref leaf, enum source_context context,
                                        const ir_ref *light, const struct closure_value *operands);
 
-/* call.c: the throughput of a leaf with its weight. */
-ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf);
+/* The decay of a weight that is no single power of the way through media. */
+#define CLOSURE_MIXED UINT32_MAX
+
+/*
+ * call.c: the throughput of a leaf with its weight, for host->way. Each further way multiplies it
+ * by *out_decay; 0: the throughput does not depend on the way.
+ */
+ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                               ir_ref *out_decay);
+
+/* ways.c: the decay of light that passes both. */
+ir_ref closure_both_decays(struct ir_graph *graph, ir_ref a, ir_ref b);
+/*
+ * Gives leaves below several media, whose decay is CLOSURE_MIXED, a decay that fits. ways[k]: the
+ * same leaves with host->way k.
+ */
+void closure_fit_decays(struct shader *shader, struct closure_list *list,
+                        const struct closure_list ways[2]);
+/* closure_fit_decays for one leaf; at[k] may be NULL: weight 0. */
+void closure_fit_decay(struct shader *shader, struct closure_leaf *leaf,
+                       const struct closure_leaf *const at[2]);
+/* The way of the light that a leaf reflects from the environment. */
+ir_ref closure_environment_way(struct shader *shader, const struct closure_host *host, ir_ref leaf);
 /* value.c: the throughput of an operator whose operands let these fractions pass. */
 ir_ref closure_operator_throughput(struct ir_graph *graph, ir_ref operator_, ir_ref a, ir_ref b);
 
@@ -65,6 +86,7 @@ struct closure_scatter;
 struct closure_scatter_layer {
     struct closure_list list;
     ir_ref emission; /* 0: black */
+    ir_ref alpha;    /* that the list and the emission have, but the tracer applies; 0: none */
     ir_ref is_it;    /* a bool: this layer is picked; 0: always */
     ir_ref chance;   /* a random number that picks a leaf; 0: that of the path tracer */
 };

@@ -165,6 +165,18 @@ void closure_describe_weight(const struct shader *shader, const struct closure_l
     if (!leaf->color)
         return;
     text_str(out, is_one ? "" : " * ");
+    text_str(out, leaf->steady ? "(" : "");
     d.start = out->len;
-    describe(&d, leaf->color, 0, is_one ? PREC_LOWEST : LANG_PREC_PRODUCT);
+    if (leaf->steady) {
+        describe(&d, leaf->steady, 0, PREC_LOWEST);
+        text_str(out, " + ");
+        d.start = out->len;
+    }
+    describe(&d, leaf->color, 0, is_one && !leaf->decay ? PREC_LOWEST : LANG_PREC_PRODUCT);
+    if (leaf->decay) {
+        text_str(out, " * ");
+        d.start = out->len;
+        describe(&d, leaf->decay, 0, LANG_PREC_POSTFIX);
+        text_str(out, leaf->steady ? "^way)" : "^way");
+    }
 }

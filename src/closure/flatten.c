@@ -19,6 +19,7 @@
 struct weight {
     ir_ref scalar, color; /* scalar 0: the node is not reached */
     ir_ref medium;        /* transmittance of the volume behind for refracted light; 0 = 1 */
+    ir_ref decay;         /* of closure_throughput */
 };
 
 struct flattener {
@@ -28,6 +29,7 @@ struct flattener {
     ir_ref root;
     struct weight *weights; /* per node */
     ir_ref *throughputs;    /* per node; 0: no layer needs it */
+    ir_ref *decays;         /* per node: how throughputs depend on ways through media */
     uint8_t *wanted;        /* per node: a layer needs its throughput */
 };
 
@@ -70,6 +72,19 @@ static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
     return closure_operator_throughput(f->graph, ref, of_a, of_b);
 }
 
+/* Only a layer keeps a power of two: a sum of two different ones is none. */
+static ir_ref operator_decay(const struct flattener *f, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(f->graph, ref);
+    ir_ref a = ir_arg(f->graph, ref, 0),
+           b = node->op == IR_CLOSURE_SCALE ? a : ir_arg(f->graph, ref, 1);
+    ir_ref of_a = a ? f->decays[a] : 0, of_b = b ? f->decays[b] : 0;
+    if (node->op == IR_LAYER)
+        return closure_both_decays(f->graph, of_a, of_b);
+    bool keeps = node->op != IR_CLOSURE_ADD || !of_a;
+    return of_a == of_b && keeps ? of_a : CLOSURE_MIXED;
+}
+
 /* Marks the operands of the top of each layer: their throughputs are needed. */
 static void want_throughputs(struct flattener *f, uint32_t num_nodes)
 {
@@ -103,12 +118,15 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
             continue;
         uint8_t op = ir_get(f->graph, ref)->op;
         ir_push_origin_of(f->graph, ref);
-        if (modified_base(f, ref)) /* a modifier has the throughput of its base */
+        if (modified_base(f, ref)) { /* a modifier has the throughput of its base */
             f->throughputs[ref] = f->throughputs[modified_base(f, ref)];
-        else if (op == IR_LEAF)
-            f->throughputs[ref] = closure_leaf_throughput(f->shader, f->host, ref);
-        else if (is_operator(ir_get(f->graph, ref)))
+            f->decays[ref] = f->decays[modified_base(f, ref)];
+        } else if (op == IR_LEAF) {
+            f->throughputs[ref] = closure_leaf_throughput(f->shader, f->host, ref, &f->decays[ref]);
+        } else if (is_operator(ir_get(f->graph, ref))) {
             f->throughputs[ref] = operator_throughput(f, ref);
+            f->decays[ref] = operator_decay(f, ref);
+        }
         closure_name(f->shader, f->throughputs[ref], ref, "throughput");
         ir_pop_origin(f->graph);
     }
@@ -121,15 +139,17 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
  */
 static void add_way_in(struct flattener *f, uint32_t num_nodes)
 {
-    ir_ref *both = f->throughputs, view = f->host->point->view;
+    ir_ref *both = f->throughputs, *decays = f->decays, view = f->host->point->view;
     f->throughputs = ARENA_ARRAY(f->shader->arena, ir_ref, num_nodes);
+    f->decays = ARENA_ARRAY(f->shader->arena, ir_ref, num_nodes);
     f->host->point->view = *f->host->way_in;
     find_throughputs(f, num_nodes);
     f->host->point->view = view;
     for (ir_ref ref = 1; ref < num_nodes; ref++)
-        if (both[ref])
+        if (both[ref] && !decays[ref]) /* a decay is the way in through media */
             both[ref] = ir_op2(f->graph, IR_MUL, both[ref], f->throughputs[ref]);
     f->throughputs = both;
+    f->decays = decays;
 }
 
 /* ---- weights, downwards ---- */
@@ -159,11 +179,13 @@ static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
         *w = add;
         return;
     }
+    if (w->decay != add.decay)
+        w->decay = CLOSURE_MIXED;
     if (w->color == color) {
         w->scalar = ir_op2(g, IR_ADD, w->scalar, scalar);
         return;
     }
-    *w = (struct weight){ir_const_float(g, 1.0f), sum_of_weights(g, *w, add), w->medium};
+    *w = (struct weight){ir_const_float(g, 1.0f), sum_of_weights(g, *w, add), w->medium, w->decay};
 }
 
 /* A factor multiplies the scalar if it is a float, else the colour. */
@@ -211,8 +233,11 @@ static void spread(struct flattener *f, ir_ref ref)
         /* a volume behind changes only refracted light */
         if (b && ir_type_of(g, b) == IR_TYPE_VDF)
             w.medium = closure_mul(g, w.medium, medium_of(f, b));
-        else if (b)
-            add_scaled(f, b, w, through_of(f, a));
+        else if (b) {
+            struct weight below = w;
+            below.decay = closure_both_decays(g, w.decay, a ? f->decays[a] : 0);
+            add_scaled(f, b, below, through_of(f, a));
+        }
         add_weight(f, a, w);
     } else if (op == IR_CLOSURE_MIX) {
         ir_ref mix = ir_arg(g, ref, 2);
@@ -252,10 +277,16 @@ static void merge_leaf(struct flattener *f, struct closure_list *out, ir_ref lea
         have->color =
             sum_of_weights(g, (struct weight){.scalar = have->scalar, .color = have->color}, w);
         have->scalar = ir_const_float(g, 1.0f);
+        if (have->decay != w.decay)
+            have->decay = CLOSURE_MIXED;
         return;
     }
     vec_push(f->shader->arena, &out->leaves,
-             (struct closure_leaf){leaf, w.scalar, w.color, w.medium});
+             (struct closure_leaf){.leaf = leaf,
+                                   .scalar = w.scalar,
+                                   .color = w.color,
+                                   .medium = w.medium,
+                                   .decay = w.decay});
 }
 
 static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
@@ -274,25 +305,61 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
         return;
     ir_ref leaf = unit_leaf(g, ref, f->shader->arena);
     if (ir_get(g, leaf)->op == IR_LEAF) /* the node is POISON if the graph is full */
-        merge_leaf(f, out, leaf, (struct weight){scalar, w.color, w.medium});
+        merge_leaf(f, out, leaf, (struct weight){scalar, w.color, w.medium, w.decay});
 }
 
-void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,
-                     struct closure_list *out)
+/* The throughputs that layers below `root` need, and where `whole` its own. */
+static struct flattener find_all_throughputs(struct shader *shader, const struct closure_host *host,
+                                             ir_ref root, bool whole)
 {
-    memset(out, 0, sizeof *out);
-    if (!root)
-        return;
     uint32_t num_nodes = root + 1;
     struct flattener f = {.shader = shader, .graph = shader->graph, .host = host, .root = root};
     f.weights = ARENA_ARRAY(shader->arena, struct weight, num_nodes);
     f.throughputs = ARENA_ARRAY(shader->arena, ir_ref, num_nodes);
+    f.decays = ARENA_ARRAY(shader->arena, ir_ref, num_nodes);
     f.wanted = ARENA_ARRAY(shader->arena, uint8_t, num_nodes);
     f.weights[root].scalar = 1;
+    f.wanted[root] = whole;
     want_throughputs(&f, num_nodes);
     find_throughputs(&f, num_nodes);
     if (host->way_in)
         add_way_in(&f, num_nodes);
+    return f;
+}
+
+/* The throughput of the whole tree for host->way, as the weight of a leaf below it. */
+static struct closure_leaf whole_throughput(struct shader *shader, const struct closure_host *host,
+                                            ir_ref root)
+{
+    struct flattener f = find_all_throughputs(shader, host, root, true);
+    return (struct closure_leaf){.leaf = root,
+                                 .scalar = ir_const_float(shader->graph, 1.0f),
+                                 .color = f.throughputs[root],
+                                 .decay = f.decays[root]};
+}
+
+ir_ref closure_throughput(struct shader *shader, const struct closure_host *host, ir_ref root,
+                          ir_ref way)
+{
+    if (!root)
+        return ir_const_splat(shader->graph, IR_TYPE_VEC3, 1.0f);
+    struct closure_leaf at[2], below = whole_throughput(shader, host, root);
+    if (below.decay == CLOSURE_MIXED) {
+        struct closure_host along = *host;
+        for (along.way = 1; along.way <= 2; along.way++)
+            at[along.way - 1] = whole_throughput(shader, &along, root);
+        closure_fit_decay(shader, &below, (const struct closure_leaf *[]){&at[0], &at[1]});
+    }
+    return ir_convert(shader->graph, IR_TYPE_VEC3, closure_weight(shader, &below, way));
+}
+
+/* The list for host->way. */
+static void flatten_along(struct shader *shader, const struct closure_host *host, ir_ref root,
+                          struct closure_list *out)
+{
+    uint32_t num_nodes = root + 1;
+    struct flattener f = find_all_throughputs(shader, host, root, false);
+    memset(out, 0, sizeof *out);
     memset(f.weights, 0, num_nodes * sizeof *f.weights);
     f.weights[root].scalar = ir_const_float(shader->graph, 1.0f);
     for (ir_ref ref = num_nodes; ref-- > 1;) {
@@ -307,6 +374,69 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
         ir_pop_origin(f.graph);
     }
     assert(out->leaves.len < num_nodes);
+}
+
+static bool any_mixed(const struct closure_list *list)
+{
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        if (list->leaves.items[i].decay == CLOSURE_MIXED)
+            return true;
+    return false;
+}
+
+/* The list for all ways, the last leaves first. */
+static void flatten_all_ways(struct shader *shader, const struct closure_host *host, ir_ref root,
+                             struct closure_list *out)
+{
+    assert(host->way == 0);
+    flatten_along(shader, host, root, out);
+    if (any_mixed(out)) {
+        struct closure_list ways[2];
+        struct closure_host along = *host;
+        for (along.way = 1; along.way <= 2; along.way++)
+            flatten_along(shader, &along, root, &ways[along.way - 1]);
+        closure_fit_decays(shader, out, ways);
+    }
+}
+
+/* True for a lobe around the mirrored direction, below media. */
+static bool mirrors(const struct shader *shader, const struct closure_host *host,
+                    const struct closure_leaf *leaf)
+{
+    return leaf->decay && !closure_has(shader, host, leaf->leaf, LEAF_WAY);
+}
+
+/* The weights of lobes that mirror, from a list with closure_host.spreads. */
+static void spread_mirrors(struct shader *shader, const struct closure_host *host, ir_ref root,
+                           struct closure_list *list)
+{
+    struct closure_list spread_list;
+    struct closure_host spreading = *host;
+    bool any = false;
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        any |= mirrors(shader, host, &list->leaves.items[i]);
+    if (!any)
+        return;
+    spreading.spreads = true;
+    flatten_all_ways(shader, &spreading, root, &spread_list);
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        for (uint32_t k = 0; k < spread_list.leaves.len; k++) {
+            const struct closure_leaf *from = &spread_list.leaves.items[k];
+            struct closure_leaf *leaf = &list->leaves.items[i];
+            if (from->leaf == leaf->leaf && from->medium == leaf->medium
+                && mirrors(shader, host, leaf))
+                *leaf = *from;
+        }
+}
+
+void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,
+                     struct closure_list *out)
+{
+    memset(out, 0, sizeof *out);
+    if (!root)
+        return;
+    flatten_all_ways(shader, host, root, out);
+    spread_mirrors(shader, host, root, out);
     /*
      * The pass finds leaves from the root downwards; the list has them in source order: bases
      * first.

@@ -42,6 +42,8 @@ struct closure_scatter {
     ir_ref *shares;
     uint32_t pick, direction, is_inside, weight, density, medium; /* locals */
     ir_ref total;
+    /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
+    ir_ref scale;
     uint32_t loop; /* number of the layer, whose light loop is its own */
     /* of a stack: locals for what the picked layer gives; of a surface: what it gives */
     bool is_stack;
@@ -89,10 +91,18 @@ static ir_ref mean_of(struct closure_scatter *s, ir_ref color)
     return op2(s, IR_DOT, color, grey(s, 1.0f / 3.0f));
 }
 
-static ir_ref weight_of(struct closure_scatter *s, const struct closure_leaf *leaf)
+/* The weight for light on a way through the media above. */
+static ir_ref weight_along(struct closure_scatter *s, const struct closure_leaf *leaf, ir_ref way)
 {
-    ir_ref weight = closure_mul(s->graph, leaf->color, leaf->scalar);
+    ir_ref weight = closure_mul(s->graph, closure_weight(s->shader, leaf, way), s->scale);
     return ir_convert(s->graph, IR_TYPE_VEC3, weight);
+}
+
+/* The weight for light from a direction. */
+static ir_ref weight_from(struct closure_scatter *s, const struct closure_leaf *leaf,
+                          ir_ref direction)
+{
+    return weight_along(s, leaf, leaf->decay ? closure_way(s->shader, s->host, direction) : 0);
 }
 
 static bool has(const struct closure_scatter *s, const struct closure_leaf *leaf,
@@ -119,7 +129,7 @@ static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *lea
 {
     struct ir_graph *g = s->graph;
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
-           light = weight_of(s, leaf);
+           light = weight_along(s, leaf, number(s, CLOSURE_MEAN_WAY));
     if (albedo && !refracts(s, leaf)) {
         albedo = op2(s, IR_MUL, grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
         light = op2(s, IR_MUL, light, op2(s, IR_ADD, grey(s, 0.1f), albedo));
@@ -143,7 +153,7 @@ static void sample(struct closure_scatter *s, const struct closure_leaf *leaf, i
     ir_ref is_it = op2(s, IR_LAND, op2(s, IR_GE, pick, nothing), op2(s, IR_LT, pick, share));
     ir_ref results[3]; /* direction, f cos / pdf, pdf */
     closure_call_all(s->shader, s->host, leaf->leaf, LEAF_SAMPLE, NULL, results);
-    ir_ref weight = op2(s, IR_MUL, op2(s, IR_MUL, weight_of(s, leaf), results[1]),
+    ir_ref weight = op2(s, IR_MUL, op2(s, IR_MUL, weight_from(s, leaf, results[0]), results[1]),
                         op2(s, IR_DIV, s->total, share));
     ir_ref density = op2(s, IR_MUL, results[2], op2(s, IR_DIV, share, s->total));
     effect(s, EFFECT_IF, 0, is_it);
@@ -211,7 +221,7 @@ static ir_ref response(struct closure_scatter *s, ir_ref direction, ir_ref solid
         ir_ref value = closure_call(s->shader, s->host, leaf->leaf, LEAF_EVAL, &direction);
         if (!value || !s->shares[i])
             continue;
-        value = op2(s, IR_MUL, ir_convert(g, IR_TYPE_VEC3, value), weight_of(s, leaf));
+        value = op2(s, IR_MUL, ir_convert(g, IR_TYPE_VEC3, value), weight_from(s, leaf, direction));
         if (solid_angle) {
             ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
             density = op2(s, IR_MUL, density, op2(s, IR_DIV, s->shares[i], s->total));
@@ -332,11 +342,20 @@ static void keep_layer(struct closure_scatter *s)
     effect(s, EFFECT_ASSIGN, s->lit_local, s->lit);
 }
 
+static ir_ref scale_of(struct closure_scatter *s, ir_ref alpha)
+{
+    if (closure_is_opaque(s->graph, alpha))
+        return 0;
+    return op2(s, IR_DIV, number(s, 1.0f), op2(s, IR_MAX, alpha, number(s, 1e-6f)));
+}
+
 void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatter_layer *layer)
 {
     s->list = &layer->list;
-    s->emission =
-        layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3, layer->emission) : grey(s, 0.0f);
+    s->scale = scale_of(s, layer->alpha);
+    s->emission = layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3,
+                                               closure_mul(s->graph, layer->emission, s->scale))
+                                  : grey(s, 0.0f);
     find_shares(s);
     if (!layer->chance) {
         declare_locals(s, op2(s, IR_MUL, random_number(s->shader), s->total));

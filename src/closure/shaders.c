@@ -66,7 +66,8 @@ static struct closure_surface mixed(const struct surfaces *s, struct closure_sur
     ir_ref one = ir_const_float(g, 1.0f), black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
     struct closure_surface out = {.bsdf = closure_mixed(g, bg.bsdf, fg.bsdf, mix),
                                   .edf = closure_mixed(g, bg.edf, fg.edf, mix),
-                                  .premultiplied = true};
+                                  .premultiplied = true,
+                                  .is_matter = bg.is_matter && fg.is_matter};
     if (bg.unlit || fg.unlit)
         out.unlit = ir_op3(g, IR_MIX, bg.unlit ? color_of(g, bg.unlit) : black,
                            fg.unlit ? color_of(g, fg.unlit) : black, mix);
@@ -108,17 +109,17 @@ static struct closure_surface sum(struct ir_graph *g, struct closure_surface a,
     return a;
 }
 
-/* The light that passes the top, of what emits below it. */
+/* The light that passes the top, of what emits below it, so its way in is 0. */
 static ir_ref throughput_of(const struct surfaces *s, ir_ref bsdf)
 {
     struct closure_host host = *s->host;
     host.context = SOURCE_INDIRECT;
-    return closure_evaluate(s->shader, &host, bsdf).throughput;
+    return closure_throughput(s->shader, &host, bsdf, ir_const_float(s->graph, 0.0f));
 }
 
 /*
  * A vertical layer over its base. The base has the opacity of the pair. The parts of the top may
- * have its opacity already: then the mask alone is missing.
+ * have its opacity already: then the mask alone is missing. So it is for the base below matter.
  */
 static struct closure_surface coated(const struct surfaces *s, struct closure_surface base,
                                      struct closure_surface top, ir_ref mask)
@@ -129,6 +130,8 @@ static struct closure_surface coated(const struct surfaces *s, struct closure_su
     if (base.premultiplied && base.alpha)
         lit = scaled(g, lit, base.alpha);
     lit.alpha = base.alpha;
+    if (top.is_matter)
+        presence = mask;
     if (top.bsdf && base.bsdf) {
         ir_ref layer[2] = {scaled_closure(g, top.bsdf, ir_const_float(g, 0.0f)), base.bsdf};
         ir_ref below = ir_build(g, IR_LAYER, IR_TYPE_BSDF, 0, layer, 2);
@@ -210,7 +213,11 @@ static struct closure_surface parts_of(const struct surfaces *s, ir_ref ref)
     memcpy(args, ir_args(g, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *args);
     switch (node->op) {
     case IR_SURFACE_SHADER:
-        return (struct closure_surface){.bsdf = args[0], .edf = args[1], .alpha = args[2]};
+        return (struct closure_surface){.bsdf = args[0],
+                                        .edf = args[1],
+                                        .alpha = args[2],
+                                        .premultiplied = node->attr != 0,
+                                        .is_matter = node->attr != 0};
     case IR_SURFACE_UNLIT: return unlit_surface(g, args[0], args[1], args[2]);
     case IR_SHADER_MIX: return mixed(g, known[args[0]], known[args[1]], args[2]);
     case IR_SLOTS: return stack_of(s, ref);

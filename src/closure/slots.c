@@ -65,7 +65,7 @@ static ir_ref shade(struct normals *n, ir_ref surface, ir_ref normal)
         return shaded;
     ir_ref args[4] = {ir_arg(g, shaded, 0), ir_arg(g, shaded, 1), ir_arg(g, surface, 2),
                       ir_arg(g, shaded, 3)};
-    return ir_build(g, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 0, args, 4);
+    return ir_build(g, IR_SURFACE_SHADER, IR_TYPE_SURFACE, ir_get(g, shaded)->attr, args, 4);
 }
 
 ir_ref closure_shade_slots(struct shader *shader, ir_ref slots, ir_ref moved)

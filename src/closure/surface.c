@@ -44,15 +44,24 @@ static ir_ref vec3_of(struct emitter *e, ir_ref value)
     return ir_convert(e->graph, IR_TYPE_VEC3, value);
 }
 
-/* value · weight; 0 if the product vanishes. */
-static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
+/* The factor of light on a way through the media above; 0 = 1. */
+static ir_ref weight_along(struct emitter *e, const struct closure_leaf *leaf, ir_ref way)
+{
+    if (leaf->decay)
+        return closure_weight(e->shader, leaf, way);
+    return ir_const_is(e->graph, leaf->scalar, 1.0f)
+               ? leaf->color
+               : closure_mul(e->graph, leaf->color, leaf->scalar);
+}
+
+/* value · weight; 0 if the product vanishes. way: of the light, if media lie above. */
+static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value, ir_ref way)
 {
     struct ir_graph *g = e->graph;
     if (!value || ir_const_is(g, value, 0.0f))
         return 0;
     ir_push_origin_of(g, leaf->leaf);
-    ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color
-                                                       : closure_mul(g, leaf->color, leaf->scalar);
+    ir_ref weight = weight_along(e, leaf, way);
     closure_name(e->shader, weight, leaf->leaf, "weight");
     value = closure_product(g, value, weight);
     closure_name(e->shader, value, leaf->leaf, "response");
@@ -218,9 +227,10 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
     list = in_context(e, bsdf, SOURCE_REFLECTION, &e->lit.light.direction, list, &lit);
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
+        ir_ref way = leaf->decay ? closure_way(e->shader, e->host, e->lit.light.direction) : 0;
         ir_ref value = weighted(
             e, leaf,
-            closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction));
+            closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction), way);
         add_part(e, PLACE_LIGHT, leaf, value);
         emitted[i] |= value != 0;
     }
@@ -228,7 +238,8 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
 
 static bool add_surrounding_part(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
 {
-    value = weighted(e, leaf, value);
+    ir_ref way = value && leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
+    value = weighted(e, leaf, value, way);
     bool is_sampled = value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
     add_part(e, is_sampled ? PLACE_SAMPLE : PLACE_WHOLE, leaf, value);
     return value != 0;
@@ -315,20 +326,26 @@ static void emit_lit(struct emitter *e)
     e->shader->lit = true;
 }
 
+/* Light starts at the leaf, so its way in is 0. */
+static ir_ref emission_of(struct emitter *e, const struct closure_list *list)
+{
+    ir_ref sum = 0, at_rest = ir_const_float(e->graph, 0.0f);
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        ir_ref value =
+            closure_call(e->shader, e->host, list->leaves.items[i].leaf, LEAF_EMISSION, NULL);
+        value = weighted(e, &list->leaves.items[i], value, at_rest);
+        if (value)
+            shader_add_closure(e->shader, list->leaves.items[i].leaf);
+        sum = add(e, sum, value);
+    }
+    return sum;
+}
+
 static ir_ref emission(struct emitter *e, ir_ref edf)
 {
     struct closure_list list;
     closure_flatten(e->shader, e->host, edf, &list);
-    ir_ref sum = 0;
-    for (uint32_t i = 0; i < list.leaves.len; i++) {
-        ir_ref value =
-            closure_call(e->shader, e->host, list.leaves.items[i].leaf, LEAF_EMISSION, NULL);
-        value = weighted(e, &list.leaves.items[i], value);
-        if (value)
-            shader_add_closure(e->shader, list.leaves.items[i].leaf);
-        sum = add(e, sum, value);
-    }
-    return sum;
+    return emission_of(e, &list);
 }
 
 /* ---- outputs ---- */
@@ -424,6 +441,7 @@ static void flatten_surface(struct emitter *e, const struct closure_surface *s,
     host.context = SOURCE_INDIRECT;
     closure_flatten(e->shader, &host, s->bsdf, out);
     e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
+    e->lit.base = add(e, e->lit.base, emission_of(e, out));
 }
 
 static void find_scattering(struct emitter *e, const struct closure_surface *s,
@@ -432,6 +450,7 @@ static void find_scattering(struct emitter *e, const struct closure_surface *s,
     *out = (struct closure_scatter_layer){0};
     flatten_surface(e, s, &out->list);
     out->emission = e->lit.base;
+    out->alpha = s->premultiplied ? s->alpha : 0;
 }
 
 /* Finds the parts under lights and environment, and the emission. */

@@ -61,8 +61,9 @@ static struct closure_value leaf_value(struct evaluation *e, ir_ref leaf)
         ir_ref factor = closure_call(e->shader, e->host, leaf, LEAF_FACTOR, NULL);
         return (struct closure_value){multiply(e, base.response, factor), base.throughput};
     }
+    ir_ref decay;
     return (struct closure_value){response_of(e, leaf),
-                                  closure_leaf_throughput(e->shader, e->host, leaf)};
+                                  closure_leaf_throughput(e->shader, e->host, leaf, &decay)};
 }
 
 ir_ref closure_operator_throughput(struct ir_graph *g, ir_ref ref, ir_ref a, ir_ref b)
@@ -105,7 +106,9 @@ static struct closure_value operator_value(struct evaluation *e, ir_ref ref)
 struct closure_value closure_evaluate(struct shader *shader, const struct closure_host *host,
                                       ir_ref root)
 {
-    struct evaluation e = {shader, shader->graph, host, NULL};
+    struct closure_host along = *host;
+    along.way = 1; /* light meets media at right angles: source sees no leaves with ways */
+    struct evaluation e = {shader, shader->graph, &along, NULL};
     if (!root)
         return value_of(&e, 0);
     e.values = ARENA_ARRAY(shader->arena, struct closure_value, root + 1);

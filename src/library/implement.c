@@ -79,6 +79,8 @@ static const char *const family_suffixes[NUM_FAMILY_MEMBERS] = {
     [FAMILY_REFRACTION] = "_refraction",
     [FAMILY_SAMPLE] = "_sample",
     [FAMILY_PDF] = "_pdf",
+    [FAMILY_TRANSMITTANCE] = "_transmittance",
+    [FAMILY_WAY] = "_way",
     [FAMILY_SCATTERING] = "_scattering",
     [FAMILY_ANISOTROPY] = "_anisotropy",
 };

@@ -84,6 +84,8 @@ enum family_member {
     FAMILY_REFRACTION,
     FAMILY_SAMPLE,
     FAMILY_PDF,
+    FAMILY_TRANSMITTANCE,
+    FAMILY_WAY,
     NUM_FAMILY_MEMBERS
 };
 
@@ -424,6 +426,14 @@ void library_validate(const struct library *lib, struct arena *scratch, struct d
  */
 void library_check_enum(const struct library *lib, const struct port *port, str_id text,
                         struct diag_place place, struct diag_list *diags);
+
+/*
+ * shaders.c: reports values where a node of this layer takes a shader, and a material without any
+ * shader. An input that names an interface or a source counts as given. `bindings` are those of the
+ * node.
+ */
+void library_check_shaders(const struct library *lib, elem_id node, uint32_t nodedef,
+                           const struct binding *bindings, struct diag_list *diags);
 
 /*
  * excess.c: reports a value with more numbers than the type of its port has, with the input of the

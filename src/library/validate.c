@@ -71,6 +71,7 @@ static void check_node(struct validate *v, elem_id node)
         validate_input(v, node, nodedef, &ports[i], &v->resolved.bindings.items[i]);
         validate_uniform(v, node, &ports[i], &v->resolved.bindings.items[i]);
     }
+    library_check_shaders(v->lib, node, nodedef, v->resolved.bindings.items, v->diags);
 }
 
 static bool is_connected(const struct document *doc, elem_id port)

@@ -57,23 +57,6 @@ static bool must_be_given(const struct validate *v, uint32_t nodedef, const stru
     return !is_of_image;
 }
 
-/* Authors write value="SR" for nodename="SR". */
-static void check_shader_value(struct validate *v, const struct port *port, elem_id element,
-                               str_id value)
-{
-    elem_id graph = doc_element(v->doc, doc_element(v->doc, element)->parent)->parent;
-    bool is_node = doc_child_of_kind(v->doc, graph, KIND_NODE, value) != 0;
-    struct text advice;
-    text_init(&advice, v->diags->arena);
-    if (is_node)
-        text_fmt(&advice, " (did you mean nodename=\"%s\"?)", text_of(v, value));
-    else
-        text_str(&advice, "; connect a node with 'nodename'");
-    diag_add(v->diags, DIAG_ID_shader_value, doc_attr_place(v->doc, element, STR_value),
-             text_of(v, port->name), text_of(v, library_type_name(v->lib, port->type)),
-             text_cstr(&advice));
-}
-
 void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const struct port *port,
                     const struct binding *binding)
 {
@@ -92,8 +75,6 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
     if (port->type == DOC_TYPE_string)
         library_check_enum(v->lib, port, text, doc_attr_place(v->doc, binding->element, STR_value),
                            v->diags);
-    if (ir_type_is_shader(library_type_ir(v->lib, port->type)))
-        check_shader_value(v, port, binding->element, text);
     check_range(v, binding->element, port, text);
     validate_unit(v, node, port, binding->element);
 }

@@ -97,6 +97,8 @@ static const struct {
     [IR_CLOSURE_MIX] = {"lobes"},
     [IR_CLOSURE_SCALE] = {"lobes"},
     [IR_LAYER] = {"layers"},
+    [IR_SLAB] = {"slab"},
+    [IR_SLAB_LAYER] = {"layers"},
 };
 
 static struct spell_name without(struct spell_name name, size_t len)

@@ -57,6 +57,9 @@ check 'a bad option of generation' exits 2 "$mxgen" check tree --interface none
 sed 's/standard_surface/standard_surfase/' tree/a.mtlx >bad.mtlx
 sed 's/value="0.5"/value="abc"/' tree/a.mtlx >worse.mtlx
 head -n 5 tree/a.mtlx >half.mtlx
+echo '<materialx version="1.39"><surfacematerial name="M" type="material"/></materialx>' >shaderless.mtlx
+check 'a material without a shader' exits 1 "$mxgen" check shaderless.mtlx "${quick[@]}" --json shaderless.json
+check 'is an error of the document' says shaderless.json '(d[0]["stage"], [m["id"] for m in d[0]["messages"]])' "('validate', ['no-shader'])"
 check 'documents with errors' exits 1 "$mxgen" check bad.mtlx worse.mtlx half.mtlx tree "${quick[@]}" --json bad.json
 check 'do not stop the others' says bad.json '[x["status"] for x in d]' "['failed', 'failed', 'failed', 'passed', 'passed', 'passed', 'passed']"
 check 'the stage is told' says bad.json '[x["stage"] for x in d[:3]]' "['validate', 'validate', 'load']"

@@ -186,8 +186,10 @@ SHAPES = [
     (
         "looks",
         ("<look name='l#'><materialassign name='a' material='x#' geom='/g'/></look>",),
-        ("<surfacematerial name='x#' type='material'/>",),
+        "<surface name='s' type='surfaceshader'/>",
+        ("<surfacematerial name='x#' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s'/></surfacematerial>",),
     ),
+    ("materials without a shader", ("<surface name='s#' type='surfaceshader'/><surfacematerial name='x#' type='material'/>",)),
     ("looks that inherit", "<look name='l0'/>", ("<look name='l^' inherit='l#'><materialassign name='a' material='x' geom='/g'/></look>",)),
     (
         "variants",

@@ -71,16 +71,19 @@ static char *read_file(const char *folder, const char *name, char *path, size_t 
 static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out,
                       const char **out_reason)
 {
-    static char path[4096];
+    static char path[4096], folder[4096];
     struct run *run = user_data;
-    (void)from;
     (void)out_reason;
+    /* the leaf is in no folder; what it includes is relative to the library's */
+    const char *end = from ? strrchr(from, '/') : NULL;
+    snprintf(folder, sizeof folder, "%.*s", end ? (int)(end - from) : 4095,
+             end ? from : run->shaders);
     bool is_source = strcmp(ref, "leaf.glsl") == 0;
     if (is_source || strcmp(ref, "leaf.mtlx") == 0) {
         out->data = is_source ? run->source : run->document;
         out->name = ref;
     } else {
-        out->data = out->handle = read_file(run->shaders, ref, path, sizeof path);
+        out->data = out->handle = read_file(folder, ref, path, sizeof path);
         out->name = path;
     }
     out->size = out->data ? strlen(out->data) : 0;

@@ -340,10 +340,23 @@ check 'the same topology' eval 'diff <(grep topology short/*.json) <(grep topolo
 check 'and neutral, the same statements' eval 'diff <(sed "1,/^void main/d" short/*.frag) <(sed "1,/^void main/d" long/*.frag)'
 check 'by path, the same topology' eval '"$mxgen" long.mtlx --reflect -o path && diff <(grep topology short/*.json) <(grep topology path/*.json)'
 
+# A material without a shader is the same error for all commands
+shaderless() { exits 1 "$mxgen" "$@" && grep -q "^shaderless\.mtlx:4:26: error: the material 'A' has no shader; .*\[no-shader\]" err; }
+value_only() { exits 1 "$mxgen" "$@" && grep -q '^value_only\.mtlx:5:.*(did you mean nodename="SR_a"?) \[shader-value\]' err; }
+sed '5d' two.mtlx >shaderless.mtlx
+sed '5s/nodename=/value=/' two.mtlx >value_only.mtlx
+for document in shaderless value_only; do
+    check "$document: validate" "$document" validate $document.mtlx
+    check "$document: the element" "$document" $document.mtlx -e A -o $document-a
+    check "$document: writes nothing" none_in $document-a
+    check "$document: all elements" "$document" $document.mtlx -o $document
+    check "$document: what has a shader is written" files $document './C.frag ./C.vert '
+done
+
 # Other commands
 check 'validate' exits 0 "$mxgen" validate two.mtlx
 check 'validate finds' exits 1 "$mxgen" validate bad.mtlx
-for view in elements graph dot ir closures statistics; do
+for view in elements graph dot ir closures statistics slabs; do
     check "inspect --$view" exits 0 "$mxgen" inspect two.mtlx "--$view" --element A
     check "inspect --$view prints" test -s out
 done

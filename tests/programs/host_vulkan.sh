@@ -61,7 +61,7 @@ check 'a new value needs no program' grep -qx 'a uniform' out
 check 'and shows' dominates 2 value.ppm 0
 check 'only there' dominates 0 value.ppm 1
 check 'a misspelt input is told' grep -qx 'there is no S0/nothing' err
-check 'a value of another type is told' grep -q "components" err
+check 'a value of another type is told' grep -q "component" err
 check 'a connection changes one program' grep -qx '998 unchanged, 1 with other values, 1 with other shaders, 2 programs' out
 check 'and shows' dominates 2 connected.ppm 1
 check 'a connected input takes no value' grep -qx 'S1/base_color is connected' err

@@ -157,6 +157,27 @@ check 'picks a closure' eval 'grep -q "if (layerSample" osl.d/*.osl && grep -q "
 check 'a path tracer' exits 0 stacks --integrator scatter
 check 'picks a layer' eval '[ "$(grep -cE "^    if \(.*(distance|product|random|w)" out.d/$(program /c).frag)" -ge 1 ]'
 
+# Slabs: the opacity of their lobes weighs a layer.
+slabs='<slab name="metal" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="1, 0.8, 0.3"/></slab>
+  <slab name="coat" type="BSDF"><input name="mean_free_path" type="vector3" value="0.006, 0.015, 0.2"/></slab>
+  <slab_coverage name="part" type="BSDF"><input name="in" type="BSDF" nodename="metal"/><input name="weight" type="float" value="0.25"/></slab_coverage>
+  <slab_surface name="s_part" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="part"/></slab_surface>
+  <slab_surface name="s_sheet" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="coat"/><input name="thin" type="boolean" value="true"/></slab_surface>
+  <surfacematerial name="part_of" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s_part"/></surfacematerial>
+  <surfacematerial name="sheet" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s_sheet"/></surfacematerial>'
+document "$slabs <look name='L'><materialassign material='red' geom='/'/><materialassign slot='050' material='part_of' geom='/a/b'/>
+  <materialassign slot='000|010' material='sheet' geom='/c'/></look>"
+check 'slabs in layers' exits 0 stacks
+shader /a/b
+check 'a layer hides by its coverage' grep -q 'vec3 color = vec3(0.75, 0.0, 0.0);' main
+shader /c
+check 'light passes a sheet' eval 'grep -q "medium" main && grep -q "out1 = vec4(color, 1.0);" main'
+for slots in blend stochastic; do
+    check "slabs, $slots, path tracer" exits 0 stacks --slots $slots --integrator scatter
+    check "slabs, $slots, OSL" exits 0 "$mxgen" look.mtlx --stage stage.txt --slots $slots --target osl -o osl.d
+    [ -z "$compile" ] || check "slabs, $slots" exits 0 "$compile" look.mtlx --stage stage.txt --slots $slots --targets vulkan,hlsl --interfaces complete
+done
+
 # Textures: equal ones count once, and a target has few.
 pictures() { # NUMBER NAME OFFSET: a surface that reads so many pictures
     echo "<nodegraph name='NG_$2'>"

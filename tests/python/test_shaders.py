@@ -168,7 +168,8 @@ class Shaders(unittest.TestCase):
     def test_inspect(self):
         document = self.context.load(common.EXAMPLES / "marble.mtlx")
         for view, text in ((mxgen.View.ELEMENTS, "NG_marble"), (mxgen.View.GRAPH, "noise"), (mxgen.View.DOT, "digraph"),
-                           (mxgen.View.CLOSURES, "bsdf"), (mxgen.View.IR, "="), (mxgen.View.STATISTICS, "closures  ")):
+                           (mxgen.View.CLOSURES, "bsdf"), (mxgen.View.IR, "="), (mxgen.View.STATISTICS, "closures  "),
+                           (mxgen.View.SLABS, "no slabs")):
             self.assertIn(text, document.inspect(view, "Marble", target="glsl"), view)
         with self.assertRaises(mxgen.DocumentError):
             document.inspect(mxgen.View.IR, "none")

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lobes of a slab that pbrlib lacks: its medium, and light of its own. See docs/slabs.md.
+
+#include "../pbrlib/shaders/ggx_sampling.glsl"
+
+// ---- diffuse reflection of an opaque medium --------------------------------------------------------------------------
+// Chan 2018, "Material Advances in Call of Duty: WWII", divided by its directional albedo, which is 0.31 to 1.12.
+
+// Gloss of Chan's lobe for a roughness, 0 to 1.
+float mx_chan_gloss(float roughness)
+{
+    float square = clamp(roughness * roughness, 1e-3, 1.0);
+    return clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
+}
+
+float mx_power5(float x)
+{
+    return x * x * x * x * x;
+}
+
+// Height and fall of the bump of light that a rough surface sends back.
+vec2 mx_chan_bump(float g)
+{
+    return vec2((34.5 * g - 59.0) * g + 24.5, max(73.2 * g - 21.2, 8.9));
+}
+
+// The program fits/chan.c makes the constants; within 0.0012.
+float mx_chan_albedo(float c, float g)
+{
+    const mat4 FIT = mat4(0.7111, 0.0005, 0.4749, 0.0263, 0.1526, 0.0031, 1.0260, -0.7185, 0.1026, -0.0048, -2.2232, 0.3473,
+                          -0.0538, 0.0016, 2.0696, -0.4921);
+    vec4 fit = FIT * vec4(1.0, c, c * c, c * c * c);
+    vec2 bump = mx_chan_bump(g);
+    float even = 0.9642857 - 0.7232143 * mx_power5(1.0 - c); // of the smooth surface: exact
+    return mix(fit.x, even, clamp(2.2 * g - 0.5, 0.0, 1.0)) + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c);
+}
+
+// The lobe times the light's cosine, for albedo 1.
+float mx_chan(float roughness, vec3 N, vec3 V, vec3 L)
+{
+    float g = mx_chan_gloss(roughness);
+    float cos_l = max(dot(N, L), 0.0);
+    float cos_v = mx_view_cosine(N, V);
+    float cos_d = sqrt(max(0.5 + 0.5 * dot(V, L), MX_EPSILON)); // between V and the half vector, whose length is 2 cos_d
+    float cos_h = min((cos_l + cos_v) / (2.0 * cos_d), 1.0);
+    vec2 bump = mx_chan_bump(g);
+    float even = (1.0 - 0.75 * mx_power5(1.0 - cos_v)) * (1.0 - 0.75 * mx_power5(1.0 - cos_l));
+    float lobe = mix(cos_d + mx_power5(1.0 - cos_d), even, clamp(2.2 * g - 0.5, 0.0, 1.0))
+               + bump.x * cos_d * exp2(-bump.y * sqrt(cos_h));
+    return max(lobe, 0.0) * cos_l / (MX_PI * mx_chan_albedo(cos_v, g));
+}
+
+// ---- media -----------------------------------------------------------------------------------------------------------
+
+// Ways through a medium are multiples of its thickness. Every medium has the index 1.5.
+const float MX_MEAN_WAY = 1.1458980; // over cosine-weighted directions: 4.5 - 1.5 sqrt(5)
+
+float mx_way(vec3 N, vec3 V)
+{
+    float c = dot(N, V);
+    return 1.5 * inversesqrt(1.25 + c * c);
+}
+
+// s of Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks": the albedo of one scattering is 1 - s^2 where the medium
+// scatters evenly and reflects `color` at infinite thickness.
+vec3 mx_medium_loss(vec3 color)
+{
+    vec3 c = clamp(color, 0.0, 1.0);
+    vec3 s = clamp(4.09712 + 4.20863 * c - sqrt(9.59217 + c * (41.6808 + 17.7126 * c)), 0.0, 1.0);
+    return mix(s, vec3(1.0), step(c, vec3(0.0))); // exactly: no albedo, no scattering
+}
+
+// Optical depth along the normal of the even medium that stands for one with the phase anisotropy g, by similarity.
+vec3 mx_medium_depth(vec3 loss, vec3 mean_free_path, float g, float thickness)
+{
+    float forward = clamp(g, -0.95, 0.95);
+    return max(thickness, 0.0) / max(mean_free_path, 1e-6) * (1.0 - forward) / (1.0 - forward * loss * loss);
+}
+
+// What the layer of the medium reflects and lets through, with all orders of scattering, of light on a way x. Kubelka and Munk's layer (1931)
+// with coefficients by the program fits/medium.c, which follows light at random; within 0.0053. Nothing is lost where the albedo is 1.
+// a: albedo of one scattering, t: optical depth
+vec3 mx_medium_layer(vec3 a, vec3 t, float way, out vec3 transmitted)
+{
+    vec3 u = t / (1.0 + t);
+    float x = way - 1.0;
+    vec3 s = 0.5 * a * way * (1.0 + u * (-1.0290 + u * (0.5422 - 0.3924 * a) + a * (0.7451 + 0.3145 * a) + x * (1.1669 - 1.3629 * a)));
+    vec3 k = (1.0 - a) * way
+           * (1.0 + a * u * (0.6040 + u * (-0.1979 - 0.4865 * a) + a * (1.3930 - 0.5447 * a) + x * (0.2436 - 2.0559 * a)
+                             + a * a * a * a * (-0.0215 + 0.5896 * u)));
+    vec3 g = sqrt(k * (k + 2.0 * s));
+    vec3 e = exp(-g * t);
+    vec3 ways = mix((1.0 - e * e) / max(g, 1e-6), 2.0 * t * (1.0 - g * t), step(g * t, vec3(1e-3))); // by its series where g is near 0
+    vec3 below = (k + s) * ways + 1.0 + e * e;
+    transmitted = 2.0 * e / below;
+    return s * ways / below;
+}
+
+bool mx_is_black(vec3 color)
+{
+    return max(color.x, max(color.y, color.z)) <= 0.0;
+}
+
+// What the layer of a medium lets through; the same as of mx_medium_layer. A medium without scattering has only absorption (Beer, Lambert).
+vec3 mx_medium_through(vec3 color, vec3 mean_free_path, float g, float thickness, float way)
+{
+    vec3 loss = mx_medium_loss(color);
+    vec3 depth = mx_medium_depth(loss, mean_free_path, g, thickness);
+    if (mx_is_black(color))
+        return exp(-depth * way);
+    vec3 through;
+    mx_medium_layer(1.0 - loss * loss, depth, way, through);
+    return through;
+}
+
+vec3 mx_medium_reflected(vec3 color, vec3 mean_free_path, float g, float thickness, float way)
+{
+    if (mx_is_black(color))
+        return vec3(0.0);
+    vec3 ignored;
+    vec3 loss = mx_medium_loss(color);
+    return mx_medium_layer(1.0 - loss * loss, mx_medium_depth(loss, mean_free_path, g, thickness), way, ignored);
+}
+
+// ---- values of the lobes ---------------------------------------------------------------------------------------------
+
+// The hue of f90 with the brightness 1. The interface fades out where f0 falls below 0.02, less than any matter reflects.
+vec3 mx_slab_grazing(vec3 f0, vec3 f90)
+{
+    vec3 hue = max(f90, 0.0) / max(max(f90.x, max(f90.y, f90.z)), MX_EPSILON);
+    return hue * clamp(50.0 * max(f0.x, max(f0.y, f0.z)), 0.0, 1.0);
+}
+
+// Of a medium that lets `transmittance` through a thickness (Beer, Lambert): 0 lets nothing through, and nearly 1 nearly all.
+vec3 mx_slab_mean_free_path(vec3 transmittance, float thickness)
+{
+    vec3 through = clamp(transmittance, 0.0, 0.99999);
+    return mix(-thickness / log(max(through, 1e-30)), vec3(0.0), step(through, vec3(0.0)));
+}
+
+// A body whose medium scatters is seen through nowhere.
+float mx_slab_is_thick(vec3 color, vec3 mean_free_path, float is_body)
+{
+    return mx_is_black(mean_free_path) || mx_is_black(color) ? 0.0 : is_body;
+}
+
+float mx_slab_is_lit(vec3 emission)
+{
+    return mx_is_black(emission) ? 0.0 : 1.0;
+}
+
+// ---- slab_medium_bsdf ------------------------------------------------------------------------------------------------
+
+vec3 mx_slab_medium_bsdf_eval(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                              vec3 N, vec3 V, vec3 L)
+{
+    vec3 Nf = mx_facing(N, V);
+    if (mx_is_black(color))
+        return vec3(0.0);
+    if (mx_is_black(mean_free_path))
+        return color * mx_chan(roughness, Nf, V, L);
+    // reciprocal, with the albedo of the viewer's way
+    return mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V)) * mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, L))
+         / max(mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, MX_MEAN_WAY), MX_EPSILON) * mx_cosine_pdf(Nf, L);
+}
+
+vec3 mx_slab_medium_bsdf_albedo(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                                vec3 N, vec3 V)
+{
+    return mx_is_black(mean_free_path) ? color
+                                       : mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V));
+}
+
+void mx_slab_medium_bsdf_sample(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                                vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
+{
+    L = mx_any_frame(mx_facing(N, V)) * mx_sample_cosine(xi.xy);
+    pdf = mx_cosine_pdf(mx_facing(N, V), L);
+    weight = mx_slab_medium_bsdf_eval(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V, L) / max(pdf, MX_EPSILON);
+}
+
+float mx_slab_medium_bsdf_pdf(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                              vec3 N, vec3 V, vec3 L)
+{
+    return mx_cosine_pdf(mx_facing(N, V), L);
+}
+
+vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                                     vec3 N, vec3 V, int sample_index)
+{
+    if (mx_is_black(color))
+        return vec3(0.0);
+    if (option_integrator == 1 && option_environment == 2)
+    {
+        vec3 L, weight;
+        float pdf;
+        mx_slab_medium_bsdf_sample(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V,
+                                   mx_lobe_random(sample_index), L, weight, pdf);
+        return mx_lobe_light(L, weight, pdf);
+    }
+    return mx_slab_medium_bsdf_albedo(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V)
+         * mx_environment_irradiance(mx_facing(N, V));
+}
+
+// Of light to the viewer, with what bounces between the medium and what lies below: 1 / (1 - below R).
+vec3 mx_slab_medium_bsdf_throughput(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                                    vec3 N, vec3 V)
+{
+    if (mx_is_black(mean_free_path))
+        return vec3(0.0);
+    vec3 reflected = mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, MX_MEAN_WAY);
+    return mx_medium_through(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V)) / (1.0 - min(below * reflected, 0.999));
+}
+
+// Of light that comes in: its power with the exponent x is what a way x lets through, exact in the mean over cosine-weighted directions.
+vec3 mx_slab_medium_bsdf_transmittance(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                                       vec3 N)
+{
+    if (mx_is_black(mean_free_path))
+        return vec3(1.0);
+    if (mx_is_black(color))
+        return mx_medium_through(color, mean_free_path, phase_anisotropy, thickness, 1.0);
+    return pow(mx_medium_through(color, mean_free_path, phase_anisotropy, thickness, MX_MEAN_WAY), vec3(1.0 / MX_MEAN_WAY));
+}
+
+float mx_slab_medium_bsdf_way(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                              vec3 N, vec3 V)
+{
+    return MX_MEAN_WAY;
+}
+
+// ---- slab_reflection_bsdf --------------------------------------------------------------------------------------------
+// GGX with Schlick's curve, as generalized_schlick_bsdf. What it does not reflect goes through channel by channel, so that nothing is gained.
+
+vec3 mx_slab_reflection_bsdf_eval(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L)
+{
+    return mx_ggx_eval(roughness, N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+}
+
+vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V)
+{
+    return mx_ggx_environment(roughness, N, X, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+}
+
+vec3 mx_slab_reflection_bsdf_albedo(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V)
+{
+    return mx_ggx_reflectance(roughness, N, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+}
+
+vec3 mx_slab_reflection_bsdf_throughput(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V)
+{
+    return max(1.0 - mx_slab_reflection_bsdf_albedo(f0, f90, roughness, N, X, V), 0.0);
+}
+
+void mx_slab_reflection_bsdf_sample(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
+                                    out float pdf)
+{
+    mx_ggx_scatter(roughness, N, X, V, xi, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
+}
+
+float mx_slab_reflection_bsdf_pdf(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L)
+{
+    return mx_ggx_pdf(roughness, N, X, V, L, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+}
+
+// ---- slab_emission_bsdf ----------------------------------------------------------------------------------------------
+
+vec3 mx_slab_emission_bsdf_emission(vec3 color, vec3 V)
+{
+    return max(color, 0.0);
+}
+
+vec3 mx_slab_emission_bsdf_throughput(vec3 color, vec3 V)
+{
+    return vec3(1.0);
+}

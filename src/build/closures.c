@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What the rooms of closures and slabs ask about the library. */
+#include "build/build_priv.h"
+
+static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
+{
+    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR
+                       && (int)LEAF_WAY == FAMILY_WAY,
+                   "leaf functions are the first members of a family");
+    return build_leaf_family(user_data, callee)->functions;
+}
+
+static const char *leaf_input(void *user_data, uint32_t callee, unsigned index)
+{
+    return build_leaf_input(user_data, callee, index);
+}
+
+struct closure_host build_closure_host(struct builder *b, struct closure_point *point)
+{
+    return (struct closure_host){.user_data = b,
+                                 .point = point,
+                                 .leaf_functions = leaf_functions,
+                                 .leaf_input = leaf_input,
+                                 .lang = build_lang_host(b)};
+}
+
+static ir_ref slab_lobes(void *user_data, const ir_ref *inputs, const struct slab_place *place)
+{
+    return build_slab_lobes(user_data, inputs, place);
+}
+
+ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, ir_ref root)
+{
+    struct slabs_host host = {.user_data = b, .lobes = slab_lobes, .closures = closures};
+    return slabs_walk(b->shader, &host, root);
+}
+
+static ir_ref without_slabs(struct builder *b, ir_ref root)
+{
+    struct closure_point point = {0};
+    struct closure_host host = build_closure_host(b, &point);
+    return build_walk_slabs(b, &host, root);
+}
+
+void build_know_slabs(struct builder *b)
+{
+    b->without_slabs = without_slabs;
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Code of mxgen for nodes: what its files share. */
+#ifndef MXG_BUILD_DYNAMIC_H
+#define MXG_BUILD_DYNAMIC_H
+
+#include "build/code.h"
+
+/* The argument of an input; 0: absent, or the definition has no such input. */
+ir_ref dynamic_arg(const mxg_build *build, str_id name);
+/* Reports that the definition differs from the needs of the code; false. */
+bool dynamic_misfit(const mxg_build *build, const char *fault);
+
+/* dynamic_slabs.c: the constructors of slabs, each an mxg_build_fn. */
+bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results);
+bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results);
+bool dynamic_slab_mix(void *user_data, mxg_build *build, mxg_ref *results);
+bool dynamic_slab_coverage(void *user_data, mxg_build *build, mxg_ref *results);
+bool dynamic_slab_select(void *user_data, mxg_build *build, mxg_ref *results);
+bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results);
+
+#endif

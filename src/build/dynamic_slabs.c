@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The nodes of slabs (docs/slabs.md): each is an op of the IR, which the walk of src/slabs reads. */
+#include "build/dynamic.h"
+
+/* A layer of an OSL network is complete before anyone knows where its slabs lie. */
+static bool is_in_network(const mxg_build *build)
+{
+    struct builder *b = build->b;
+    if (b->recorder)
+        diag_add(b->diags, DIAG_ID_slab_in_network,
+                 doc_place(&b->lib->doc, build->frame->node.element),
+                 build_text(b, build->def->node));
+    return b->recorder != NULL;
+}
+
+/* True if an input has its default of 0, false or no file, or the definition lacks it. */
+static bool is_off(const mxg_build *build, str_id input)
+{
+    struct builder *b = build->b;
+    struct ir_value value;
+    ir_ref ref = dynamic_arg(build, input);
+    if (!ref)
+        return true;
+    if (ir_get(b->graph, ref)->op == IR_TEXTURE)
+        return !*build_text(b, b->shader->variables.items[ir_get(b->graph, ref)->attr].file);
+    return build_initial(b, ref, &value) && value.w[0].u == 0;
+}
+
+/* Parts of slabs that have no code yet are an error, so that none is lost in silence. */
+static bool is_missing(const mxg_build *build, str_id input, const char *part)
+{
+    struct builder *b = build->b;
+    if (is_off(build, input))
+        return false;
+    diag_add(b->diags, DIAG_ID_slab_part_missing,
+             doc_place(&b->lib->doc, build->frame->node.element), build_text(b, input),
+             build_text(b, build->def->node), part);
+    return true;
+}
+
+static bool finish(mxg_build *build, enum ir_op op, const ir_ref *args, unsigned n,
+                   mxg_ref *results)
+{
+    results[0] = code_issue(build, ir_build(build->b->graph, op, build->type, 0, args, n));
+    return true;
+}
+
+bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    static const str_id names[NUM_SLAB_INPUTS] = {
+#define SLAB_INPUT(name, type) STR_##name,
+#include "slabs/slabs.def"
+#undef SLAB_INPUT
+    };
+    (void)user_data;
+    if (is_missing(build, STR_glint_density, "glints")
+        || is_missing(build, STR_specular_lut, "tints by view and light"))
+        return false;
+    if (build_slab_definition(build->b) == LIBRARY_NONE)
+        return dynamic_misfit(build, "the library lacks the definition 'ND_slab_lobes'");
+    if (is_in_network(build))
+        return false;
+    ir_ref args[NUM_SLAB_OPERANDS];
+    for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
+        args[i] = dynamic_arg(build, names[i]);
+    args[SLAB_coverage] = ir_const_float(build->b->graph, 1.0f);
+    return finish(build, IR_SLAB, args, NUM_SLAB_OPERANDS, results);
+}
+
+bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    ir_ref args[3] = {dynamic_arg(build, STR_top), dynamic_arg(build, STR_base),
+                      dynamic_arg(build, STR_thickness)};
+    (void)user_data;
+    if (is_missing(build, STR_blend_parameters, "parameter blending"))
+        return false;
+    if (args[0])
+        return finish(build, IR_SLAB_LAYER, args, 3, results);
+    results[0] = code_issue(build, args[1]);
+    return true;
+}
+
+/* bg (1 - share) + fg share; 0 is no matter. */
+static bool beside(mxg_build *build, ir_ref bg, ir_ref fg, ir_ref share, mxg_ref *results)
+{
+    const struct ir_graph *g = build->b->graph;
+    ir_ref args[3] = {bg, fg, share};
+    if (is_missing(build, STR_blend_parameters, "parameter blending"))
+        return false;
+    bool is_bg = bg == fg || ir_const_is(g, share, 0.0f), is_fg = ir_const_is(g, share, 1.0f);
+    if (!is_bg && !is_fg)
+        return finish(build, IR_CLOSURE_MIX, args, 3, results);
+    results[0] = code_issue(build, is_bg ? bg : fg);
+    return true;
+}
+
+bool dynamic_slab_mix(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    (void)user_data;
+    return beside(build, dynamic_arg(build, STR_bg), dynamic_arg(build, STR_fg),
+                  dynamic_arg(build, STR_mix), results);
+}
+
+bool dynamic_slab_coverage(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    (void)user_data;
+    return beside(build, 0, dynamic_arg(build, STR_in), dynamic_arg(build, STR_weight), results);
+}
+
+bool dynamic_slab_select(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    struct ir_graph *g = build->b->graph;
+    (void)user_data;
+    ir_ref is_second = ir_op2(g, IR_GT, dynamic_arg(build, STR_mask), ir_const_float(g, 0.5f));
+    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
+    return beside(build, dynamic_arg(build, STR_in1), dynamic_arg(build, STR_in2),
+                  ir_op3(g, IR_SELECT, is_second, one, zero), results);
+}
+
+bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    mxg_value thin = MXG_INIT(mxg_value);
+    (void)user_data;
+    if (!mxg_build_constant(build, "thin", &thin))
+        return false;
+    ir_ref args[3] = {dynamic_arg(build, STR_bsdf),
+                      ir_const_bool(build->b->graph, thin.values[0] != 0),
+                      dynamic_arg(build, STR_surface_thickness)};
+    return finish(build, IR_SLAB_SURFACE, args, 3, results);
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The lobes of a slab: the library's graph, applied to the inputs of the slab and its place. */
+#include "build/build_priv.h"
+
+uint32_t build_slab_definition(const struct builder *b)
+{
+    static const char name[] = "ND_slab_lobes";
+    str_id id = str_find(b->shader->strings, name, sizeof name - 1);
+    return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
+}
+
+/* The value of an input of the graph; 0: neither the slab nor its place has it. */
+static ir_ref value_of(str_id input, const ir_ref *inputs, const struct slab_place *place)
+{
+    switch (input) {
+#define SLAB_INPUT(name, type) \
+    case STR_##name: \
+        return inputs[SLAB_##name];
+#include "slabs/slabs.def"
+#undef SLAB_INPUT
+    case STR_thickness: return place->thickness;
+    case STR_below: return place->below;
+    case STR_is_body: return place->is_body;
+    default: return 0;
+    }
+}
+
+ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place)
+{
+    uint32_t id = build_slab_definition(b);
+    assert(id != LIBRARY_NONE);
+    const struct nodedef *def = library_nodedef(b->lib, id);
+    const struct port *ports = library_ports(b->lib, id, NULL);
+    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
+    ir_ref results[LIBRARY_MAX_OUTPUTS] = {0};
+    for (unsigned i = 0; i < def->num_inputs; i++) {
+        ir_ref value = value_of(ports[i].name, inputs, place);
+        args[i] = value ? value : build_default(b, &ports[i]);
+    }
+    build_apply(b, id, build_doc(b)->root, args, results);
+    return results[0];
+}

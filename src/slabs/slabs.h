@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Slabs of matter (docs/slabs.md): a tree of slabs under operators becomes a tree of lobes, which
+ * the closure room draws like any other. A slab needs to know where it lies, so the tree changes
+ * once it is complete.
+ */
+#ifndef MXG_SLABS_SLABS_H
+#define MXG_SLABS_SLABS_H
+
+#include "closure/closure.h"
+
+/* The operands of a SLAB. */
+enum slab_operand {
+#define SLAB_INPUT(name, type) SLAB_##name,
+#include "slabs/slabs.def"
+#undef SLAB_INPUT
+    NUM_SLAB_INPUTS,
+    SLAB_coverage = NUM_SLAB_INPUTS, /* 1, unless parameter blending gives it another value */
+    NUM_SLAB_OPERANDS
+};
+
+/* Where a slab lies. */
+struct slab_place {
+    ir_ref thickness; /* float, centimetres */
+    ir_ref below;     /* vec3: albedo of everything below */
+    ir_ref is_body;   /* float: 1 at the bottom of a body, 0 in a layer or sheet */
+};
+
+struct slabs_host {
+    void *user_data;
+    /* The lobes of a slab: a tree of LEAF nodes. inputs: by enum slab_operand. */
+    ir_ref (*lobes)(void *user_data, const ir_ref *inputs, const struct slab_place *place);
+    const struct closure_host *closures;
+};
+
+#define SLABS_LAYER_THICKNESS 0.01f /* centimetres, of a layer without an input for it */
+
+/* True if a closure or shader has slabs. ref 0: it has none. */
+bool slabs_has(const struct shader *shader, ir_ref ref);
+
+/* describe.c: the tree of slabs as text, before the walk. */
+void slabs_describe(const struct shader *shader, ir_ref root, struct text *out);
+
+/*
+ * Replaces all slabs below a root of any type by their lobes. Returns the root itself if it has no
+ * slabs. The result has no SLAB, SLAB_LAYER and SLAB_SURFACE.
+ */
+ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref root);
+
+#endif

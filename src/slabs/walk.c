@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The walk from a root to its slabs. An operator tells its operands where they lie:
+ *
+ *     layer(top, base)     base lies where the layer lies; top lies on base, with the thickness of
+ *                          the layer
+ *     all other operators  both operands lie where the operator lies
+ *     root                 a body, or a sheet with a thickness
+ *
+ * One slab may lie at several places. A visit is one node at one place; equal visits are one visit,
+ * and a stack of open visits takes the place of recursion. A base is visited before its top,
+ * because a top that scatters light needs the albedo of what lies below: light bounces between
+ * both.
+ */
+#include "slabs/slabs.h"
+
+#include "base/hash.h"
+#include "base/table.h"
+
+#include <assert.h>
+
+struct where {
+    ir_ref thickness; /* float, centimetres */
+    ir_ref below;     /* closure: the lobes of everything below; 0: nothing */
+    uint32_t is_body;
+};
+
+struct visit {
+    ir_ref node;
+    struct where where;
+    ir_ref result; /* valid once the visit is closed */
+    bool is_closed;
+};
+
+struct walk {
+    struct shader *shader;
+    struct ir_graph *graph;
+    const struct slabs_host *host;
+    uint8_t *has_slabs; /* per node below the root */
+    ir_ref num_nodes;
+    VEC(struct visit) visits;
+    struct table known; /* visits by hash */
+    VEC(uint32_t) open;
+    VEC(ir_ref) albedos; /* in pairs: lobes, their albedo */
+};
+
+static bool is_closure(const struct walk *w, ir_ref ref)
+{
+    return ref && ir_type_is_closure(ir_type_of(w->graph, ref));
+}
+
+static bool has_slabs(const struct walk *w, ir_ref ref)
+{
+    return ref && ref < w->num_nodes && w->has_slabs[ref];
+}
+
+/* ---- Visits ---- */
+
+static uint32_t hash_of(ir_ref node, const struct where *where)
+{
+    uint32_t words[] = {node, where->thickness, where->below, where->is_body};
+    return hash_bytes(words, sizeof words);
+}
+
+static bool is_visit(const struct visit *visit, ir_ref node, const struct where *where)
+{
+    return visit->node == node && visit->where.thickness == where->thickness
+           && visit->where.below == where->below && visit->where.is_body == where->is_body;
+}
+
+/* The number of a visit + 1; 0: there is none yet. */
+static uint32_t find_visit(const struct walk *w, uint32_t hash, ir_ref node,
+                           const struct where *where)
+{
+    for (uint32_t at = hash, found; (found = table_next(&w->known, hash, &at));)
+        if (is_visit(&w->visits.items[found - 1], node, where))
+            return found;
+    return 0;
+}
+
+/* The result of a visit. False: the visit is open now; the one that asks runs again after it. */
+static bool visited(struct walk *w, ir_ref node, struct where where, ir_ref *out_result)
+{
+    if (!has_slabs(w, node)) {
+        *out_result = node;
+        return true;
+    }
+    uint32_t hash = hash_of(node, &where), found = find_visit(w, hash, node, &where);
+    if (found) {
+        assert(w->visits.items[found - 1].is_closed); /* operands are older than operators */
+        *out_result = w->visits.items[found - 1].result;
+        return true;
+    }
+    vec_push(w->shader->arena, &w->visits, (struct visit){.node = node, .where = where});
+    table_add(&w->known, w->shader->arena, hash, w->visits.len);
+    vec_push(w->shader->arena, &w->open, w->visits.len - 1);
+    return false;
+}
+
+/* ---- Slabs ---- */
+
+/* What lobes reflect towards the viewer of even light from above. */
+static ir_ref albedo_of(struct walk *w, ir_ref lobes)
+{
+    struct ir_graph *g = w->graph;
+    struct closure_list list;
+    for (uint32_t i = 0; i < w->albedos.len; i += 2)
+        if (w->albedos.items[i] == lobes)
+            return w->albedos.items[i + 1];
+    ir_ref sum = ir_const_splat(g, IR_TYPE_VEC3, 0.0f), way = ir_const_float(g, CLOSURE_MEAN_WAY);
+    closure_flatten(w->shader, w->host->closures, lobes, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct closure_leaf *leaf = &list.leaves.items[i];
+        ir_ref albedo = closure_call(w->shader, w->host->closures, leaf->leaf, LEAF_ALBEDO, NULL);
+        if (!albedo)
+            continue;
+        albedo = ir_op2(g, IR_MUL, albedo, closure_weight(w->shader, leaf, way));
+        sum = ir_op2(g, IR_ADD, sum, ir_convert(g, IR_TYPE_VEC3, albedo));
+    }
+    vec_push(w->shader->arena, &w->albedos, lobes);
+    vec_push(w->shader->arena, &w->albedos, sum);
+    return sum;
+}
+
+/* False: all light that the medium stops is lost, or none goes through. */
+static bool may_bounce(const struct walk *w, const ir_ref *inputs)
+{
+    return !ir_const_is(w->graph, inputs[SLAB_diffuse_albedo], 0.0f)
+           && !ir_const_is(w->graph, inputs[SLAB_mean_free_path], 0.0f);
+}
+
+static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
+{
+    struct ir_graph *g = w->graph;
+    ir_ref inputs[NUM_SLAB_OPERANDS];
+    assert(ir_get(g, slab)->num_args == NUM_SLAB_OPERANDS);
+    memcpy(inputs, ir_args(g, slab), sizeof inputs);
+    struct slab_place place = {.thickness = where->thickness,
+                               .below = ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
+                               .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f)};
+    if (where->below && may_bounce(w, inputs))
+        place.below = albedo_of(w, where->below);
+    ir_ref lobes = w->host->lobes(w->host->user_data, inputs, &place);
+    if (ir_const_is(g, inputs[SLAB_coverage], 1.0f))
+        return lobes;
+    ir_ref args[3] = {0, lobes, inputs[SLAB_coverage]};
+    return ir_build(g, IR_CLOSURE_MIX, IR_TYPE_BSDF, 0, args, 3);
+}
+
+/* ---- Operators ---- */
+
+static ir_ref layered(struct walk *w, ir_ref top, ir_ref base)
+{
+    ir_ref args[2] = {top, base};
+    return top && base ? ir_build(w->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2) : top ? top : base;
+}
+
+/* A layer. False: an operand is open. */
+static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *out_result)
+{
+    struct ir_graph *g = w->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
+    if (!visited(w, base, where, &base))
+        return false;
+    struct where above = {.thickness = node.op == IR_SLAB_LAYER
+                                           ? ir_arg(g, ref, 2)
+                                           : ir_const_float(g, SLABS_LAYER_THICKNESS)};
+    bool is_surface = base && ir_type_of(g, base) == IR_TYPE_BSDF;
+    above.below = is_surface ? layered(w, base, where.below) : where.below;
+    if (!visited(w, top, above, &top))
+        return false;
+    *out_result = layered(w, top, base);
+    return true;
+}
+
+/* Any other operator: its closures lie where it lies. False: an operand is open. */
+static bool visit_operands(struct walk *w, ir_ref ref, struct where where, ir_ref *out_result)
+{
+    struct ir_graph *g = w->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref *args = ARENA_ARRAY(w->shader->arena, ir_ref, node.num_args);
+    for (uint32_t i = 0; i < node.num_args; i++) {
+        args[i] = ir_arg(g, ref, i);
+        if (is_closure(w, args[i]) && !visited(w, args[i], where, &args[i]))
+            return false;
+    }
+    uint32_t attr = node.op == IR_LEAF ? node.attr : 0; /* elsewhere it asks to blend parameters */
+    *out_result = ir_build(g, (enum ir_op)node.op, node.type, attr, args, node.num_args);
+    return true;
+}
+
+/* Closes the visit on top of the stack, or opens one that it needs. */
+static void step(struct walk *w)
+{
+    uint32_t index = vec_last(&w->open);
+    const struct visit visit = w->visits.items[index];
+    uint8_t op = ir_get(w->graph, visit.node)->op;
+    ir_ref result = 0;
+    bool is_done = true;
+    ir_push_origin_of(w->graph, visit.node);
+    if (op == IR_SLAB)
+        result = slab_at(w, visit.node, &visit.where);
+    else if (op == IR_LAYER || op == IR_SLAB_LAYER)
+        is_done = visit_layer(w, visit.node, visit.where, &result);
+    else
+        is_done = visit_operands(w, visit.node, visit.where, &result);
+    ir_pop_origin(w->graph);
+    if (!is_done)
+        return;
+    assert(vec_last(&w->open) == index);
+    w->visits.items[index].result = result;
+    w->visits.items[index].is_closed = true;
+    w->open.len--;
+}
+
+static ir_ref walk_closure(struct walk *w, ir_ref root, struct where where)
+{
+    ir_ref result;
+    while (!visited(w, root, where, &result))
+        while (w->open.len)
+            step(w);
+    return result;
+}
+
+/* ---- Roots ---- */
+
+static struct where body(struct walk *w)
+{
+    uint32_t thickness = shader_private_uniform(w->shader, STR_u_slabThickness, IR_TYPE_FLOAT, 0);
+    return (struct where){.thickness = shader_read(w->shader, thickness), .is_body = true};
+}
+
+/* The mean of the channels of what the surface does not let through. */
+static ir_ref opacity_of(struct walk *w, ir_ref lobes)
+{
+    struct ir_graph *g = w->graph;
+    ir_ref through =
+        closure_throughput(w->shader, w->host->closures, lobes, ir_const_float(g, 0.0f));
+    ir_ref mean = ir_op2(g, IR_DOT, through, ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
+    return closure_one_minus(g, mean);
+}
+
+static ir_ref slab_surface(struct walk *w, ir_ref ref)
+{
+    struct ir_graph *g = w->graph;
+    ir_ref thin = ir_arg(g, ref, 1);
+    struct ir_value is_thin;
+    bool is_sheet = ir_get_const(g, thin, &is_thin) && is_thin.w[0].u;
+    struct where sheet = {.thickness = ir_arg(g, ref, 2)};
+    ir_ref bsdf = ir_arg(g, ref, 0);
+    if (has_slabs(w, bsdf))
+        bsdf = walk_closure(w, bsdf, is_sheet ? sheet : body(w));
+    ir_ref args[4] = {bsdf, 0, opacity_of(w, bsdf), thin};
+    return ir_build(g, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 1, args, 4);
+}
+
+static ir_ref with_args(struct walk *w, ir_ref ref, const ir_ref *replaced)
+{
+    struct ir_graph *g = w->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref *args = ARENA_ARRAY(w->shader->arena, ir_ref, node.num_args);
+    for (uint32_t i = 0; i < node.num_args; i++) {
+        ir_ref arg = ir_arg(g, ref, i);
+        args[i] = arg && replaced[arg] ? replaced[arg] : arg;
+    }
+    return ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+}
+
+static ir_ref rewrite_root(struct walk *w, ir_ref ref, ir_ref *replaced)
+{
+    struct ir_graph *g = w->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    if (node.op == IR_SLAB_SURFACE)
+        return slab_surface(w, ref);
+    if (node.op == IR_SURFACE_SHADER && has_slabs(w, ir_arg(g, ref, 0)))
+        replaced[ir_arg(g, ref, 0)] = walk_closure(w, ir_arg(g, ref, 0), body(w));
+    return with_args(w, ref, replaced);
+}
+
+/* Marks the nodes below the root that depend on a slab. */
+static uint8_t *find_slabs(const struct shader *shader, ir_ref root)
+{
+    const struct ir_graph *g = shader->graph;
+    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    uint8_t *has = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        if (!needed[ref])
+            continue;
+        const struct ir_node *node = ir_get(g, ref);
+        has[ref] = node->op == IR_SLAB || node->op == IR_SLAB_LAYER || node->op == IR_SLAB_SURFACE;
+        bool is_tree = ir_type_is_closure(node->type) || ir_type_is_shader(node->type);
+        for (uint32_t i = 0; is_tree && i < node->num_args; i++)
+            has[ref] |= has[ir_arg(g, ref, i)];
+    }
+    return has;
+}
+
+bool slabs_has(const struct shader *shader, ir_ref ref)
+{
+    return ref && find_slabs(shader, ref)[ref];
+}
+
+ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref root)
+{
+    struct ir_graph *g = shader->graph;
+    struct walk w = {.shader = shader, .graph = g, .host = host, .num_nodes = root + 1};
+    w.has_slabs = find_slabs(shader, root);
+    if (!root || !w.has_slabs[root])
+        return root;
+    if (ir_type_is_closure(ir_type_of(g, root)))
+        return walk_closure(&w, root, body(&w));
+    ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.num_nodes);
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        if (!w.has_slabs[ref] || !ir_type_is_shader(ir_type_of(g, ref)))
+            continue;
+        ir_push_origin_of(g, ref);
+        replaced[ref] = rewrite_root(&w, ref, replaced);
+        ir_pop_origin(g);
+    }
+    return replaced[root];
+}

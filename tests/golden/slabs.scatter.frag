@@ -1,0 +1,427 @@
+#version 450
+// wet_metal · slab_surface · mxgen 0.1 · glsl · reduced · 7 closures · 0 textures
+
+uniform int u_numActiveLightSources = 0;
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+uniform LightData u_lightData[3];
+struct VertexData {
+    vec3 positionWorld;
+    vec3 normalWorld;
+    vec3 tangentWorld;
+    vec3 viewWorld;
+    vec4 random;
+    vec4 lightWorld;
+};
+VertexData vd;
+vec4 out1;
+vec4 out2;
+vec4 out3;
+vec4 out4;
+vec4 out5;
+vec4 out6;
+vec4 out7;
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(const mat4 m, const float x, const float y)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
+}
+
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
+{
+    float x = 1.0 - cosine;
+    return mix(f0, vec3(1.0), x * x * x * x * x);
+}
+
+// What the layer of the medium reflects and lets through, with all orders of scattering, of light on a way x.
+vec3 mx_medium_layer(const float way, out vec3 transmitted)
+{
+    float x = way - 1.0;
+    vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
+        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
+        * vec3(-0.18317366, -0.19314766, -0.19532585)));
+    vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
+        * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
+        * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
+        + vec3(0.0739174, 0.07612604, 0.07661489)));
+    vec3 g = sqrt(k * (k + 2.0 * s));
+    vec3 e = exp(-g * 0.2);
+    vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 0.4 * (vec3(1.0) - g * 0.2), step(g * 0.2, vec3(0.001)));
+    vec3 below = (k + s) * ways + vec3(1.0) + e * e;
+    transmitted = 2.0 * e / below;
+    return s * ways / below;
+}
+
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
+// sphere; `area` is the product of the roughness along x and y.
+float mx_ggx_distribution(const vec3 e, const float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+// Solid angle of normals for that of refracted directions (Walter et al. 2007, equation 17).
+float mx_refraction_jacobian(const vec3 v, const vec3 l, const vec3 h)
+{
+    float cos_l = dot(l, h);
+    float sum = dot(v, h) + 1.5 * cos_l;
+    return 2.25 * abs(cos_l) / (sum * sum);
+}
+
+float mx_ggx_smith_visibility(const vec3 v, const vec3 l, const vec2 alpha)
+{
+    return 0.5 * l.z / (v.z * length(vec3(l.xy * alpha, l.z)) + l.z * length(vec3(v.xy * alpha, v.z)));
+}
+
+// Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
+vec3 mx_ggx_compensation(const vec2 albedo, const vec3 n)
+{
+    return vec3(1.0) + mix(mx_fresnel_schlick(1.0, n), vec3(1.0), vec3(0.04761905)) * (1.0 / albedo.x - 1.0);
+}
+
+// What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y).
+vec2 mx_ggx_albedo(const vec2 roughness, const float c)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    float a = sqrt(alpha.x * alpha.y);
+    return mx_ggx_albedo_fit(a, a / (a + c), c);
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
+{
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+}
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(const vec3 N, const vec3 X)
+{
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+// What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is
+// smooth.
+void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V, const vec3 xi, const vec3 n,
+    out vec3 L, out vec3 weight, out float pdf)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    mat3 frame = mx_frame(faceforward(N, -V, N), X);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    vec3 stretch = vec3(alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    vec3 h = normalize(mx_ggx_cap(cos(6.2831855 * (xi.x - vec2(0.0, 0.25))), xi.y * top.z, top) * stretch);
+    float cos_h = clamp(dot(v, h), 1e-8, 1.0);
+    vec3 f = mx_fresnel_schlick(cos_h, n);
+    float share = 1.0;
+    bool is_reflected = xi.z < share;
+    vec3 l = is_reflected ? reflect(-v, h) : refract(-v, h, 0.6666667);
+    float density = 2.0 / (v.z + length(vec3(v.xy * alpha, v.z)));
+    L = frame * l;
+    weight = vec3(0.0);
+    pdf = 0.0;
+    if (is_reflected ? l.z <= 0.0 : l.z >= 0.0)
+        return;
+    if (is_reflected) {
+        weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
+            * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), n);
+        pdf = 0.25 * share;
+    } else {
+        weight = (vec3(1.0) - f) * (2.0 / ((-l).z + length(vec3((-l).xy * alpha, (-l).z))) * -l.z / (1.0 - share));
+        pdf = (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h);
+    }
+    pdf *= density * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y);
+}
+
+vec3 mx_medium_reflected(const float way)
+{
+    vec3 ignored;
+    return mx_medium_layer(way, ignored);
+}
+
+float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, const vec3 L)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    return mx_ggx_distribution(normalize(V + L) * frame / vec3(alpha, 1.0), alpha.x * alpha.y)
+        * mx_ggx_smith_visibility(max(V * frame, vec3(-1.0, -1.0, 1e-8)), max(L * frame, vec3(-1.0, -1.0, 1e-8)),
+        alpha);
+}
+
+// Normal of the facet that refracts l, below the horizon, towards v (Walter et al. 2007, equation 16).
+vec3 mx_refracting_normal(const vec3 v, const vec3 l)
+{
+    vec3 h = normalize(v + 1.5 * l);
+    return h.z < 0.0 ? -h : h;
+}
+
+float mx_ggx_pdf(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V, const vec3 L)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    mat3 frame = mx_frame(faceforward(N, -V, N), X);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    vec3 l = L * frame;
+    bool is_reflected = l.z > 0.0;
+    vec3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l);
+    float cos_h = dot(v, h);
+    if (cos_h <= 0.0 || !is_reflected && dot(l, h) >= 0.0)
+        return 0.0;
+    float share = 1.0;
+    return 2.0 / (v.z + length(vec3(v.xy * alpha, v.z))) * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y)
+        * (is_reflected ? 0.25 * share : (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h));
+}
+
+void scatter()
+{
+    vec3 N = normalize(vd.normalWorld);
+    // metal
+    float c = dot(N, vd.viewWorld);
+    float c_2 = max(abs(c), 1e-8);
+    // coat
+    vec2 reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (c_2 + 0.01), c_2);
+    vec3 reflection_f = mx_fresnel_schlick(max(1.0 - pow(reflection_albedo.y, 0.2), 1e-8), vec3(0.04));
+    float reflection_ggx_compensation = (1.0 / reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
+    float reflection_product = reflection_albedo.x * reflection_ggx_compensation;
+    vec3 reflection_greater = max(vec3(1.0) - reflection_f * reflection_product, 0.0);
+    // milk
+    float way = inversesqrt(c * c + 1.25) * 1.5;
+    vec3 medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
+    vec3 blended_bare_throughput = mix(vec3(1.0), reflection_greater * medium_throughput, 0.5);
+    vec2 albedo = mx_ggx_albedo_fit(0.25, 0.25 / (c_2 + 0.25), c_2);
+    float cosine = max(1.0 - pow(albedo.y, 0.2), 1e-8);
+    vec3 second_reflection_f = mx_fresnel_schlick(cosine, vec3(0.04));
+    float difference = 1.0 / albedo.x - 1.0;
+    float second_reflection_ggx_compensation = difference * 0.08571428 + 1.0;
+    float second_reflection_product = albedo.x * second_reflection_ggx_compensation;
+    vec3 second_reflection_throughput = max(vec3(1.0) - second_reflection_f * second_reflection_product, 0.0);
+    vec3 medium_transmitted;
+    vec3 medium = mx_medium_layer(way, medium_transmitted);
+    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
+    vec3 second_reflection_ggx_compensation_2 = difference * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
+    vec3 slab_reflection_bsdf_albedo = mx_fresnel_schlick(cosine, metal_constant) * albedo.x
+        * second_reflection_ggx_compensation_2;
+    const vec3 medium_constant = vec3(0.10193972, 0.102937125, 0.103155464);
+    vec3 medium_throughput_2 = medium_transmitted
+        / (vec3(1.0) - min(slab_reflection_bsdf_albedo * medium_constant, 0.999));
+    vec3 bare_product = second_reflection_throughput * (medium_throughput_2 * vec3(0.895498, 0.89649165, 0.8967095));
+    vec3 medium_throughput_3 = medium_throughput * vec3(0.9512294, 0.967216, 0.9753099);
+    vec3 blended_bare_throughput_2 = mix(vec3(1.0), reflection_greater * medium_throughput_3, 0.5);
+    vec3 second_reflection_difference = blended_bare_throughput * bare_product - blended_bare_throughput_2
+        * bare_product;
+    vec3 blended_bare_throughput_3 = mix(vec3(1.0), reflection_greater
+        * (medium_throughput_3 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
+    vec3 second_reflection_decay = clamp((blended_bare_throughput_2 * bare_product - blended_bare_throughput_3
+        * bare_product) / max(second_reflection_difference, 1e-6), 0.0, 0.999);
+    vec3 second_reflection_ratio = second_reflection_difference / (vec3(1.0) - second_reflection_decay);
+    vec3 second_reflection_steady = blended_bare_throughput * bare_product - second_reflection_ratio;
+    float greater = max(dot((second_reflection_steady + second_reflection_ratio
+        * pow(second_reflection_decay, vec3(1.145898))) * (slab_reflection_bsdf_albedo * 0.9 + vec3(0.1)),
+        vec3(0.33333334)), 0.0);
+    vec3 second_reflection_greater = max(vec3(1.0) - slab_reflection_bsdf_albedo, 0.0);
+    vec3 bare_medium_weight = second_reflection_greater
+        * (second_reflection_throughput * medium_throughput_2 * blended_bare_throughput);
+    vec3 medium_throughput_4 = medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436);
+    vec3 bare_medium_weight_2 = second_reflection_greater
+        * (second_reflection_throughput * medium_throughput_4 * blended_bare_throughput_2);
+    vec3 medium_difference = bare_medium_weight_2 - second_reflection_greater
+        * (second_reflection_throughput * (medium_throughput_4 * vec3(0.9081714, 0.9090508, 0.9092436))
+        * blended_bare_throughput_3);
+    vec3 medium_decay = clamp(medium_difference / max(bare_medium_weight - bare_medium_weight_2, 1e-6), 0.0, 0.999);
+    vec3 medium_ratio = (bare_medium_weight - bare_medium_weight_2) / (vec3(1.0) - medium_decay);
+    float greater_2 = max(dot((bare_medium_weight - medium_ratio + medium_ratio * pow(medium_decay, vec3(1.145898)))
+        * 0.1, vec3(0.33333334)), 0.0);
+    vec3 clamped = clamp((blended_bare_throughput_2 - blended_bare_throughput_3)
+        / max(blended_bare_throughput - blended_bare_throughput_2, 1e-6), 0.0, 0.999);
+    vec3 ratio = (blended_bare_throughput - blended_bare_throughput_2) / (vec3(1.0) - clamped);
+    vec3 difference_2 = blended_bare_throughput - ratio;
+    vec3 sum = difference_2 + ratio * pow(clamped, vec3(1.145898));
+    float greater_3 = max(dot(sum * (second_reflection_f * (second_reflection_product * 0.9) + vec3(0.1)),
+        vec3(0.33333334)), 0.0);
+    vec3 medium_difference_2 = second_reflection_throughput * blended_bare_throughput - second_reflection_throughput
+        * blended_bare_throughput_2;
+    vec3 medium_decay_2 = clamp((second_reflection_throughput * blended_bare_throughput_2 - second_reflection_throughput
+        * blended_bare_throughput_3) / max(medium_difference_2, 1e-6), 0.0, 0.999);
+    vec3 medium_ratio_2 = medium_difference_2 / (vec3(1.0) - medium_decay_2);
+    vec3 medium_steady = second_reflection_throughput * blended_bare_throughput - medium_ratio_2;
+    float greater_4 = max(dot((medium_steady + medium_ratio_2 * pow(medium_decay_2, vec3(1.145898)))
+        * (medium * 0.9 + vec3(0.1)), vec3(0.33333334)), 0.0);
+    float greater_5 = max(dot((reflection_f * (reflection_product * 0.9) + vec3(0.1)) * 0.5, vec3(0.33333334)), 0.0);
+    float greater_6 = max(dot(reflection_greater * 0.05, vec3(0.33333334)), 0.0);
+    float sum_2 = greater + greater_2 + greater_3 + greater_4 + greater_5 + greater_6;
+    float pick = sum_2 * vd.random.w;
+    vec3 L = vec3(0.0);
+    float inside = 0.0;
+    vec3 weight = vec3(0.0);
+    float density = 0.0;
+    vec3 medium_2 = vec3(1.0);
+    vec3 X = normalize(vd.tangentWorld);
+    if (pick < greater && pick >= 0.0) {
+        vec3 second_reflection_L, second_reflection_weight;
+        float second_reflection_pdf;
+        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, metal_constant, second_reflection_L,
+            second_reflection_weight, second_reflection_pdf);
+        L = second_reflection_L;
+        float n_dot_l = dot(N, second_reflection_L);
+        weight = sum_2 / greater * (second_reflection_weight
+            * (second_reflection_steady + second_reflection_ratio
+            * pow(second_reflection_decay, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))));
+        density = second_reflection_pdf * (greater / sum_2);
+    }
+    pick += -greater;
+    vec3 Nf = faceforward(N, -vd.viewWorld, N);
+    mat3 any_frame = mx_frame(Nf, abs(Nf.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+    vec2 product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
+    vec3 L_2 = any_frame * vec3(product, sqrt(1.0 - vd.random.x));
+    float pdf = max(dot(Nf, L_2), 0.0) / 3.1415927;
+    if (pick >= 0.0 && pick < greater_2) {
+        L = L_2;
+        weight = vec3(0.0);
+        density = pdf * (greater_2 / sum_2);
+    }
+    pick += -greater_2;
+    if (pick >= 0.0 && pick < greater_3) {
+        vec3 second_reflection_L_2, second_reflection_weight_2;
+        float second_reflection_pdf_2;
+        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), second_reflection_L_2,
+            second_reflection_weight_2, second_reflection_pdf_2);
+        L = second_reflection_L_2;
+        float n_dot_l_2 = dot(N, second_reflection_L_2);
+        weight = sum_2 / greater_3 * (second_reflection_weight_2
+            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l_2 * n_dot_l_2 + 1.25) * 1.5))));
+        density = second_reflection_pdf_2 * (greater_3 / sum_2);
+    }
+    pick += -greater_3;
+    if (pick >= 0.0 && pick < greater_4) {
+        L = L_2;
+        float c_3 = dot(N, L_2);
+        float way_2 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
+        vec3 weight_2 = pdf * (mx_medium_reflected(way) * mx_medium_reflected(way_2) / medium_constant)
+            / max(pdf, 1e-8);
+        weight = sum_2 / greater_4 * (weight_2 * (medium_steady + medium_ratio_2 * pow(medium_decay_2, vec3(way_2))));
+        density = pdf * (greater_4 / sum_2);
+    }
+    pick += -greater_4;
+    if (pick >= 0.0 && pick < greater_5) {
+        vec3 reflection_L, reflection_weight;
+        float reflection_pdf;
+        mx_ggx_scatter(vec2(0.01), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), reflection_L, reflection_weight,
+            reflection_pdf);
+        L = reflection_L;
+        weight = reflection_weight * (sum_2 / greater_5 * 0.5);
+        density = reflection_pdf * (greater_5 / sum_2);
+    }
+    pick += -greater_5;
+    if (pick >= 0.0 && pick < greater_6) {
+        L = L_2;
+        weight = vec3(0.0);
+        density = pdf * (greater_6 / sum_2);
+    }
+    pick += -greater_6;
+    out1 = vec4((ratio + difference_2) * vec3(0.0, 0.1, 0.0), 1.0);
+    out2 = vec4(L, inside);
+    out3 = vec4(weight, density);
+    out4 = vec4(medium_2, 0.0);
+    mat3 frame = mx_frame(Nf, X);
+    float ggx_smith_lobe = mx_ggx_smith_lobe(vec2(0.25), frame, vd.viewWorld, vd.lightWorld.xyz);
+    float cosine_2 = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.5, 1e-8, 1.0));
+    vec3 second_reflection_slab_reflection_bsdf_eval = second_reflection_ggx_compensation_2 * ggx_smith_lobe
+        * mx_fresnel_schlick(cosine_2, metal_constant);
+    float c_4 = dot(N, vd.lightWorld.xyz);
+    float way_3 = inversesqrt(c_4 * c_4 + 1.25) * 1.5;
+    vec3 product_2 = second_reflection_slab_reflection_bsdf_eval
+        * (second_reflection_steady + second_reflection_ratio * pow(second_reflection_decay, vec3(way_3)));
+    float slab_reflection_bsdf_pdf = mx_ggx_pdf(vec2(0.25), N, X, vd.viewWorld, vd.lightWorld.xyz);
+    vec3 ratio_2 = product_2 / (vd.lightWorld.w * (greater / sum_2 * slab_reflection_bsdf_pdf) + 1.0);
+    vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
+    vec3 sum_3 = difference_2 + ratio * pow(clamped, vec3(way_3));
+    float sum_4 = vd.lightWorld.w * (greater_3 / sum_2 * slab_reflection_bsdf_pdf) + 1.0;
+    vec3 sum_5 = ratio_2 + second_reflection_ggx_compensation * ggx_smith_lobe * fresnel * sum_3 / sum_4;
+    float slab_medium_bsdf_pdf = max(dot(Nf, vd.lightWorld.xyz), 0.0) / 3.1415927;
+    vec3 medium_transmitted_2;
+    vec3 medium_3 = mx_medium_layer(way_3, medium_transmitted_2);
+    vec3 sum_6 = medium_steady + medium_ratio_2 * pow(medium_decay_2, vec3(way_3));
+    vec3 product_3 = slab_medium_bsdf_pdf * (medium * medium_3 / medium_constant) * sum_6;
+    float sum_7 = vd.lightWorld.w * (greater_5 / sum_2 * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz))
+        + 1.0;
+    vec3 ratio_3 = fresnel * (reflection_ggx_compensation
+        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz) * 0.5) / sum_7;
+    out5 = vec4(sum_5 + product_3 / (vd.lightWorld.w * (greater_4 / sum_2 * slab_medium_bsdf_pdf) + 1.0) + ratio_3,
+        0.0);
+    float chance = fract(vd.random.w * 4096.0);
+    float sum_8 = 0.0;
+    vec3 light = vec3(0.0);
+    vec3 L_3 = vec3(0.0);
+    float distance_ = 0.0;
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        vec3 d = u_lightData[i].position - vd.positionWorld;
+        float magnitude_d = length(d);
+        float ratio_4 = intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio_4;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio_4 : spot_light_choice;
+        vec3 directional_light_to_light = -u_lightData[i].direction;
+        vec3 directional_light_L = type == 1 ? directional_light_to_light : to_light;
+        float ggx_smith_lobe_2 = mx_ggx_smith_lobe(vec2(0.25), frame, vd.viewWorld, directional_light_L);
+        float cosine_3 = sqrt(clamp(dot(vd.viewWorld, directional_light_L) * 0.5 + 0.5, 1e-8, 1.0));
+        vec3 second_reflection_slab_reflection_bsdf_eval_2 = second_reflection_ggx_compensation_2 * ggx_smith_lobe_2
+            * mx_fresnel_schlick(cosine_3, metal_constant);
+        float c_5 = dot(N, directional_light_L);
+        float way_4 = inversesqrt(c_5 * c_5 + 1.25) * 1.5;
+        vec3 product_4 = second_reflection_slab_reflection_bsdf_eval_2
+            * (second_reflection_steady + second_reflection_ratio * pow(second_reflection_decay, vec3(way_4)));
+        vec3 fresnel_2 = mx_fresnel_schlick(cosine_3, vec3(0.04));
+        vec3 sum_9 = difference_2 + ratio * pow(clamped, vec3(way_4));
+        vec3 medium_transmitted_3;
+        vec3 medium_4 = mx_medium_layer(way_4, medium_transmitted_3);
+        vec3 medium_ratio_3 = medium * medium_4 / medium_constant;
+        vec3 sum_10 = medium_steady + medium_ratio_2 * pow(medium_decay_2, vec3(way_4));
+        vec3 product_5 = medium_ratio_3 * (max(dot(Nf, directional_light_L), 0.0) / 3.1415927) * sum_10;
+        vec3 product_6 = fresnel_2 * (reflection_ggx_compensation
+            * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, directional_light_L) * 0.5);
+        vec3 sum_11 = product_4 + second_reflection_ggx_compensation * ggx_smith_lobe_2 * fresnel_2 * sum_9 + product_5
+            + product_6;
+        vec3 product_7 = u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum_11;
+        float greater_7 = max(dot(product_7, vec3(0.33333334)), 0.0);
+        sum_8 += greater_7;
+        if (sum_8 * chance < greater_7) {
+            L_3 = directional_light_L;
+            float choice = type == 3 ? magnitude_d : 1e30;
+            float choice_2 = type == 2 ? magnitude_d : choice;
+            distance_ = type == 1 ? 1e30 : choice_2;
+            light = product_7 / greater_7;
+        }
+        if (greater_7 > 0.0) {
+            float ratio_5 = (sum_8 * chance - greater_7) / (sum_8 - greater_7);
+            chance = sum_8 * chance < greater_7 ? sum_8 * chance / greater_7 : ratio_5;
+        }
+    }
+    out6 = vec4(L_3, distance_);
+    out7 = vec4(sum_8 * light, 0.0);
+}

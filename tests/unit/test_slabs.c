@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Slabs: the weights of the walk against exact expectations, and the light that stacks reflect
+ * against a random walk (slab_stacks.h). The graphs are those of the shaders; the IR's evaluator
+ * computes them.
+ */
+#include "api/generation.h"
+#include "lower/lower.h"
+#include "tree/eval.h"
+
+#include "slab_stacks.h"
+#include "test.h"
+
+#include <stdlib.h>
+
+enum { MAX_STEPS = 1000000, MAX_RESULTS = 16, NUM_STACKS = 200, NUM_PATHS = 20000 };
+
+struct run {
+    mxg_context *context;
+    mxg_library *library;
+    mxg_options *options;
+    struct generation *generation;
+    double view, light; /* cosines, in the plane of the normal and x */
+    void (*look)(struct run *run);
+    void *wanted; /* of `look` */
+};
+
+/* ---- Evaluation ---- */
+
+static struct ir_value direction(double cosine, double turn)
+{
+    double sine = sqrt(1.0 - cosine * cosine);
+    return (struct ir_value){
+        IR_TYPE_VEC3,
+        {{.f = (float)(sine * cos(turn))}, {.f = (float)(sine * sin(turn))}, {.f = (float)cosine}}};
+}
+
+static double turn_of_light;
+
+static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+{
+    const struct run *run = user_data;
+    const struct shader *shader = &run->generation->result->shader;
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != IR_UNIFORM && node->op != IR_STREAM)
+        return false;
+    const struct shader_variable *variable = &shader->variables.items[node->attr];
+    const char *name = str_text(shader->strings, variable->name);
+    *out = variable->value;
+    if (strcmp(name, "viewWorld") == 0)
+        *out = direction(run->view, 0.0);
+    else if (strcmp(name, "lightWorld") == 0)
+        *out = direction(run->light, turn_of_light);
+    else if (strcmp(name, "normalWorld") == 0)
+        *out = direction(1.0, 0.0);
+    else if (strcmp(name, "tangentWorld") == 0)
+        *out = direction(0.0, 0.0);
+    if (variable->type == IR_TYPE_VEC4)
+        out->type = IR_TYPE_VEC4;
+    return out->type == variable->type;
+}
+
+static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                 const struct ir_value *args, uint32_t result, struct ir_value *out)
+{
+    struct run *run = user_data;
+    const struct lang_unit *unit = &run->generation->result->unit;
+    uint32_t function = graph->callees.items[ir_get(graph, ref)->attr].index;
+    bool returns = lang_function(unit, function, NULL)->return_type != IR_TYPE_VOID;
+    struct ir_value results[MAX_RESULTS];
+    if (ir_get(graph, ref)->op != IR_CALL || (result == 0 && !returns)
+        || lang_num_results(unit, function) > MAX_RESULTS
+        || !lang_eval_call(unit, function, args, results, &(uint32_t){MAX_STEPS},
+                           &run->generation->scratch))
+        return false;
+    *out = results[returns ? result : result - 1];
+    return true;
+}
+
+/* The red channel; NAN after a failure. */
+static double value_of(struct run *run, ir_ref ref)
+{
+    const struct ir_eval_env env = {.user_data = run, .source = source, .call = call};
+    struct ir_value value;
+    bool good =
+        ir_eval(&run->generation->result->graph, ref, &env, &run->generation->scratch, &value);
+    return REQUIRE(good) ? (double)value.w[0].f : (double)NAN;
+}
+
+/* ---- Generation up to the lobes ---- */
+
+static void steps(struct generation *generation)
+{
+    struct run *run = generation->user_data;
+    run->generation = generation;
+    if (!generation_start(generation) || !generation_build(generation))
+        return;
+    generation->result->shader.scatters = true; /* then the view is a stream */
+    generation_start_closures(generation);
+    generation_walk_slabs(generation);
+    run->look(run);
+}
+
+static void generate(struct run *run, const struct stack *stack, void (*look)(struct run *),
+                     void *wanted)
+{
+    static char text[STACK_TEXT];
+    mxg_document *document = NULL;
+    mxg_result *result = NULL;
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    desc.options = run->options;
+    run->look = look;
+    run->wanted = wanted;
+    stack_write(stack, text);
+    REQUIRE(
+        mxg_document_parse(run->context, run->library, "stack.mtlx", text, strlen(text), &document)
+        == MXG_OK);
+    REQUIRE(generation_run(run->context, document, &desc, steps, run, &result) == MXG_OK);
+    mxg_result_destroy(result);
+    mxg_document_destroy(document);
+}
+
+static struct closure_list lobes_of(struct run *run)
+{
+    struct generation *g = run->generation;
+    struct closure_list list;
+    ir_ref surface = g->root;
+    REQUIRE(ir_get(&g->result->graph, surface)->op == IR_SURFACE_SHADER);
+    closure_flatten(&g->result->shader, &g->closure_host, ir_arg(&g->result->graph, surface, 0),
+                    &list);
+    return list;
+}
+
+/* ---- Weights of the base below clear media ---- */
+
+struct weights {
+    double way, got;
+};
+
+/* The base is the first lobe that reflects evenly. */
+static void weigh_base(struct run *run)
+{
+    struct weights *w = run->wanted;
+    struct generation *g = run->generation;
+    struct closure_list list = lobes_of(run);
+    struct ir_graph *graph = &g->result->graph;
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        ir_ref leaf = list.leaves.items[i].leaf;
+        ir_ref albedo = closure_call(&g->result->shader, &g->closure_host, leaf, LEAF_ALBEDO, NULL);
+        if (value_of(run, albedo) < 0.99)
+            continue;
+        ir_ref way = ir_const_float(graph, (float)w->way);
+        w->got = value_of(run, closure_weight(&g->result->shader, &list.leaves.items[i], way));
+        return;
+    }
+    REQUIRE(false); /* the base is in the list */
+}
+
+static double weight_error(struct run *run, const struct stack *stack, double view, double way)
+{
+    struct weights w = {.way = way};
+    run->view = view;
+    generate(run, stack, weigh_base, &w);
+    double exact = stack_throughput(stack, stack->num_nodes - 1, 0.01, stack_way(view) + way);
+    return fabs(w.got - exact);
+}
+
+static void test_one_top(struct run *run)
+{
+    double worst = 0.0;
+    for (int i = 0; i < 20; ++i) {
+        struct stack stack;
+        stack_make(&stack, 1, 1, 1.0);
+        double error =
+            weight_error(run, &stack, stack_between(0.05, 1.0), stack_between(1.0, 1.342));
+        /* a mix of two media is a sum of two powers; other tops are exact */
+        bool is_mix = stack.nodes[stack.nodes[stack.num_nodes - 1].a].kind == STACK_MIX;
+        REQUIRE(error < (is_mix ? 0.005 : 2e-5));
+        worst = fmax(worst, error);
+    }
+    printf("weights below one top: within %.5f\n", worst);
+}
+
+static void test_many_tops(struct run *run)
+{
+    double worst = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        struct stack stack;
+        stack_make(&stack, 2 + i % 4, 1, 1.0);
+        worst = fmax(
+            worst, weight_error(run, &stack, stack_between(0.05, 1.0), stack_between(1.0, 1.342)));
+    }
+    printf("weights below 2 to 5 tops: within %.5f\n", worst);
+    REQUIRE(worst < 0.005);
+}
+
+/* ---- Light that stacks reflect ---- */
+
+struct reflected {
+    double whole; /* by the walk */
+    double plain; /* without the way in, as a layer */
+    double both;  /* by the product of two one-way throughputs */
+};
+
+static void reflect(struct run *run)
+{
+    struct reflected *out = run->wanted;
+    struct generation *g = run->generation;
+    struct shader *shader = &g->result->shader;
+    struct ir_graph *graph = &g->result->graph;
+    struct closure_list list = lobes_of(run);
+    *out = (struct reflected){0.0, 0.0, 0.0};
+    ir_ref mean = ir_const_float(graph, CLOSURE_MEAN_WAY), rest = ir_const_float(graph, 0.0f);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct closure_leaf *leaf = &list.leaves.items[i];
+        ir_ref albedo = closure_call(shader, &g->closure_host, leaf->leaf, LEAF_ALBEDO, NULL);
+        double reflects = value_of(run, albedo),
+               once = value_of(run, closure_weight(shader, leaf, rest));
+        bool is_diffuse = closure_has(shader, &g->closure_host, leaf->leaf, LEAF_WAY);
+        ir_ref way = is_diffuse ? mean : ir_const_float(graph, (float)stack_way(run->view));
+        out->whole += reflects * value_of(run, closure_weight(shader, leaf, way));
+        out->plain += reflects * once;
+        out->both += reflects * once * once;
+    }
+}
+
+static struct reflected reflected_by(struct run *run, const struct stack *stack, double view)
+{
+    struct reflected result;
+    run->view = view;
+    generate(run, stack, reflect, &result);
+    return result;
+}
+
+/* The walk is nearer to the truth than a layer in nine of ten stacks. */
+static void test_truth(struct run *run)
+{
+    unsigned nearer_plain = 0, nearer_both = 0;
+    double sum[3] = {0.0, 0.0, 0.0}, worst = 0.0;
+    for (int i = 0; i < NUM_STACKS; ++i) {
+        struct stack stack;
+        stack_make(&stack, 1 + i % 4, i % 3 == 0, stack_between(0.2, 1.0));
+        double view = stack_between(0.1, 1.0), truth = stack_walk(&stack, view, NUM_PATHS);
+        struct reflected got = reflected_by(run, &stack, view);
+        double error[3] = {fabs(got.whole - truth), fabs(got.plain - truth),
+                           fabs(got.both - truth)};
+        nearer_plain += error[0] < error[1];
+        nearer_both += error[0] < error[2];
+        for (int k = 0; k < 3; ++k)
+            sum[k] += error[k] / NUM_STACKS;
+        worst = fmax(worst, error[0]);
+    }
+    printf("%d stacks against a random walk: mean error %.4f, worst %.4f; without the way in %.4f; "
+           "two one-way throughputs %.4f\n",
+           NUM_STACKS, sum[0], worst, sum[1], sum[2]);
+    printf("nearer than without the way in: %u, than two one-way throughputs: %u\n", nearer_plain,
+           nearer_both);
+    REQUIRE(nearer_plain >= NUM_STACKS * 9 / 10);
+    REQUIRE(nearer_both >= NUM_STACKS * 3 / 4); /* the same where all slabs are always there */
+    REQUIRE(sum[0] < 0.008 && worst < 0.05);
+}
+
+/* What white matter reflects: partly there, thin, rough. */
+static void measure_furnace(struct run *run, double most_f0, double *least, double *most)
+{
+    *least = *most = 1.0;
+    for (int i = 0; i < 40; ++i) {
+        struct stack stack;
+        stack_make(&stack, i % 5, 0, 1.0);
+        for (int k = 0; k < stack.num_nodes; ++k) {
+            stack.nodes[k].albedo = 1.0;
+            stack.nodes[k].f0 = stack_between(0.0, most_f0);
+            stack.nodes[k].roughness = stack_random();
+        }
+        double whole = reflected_by(run, &stack, stack_between(0.05, 1.0)).whole;
+        *least = fmin(*least, whole);
+        *most = fmax(*most, whole);
+    }
+}
+
+/* White matter reflects all light. */
+static void test_furnace(struct run *run)
+{
+    double least, most;
+    measure_furnace(run, 0.0, &least, &most);
+    printf("white stacks in a furnace: %.4f to %.4f\n", least, most);
+    REQUIRE(least > 0.99 && most < 1.005);
+    measure_furnace(run, 0.9, &least, &most);
+    printf("with interfaces: %.4f to %.4f\n", least, most);
+    REQUIRE(least > 0.99 && most < 1.005);
+}
+
+/* ---- Light from single directions ---- */
+
+/* The integral of the response over light, by midpoints in the square of the cosine and the turn.
+ */
+static void integrate(struct run *run)
+{
+    enum { ALONG = 24, AROUND = 32 };
+    struct generation *g = run->generation;
+    struct shader *shader = &g->result->shader;
+    struct ir_graph *graph = &g->result->graph;
+    struct closure_list list = lobes_of(run);
+    ir_ref light = shader_stream(shader, STR_lightWorld, IR_TYPE_VEC4), parts[3];
+    for (unsigned i = 0; i < 3; i++)
+        parts[i] = ir_component(graph, light, i);
+    ir_ref to_light = ir_construct(graph, IR_TYPE_VEC3, parts, 3),
+           sum = ir_const_splat(graph, IR_TYPE_VEC3, 0.0f);
+    ir_ref way = closure_way(shader, &g->closure_host, to_light);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct closure_leaf *leaf = &list.leaves.items[i];
+        ir_ref value = closure_call(shader, &g->closure_host, leaf->leaf, LEAF_EVAL, &to_light);
+        value = ir_op2(graph, IR_MUL, value, closure_weight(shader, leaf, way));
+        sum = ir_op2(graph, IR_ADD, sum, value);
+    }
+    double total = 0.0;
+    for (int i = 0; i < ALONG; ++i)
+        for (int j = 0; j < AROUND; ++j) {
+            run->light = sqrt((i + 0.5) / ALONG);
+            turn_of_light = 2.0 * 3.14159265358979 * (j + 0.5) / AROUND;
+            total += value_of(run, sum) / run->light; /* d omega = d(cos^2) d turn / (2 cos) */
+        }
+    *(double *)run->wanted = total * 3.14159265358979 / (ALONG * AROUND);
+}
+
+static void test_lights(struct run *run)
+{
+    double worst = 0.0;
+    for (int i = 0; i < 6; ++i) {
+        struct stack stack;
+        stack_make(&stack, i % 4, i % 2, 1.0);
+        for (int k = 0; k < stack.num_nodes; ++k) {
+            stack.nodes[k].f0 = i % 3 ? 0.1 : 0.0;
+            stack.nodes[k].roughness = 0.8;
+        }
+        double total, view = stack_between(0.3, 1.0);
+        double even = reflected_by(run, &stack, view).whole;
+        run->view = view;
+        generate(run, &stack, integrate, &total);
+        worst = fmax(worst, fabs(total - even));
+    }
+    printf("light by light against even light: within %.4f\n", worst);
+    REQUIRE(worst < 0.02);
+}
+
+int main(void)
+{
+    struct run run = {.context = NULL};
+    REQUIRE(mxg_context_create(NULL, &run.context) == MXG_OK);
+    run.library = mxg_library_builtin(run.context);
+    REQUIRE(run.library != NULL);
+    REQUIRE(mxg_options_create(run.context, &run.options) == MXG_OK
+            && mxg_options_set(run.options, "integrator", "scatter") == MXG_OK);
+    test_one_top(&run);
+    test_many_tops(&run);
+    test_truth(&run);
+    test_furnace(&run);
+    test_lights(&run);
+    mxg_options_destroy(run.options);
+    mxg_library_unref(run.library);
+    mxg_context_destroy(run.context);
+    return test_report("slabs");
+}
