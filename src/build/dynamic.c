@@ -43,23 +43,6 @@ static mxg_ref op2(mxg_build *build, const char *op, mxg_ref a, mxg_ref b)
     return mxg_build_op(build, op, NULL, (mxg_ref[]){a, b}, 2);
 }
 
-ir_ref dynamic_arg(const mxg_build *build, str_id name)
-{
-    for (unsigned i = 0; i < build->def->num_inputs; i++)
-        if (build->ports[i].name == name)
-            return build->frame->args[i];
-    return 0;
-}
-
-bool dynamic_misfit(const mxg_build *build, const char *fault)
-{
-    struct builder *b = build->b;
-    diag_add(b->diags, DIAG_ID_function_signature,
-             doc_place(&b->lib->doc, build->frame->impl->element), build_text(b, build->def->node),
-             build_text(b, build->def->name), fault);
-    return false;
-}
-
 /* ---- streams ---- */
 
 /* The index in an input; false after a report. */
@@ -244,9 +227,9 @@ static bool build_geompropvalue(void *user_data, mxg_build *build, mxg_ref *resu
 static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    results[0] =
-        code_issue(build, build_blur(build->b, dynamic_arg(build, STR_in), dynamic_arg(build, STR_size),
-                                     dynamic_arg(build, STR_filtertype), build->frame->node.element));
+    results[0] = code_issue(
+        build, build_blur(build->b, dynamic_arg(build, STR_in), dynamic_arg(build, STR_size),
+                          dynamic_arg(build, STR_filtertype), build->frame->node.element));
     return true;
 }
 
@@ -280,9 +263,9 @@ static bool build_multiply(void *user_data, mxg_build *build, mxg_ref *results)
 static bool thin_film(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    results[0] =
-        code_issue(build, build_film(build->b, dynamic_arg(build, STR_thickness), dynamic_arg(build, STR_ior),
-                                     dynamic_arg(build, STR_base), build->frame->node.element));
+    results[0] = code_issue(
+        build, build_film(build->b, dynamic_arg(build, STR_thickness), dynamic_arg(build, STR_ior),
+                          dynamic_arg(build, STR_base), build->frame->node.element));
     return true;
 }
 
@@ -290,7 +273,8 @@ static bool measured_edf(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
     results[0] = code_issue(build, build_measured_edf(build->b, dynamic_arg(build, STR_color),
-                                                      dynamic_arg(build, STR_normal), dynamic_arg(build, STR_file),
+                                                      dynamic_arg(build, STR_normal),
+                                                      dynamic_arg(build, STR_file),
                                                       build->frame->node.element));
     return true;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The nodes of slabs (docs/slabs.md): each is an op of the IR, which the walk of src/slabs reads. */
+/* The nodes of slabs (docs/slabs.md): each is an op of the IR, which the walk of src/slabs reads.
+ */
 #include "build/dynamic.h"
 
 /* A layer of an OSL network is complete before anyone knows where its slabs lie. */

@@ -42,6 +42,6 @@ ir_ref closure_through(struct shader *shader, const struct closure_host *host, i
     if (closure_source(shader, leaf) || !closure_has(shader, host, leaf, LEAF_TRANSMISSION)
         || only_reflects(shader, host, leaf))
         return 0;
-    ir_ref throughput = closure_leaf_throughput(shader, host, leaf);
+    ir_ref decay, throughput = closure_leaf_throughput(shader, host, leaf, &decay);
     return closure_mul(shader->graph, throughput, operand_of(shader, host, leaf, "tint"));
 }

@@ -219,7 +219,7 @@ static struct closure_surface parts_of(const struct surfaces *s, ir_ref ref)
                                         .premultiplied = node->attr != 0,
                                         .is_matter = node->attr != 0};
     case IR_SURFACE_UNLIT: return unlit_surface(g, args[0], args[1], args[2]);
-    case IR_SHADER_MIX: return mixed(g, known[args[0]], known[args[1]], args[2]);
+    case IR_SHADER_MIX: return mixed(s, known[args[0]], known[args[1]], args[2]);
     case IR_SLOTS: return stack_of(s, ref);
     default: return (struct closure_surface){0};
     }

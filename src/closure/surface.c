@@ -249,7 +249,10 @@ static bool add_surrounding_part(struct emitter *e, const struct closure_leaf *l
 static bool add_through(struct emitter *e, const struct closure_leaf *leaf)
 {
     ir_ref value = closure_through(e->shader, e->host, leaf->leaf);
-    value = value ? weighted(e, leaf, closure_mul(e->graph, value, leaf->medium)) : 0;
+    if (!value)
+        return false;
+    ir_ref way = leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
+    value = weighted(e, leaf, closure_mul(e->graph, value, leaf->medium), way);
     e->through = add(e, e->through, value ? vec3_of(e, value) : 0);
     return value != 0;
 }
