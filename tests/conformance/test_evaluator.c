@@ -9,15 +9,14 @@
  */
 #include "api/generation.h"
 #include "render/scene.h"
+#include "function.h"
 #include "rows.h"
-#include "lower/lower.h"
-#include "tree/eval.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_STEPS = 1000000, MAX_RESULTS = 16, INTEGER_ATTRIBUTE = 3, MIN_COMPUTED_PERCENT = 75 };
+enum { INTEGER_ATTRIBUTE = 3, MIN_COMPUTED_PERCENT = 75 };
 
 struct run {
     struct suite suite;
@@ -98,25 +97,11 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     return vertex_data(run, node->attr, out);
 }
 
-/*
- * RESULT 0 is what the function returns, RESULT 1 its first `out` parameter, also where it returns
- * nothing.
- */
 static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
                  const struct ir_value *args, uint32_t result, struct ir_value *out)
 {
     struct run *run = user_data;
-    const struct lang_unit *unit = &run->generation->result->unit;
-    uint32_t function = graph->callees.items[ir_get(graph, ref)->attr].index;
-    bool returns = lang_function(unit, function, NULL)->return_type != IR_TYPE_VOID;
-    struct ir_value results[MAX_RESULTS];
-    if (ir_get(graph, ref)->op != IR_CALL || (result == 0 && !returns)
-        || lang_num_results(unit, function) > MAX_RESULTS
-        || !lang_eval_call(unit, function, args, results, &(uint32_t){MAX_STEPS},
-                           &run->generation->scratch))
-        return false;
-    *out = results[returns ? result : result - 1];
-    return true;
+    return function_call(run->generation, graph, ref, args, result, out);
 }
 
 /* ---- Rows ---- */

@@ -5,15 +5,14 @@
  * computes them.
  */
 #include "api/generation.h"
-#include "lower/lower.h"
-#include "tree/eval.h"
 
+#include "../conformance/function.h"
 #include "slab_stacks.h"
 #include "test.h"
 
 #include <stdlib.h>
 
-enum { MAX_STEPS = 1000000, MAX_RESULTS = 16, NUM_STACKS = 200, NUM_PATHS = 20000 };
+enum { NUM_STACKS = 200, NUM_PATHS = 20000 };
 
 struct run {
     mxg_context *context;
@@ -64,17 +63,7 @@ static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
                  const struct ir_value *args, uint32_t result, struct ir_value *out)
 {
     struct run *run = user_data;
-    const struct lang_unit *unit = &run->generation->result->unit;
-    uint32_t function = graph->callees.items[ir_get(graph, ref)->attr].index;
-    bool returns = lang_function(unit, function, NULL)->return_type != IR_TYPE_VOID;
-    struct ir_value results[MAX_RESULTS];
-    if (ir_get(graph, ref)->op != IR_CALL || (result == 0 && !returns)
-        || lang_num_results(unit, function) > MAX_RESULTS
-        || !lang_eval_call(unit, function, args, results, &(uint32_t){MAX_STEPS},
-                           &run->generation->scratch))
-        return false;
-    *out = results[returns ? result : result - 1];
-    return true;
+    return function_call(run->generation, graph, ref, args, result, out);
 }
 
 /* The red channel; NAN after a failure. */
