@@ -59,13 +59,42 @@ static void compile_part(const char *target, const mxg_part *part, struct compil
     compiled_finish(&compiled);
 }
 
-bool compile_result(const char *target, const mxg_result *result, struct compiled *out)
+/*
+ * A shader for a path tracer (integrator=scatter) is the function scatter() without a program
+ * around it. It compiles with a main that calls it, behind its last line, so that the lines of
+ * messages stay. NULL if the shader has a main of its own; otherwise the caller frees the source.
+ */
+static char *with_main(const char *source)
+{
+    static const char caller[] = "\nvoid main()\n{\n    scatter();\n}\n";
+    if (!source || !strstr(source, "\nvoid scatter()\n"))
+        return NULL;
+    size_t len = strlen(source);
+    char *whole = malloc(len + sizeof caller);
+    if (whole) {
+        memcpy(whole, source, len);
+        memcpy(whole + len, caller, sizeof caller);
+    }
+    return whole;
+}
+
+static bool compile_stages(const char *target, const mxg_result *result, struct compiled *out)
 {
     const char *sources[MXG_NUM_STAGES];
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         sources[stage] = mxg_result_source(result, (mxg_stage)stage, NULL);
+    char *whole = with_main(sources[MXG_STAGE_PIXEL]);
+    if (whole)
+        sources[MXG_STAGE_PIXEL] = whole;
+    bool good = compile_program(target, sources, out);
+    free(whole);
+    return good;
+}
+
+bool compile_result(const char *target, const mxg_result *result, struct compiled *out)
+{
     if (mxg_result_num_parts(result) == 0)
-        return compile_program(target, sources, out);
+        return compile_stages(target, result, out);
     *out = (struct compiled){0};
     for (uint32_t i = 0; i < mxg_result_num_parts(result); ++i) {
         mxg_part part = {sizeof part};

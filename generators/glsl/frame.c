@@ -141,7 +141,7 @@ static void write_attributes(struct spell *spell, enum shader_block block, const
             continue;
         if (*qualifier)
             write_location(spell, variable->location);
-        if (variable->flat)
+        if (variable->flat && *qualifier)
             spell_text(spell, "flat ");
         spell_text(spell, qualifier);
         spell_declare(spell, variable, spell->variables[spell->shader->interface.items[i]]);
@@ -154,14 +154,14 @@ static void write_vertex_data(struct spell *spell)
     const char *qualifier = spell->stage_id == STAGE_VERTEX ? "out " : "in ";
     if (!spell_uses_block(spell, BLOCK_VERTEX_DATA))
         return;
-    if (spell->shader->scatters) {
+    if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
+        write_attributes(spell, BLOCK_VERTEX_DATA, spell->shader->scatters ? "" : qualifier);
+        return;
+    }
+    if (spell->shader->scatters) { /* the caller sets it */
         spell_text(spell, "struct VertexData {\n");
         write_members(spell, BLOCK_VERTEX_DATA);
         spell_text(spell, "};\nVertexData vd;\n");
-        return;
-    }
-    if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
-        write_attributes(spell, BLOCK_VERTEX_DATA, qualifier);
         return;
     }
     write_location(spell, 0);

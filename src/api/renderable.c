@@ -46,34 +46,14 @@ static bool is_used(const struct scan *scan, elem_id element)
     return scan->used[element - scan->doc->first_element];
 }
 
-static bool is_connected(const struct document *doc, elem_id port)
-{
-    return doc_attr_value(doc, port, STR_nodename) || doc_attr_value(doc, port, STR_nodegraph)
-           || doc_attr_value(doc, port, STR_output);
-}
-
 /*
- * True if a material has something to draw. A displacement alone is nothing to draw. A material
- * without any shader counts, because its generation reports it.
+ * Any node of type material. One without a shader counts, because its generation reports it; one
+ * with a displacement alone moves the vertices of a black surface.
  */
-static bool is_drawn(const struct document *doc, elem_id material)
-{
-    str_id category = doc_element(doc, material)->category;
-    bool displaces = false;
-    for (elem_id e = doc_element(doc, material)->first_child; e; e = doc_element(doc, e)->next) {
-        str_id type = doc_attr_value(doc, e, STR_type);
-        bool connected = is_connected(doc, e);
-        if (connected && (type == STR_surfaceshader || type == STR_volumeshader))
-            return true;
-        displaces |= connected && type == STR_displacementshader;
-    }
-    return !displaces && (category == STR_surfacematerial || category == STR_volumematerial);
-}
-
 static bool is_material(const struct document *doc, elem_id node)
 {
     return doc_element(doc, node)->kind == KIND_NODE
-           && doc_attr_value(doc, node, STR_type) == STR_material && is_drawn(doc, node);
+           && doc_attr_value(doc, node, STR_type) == STR_material && !doc_is_outdated(doc, node);
 }
 
 static bool is_loose_shader(const struct scan *scan, elem_id node)

@@ -321,12 +321,15 @@ static void add_impl(struct indexer *ix, struct implementation impl)
 {
     struct library *lib = ix->lib;
     struct implementation *rival = find_rival(ix, &impl);
+    uint32_t own = rival ? (uint32_t)(rival - lib->impls.items) : lib->impls.len;
     if (rival) {
         replace_impl(ix, rival, &impl);
-        return;
+    } else {
+        vec_push(ix->arena, &lib->impls, impl);
+        table_add(&ix->claims, ix->arena, hash_pair(impl.nodedef, impl.target), lib->impls.len);
     }
-    vec_push(ix->arena, &lib->impls, impl);
-    table_add(&ix->claims, ix->arena, hash_pair(impl.nodedef, impl.target), lib->impls.len);
+    if (impl.kind == IMPL_GRAPH)
+        index_note_graph(ix, impl.ref, own);
 }
 
 /* True for a node of served.def that gives a closure, a shader or a material. */

@@ -29,6 +29,13 @@ static void set_info(struct indexer *ix, elem_id element, uint32_t own)
     ix->lib->element_info.items[element - ix->lib->doc.first_element] = own + 1;
 }
 
+void index_note_graph(struct indexer *ix, elem_id graph, uint32_t own)
+{
+    const struct library *lib = ix->lib;
+    if (graph >= lib->doc.first_element && !lib->element_info.items[graph - lib->doc.first_element])
+        set_info(ix, graph, own);
+}
+
 /* ---- types ---- */
 
 static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)

@@ -42,6 +42,8 @@ static inline const char *index_file(const struct indexer *ix, elem_id element)
 /* implement.c: adds the implementation of an <implementation>, or of a functional <nodegraph>. */
 void index_implementation(struct indexer *ix, elem_id element);
 void index_functional_graph(struct indexer *ix, elem_id element);
+/* Notes a graph of this layer as the implementation with this own index, unless it is one. */
+void index_note_graph(struct indexer *ix, elem_id graph, uint32_t own);
 /*
  * Gives mxgen's own code to operators of closures and to materials that lack an implementation for
  * a target of mxgen. Generators of MaterialX read materials themselves, so its libraries implement

@@ -21,10 +21,11 @@ uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
     str_id name = graph ? doc_attr_value(&lib->doc, graph, STR_nodedef) : 0;
     if (name)
         return library_nodedef_by_name(lib, name);
-    for (uint32_t i = 0; graph && i < lib->impls.len; i++)
-        if (lib->impls.items[i].kind == IMPL_GRAPH && lib->impls.items[i].ref == graph)
-            return lib->impls.items[i].nodedef;
-    return LIBRARY_NONE;
+    const struct library *layer;
+    uint32_t own = graph ? library_element_info(lib, graph, &layer) : LIBRARY_NONE;
+    return own != LIBRARY_NONE && doc_element(&lib->doc, graph)->kind == KIND_NODEGRAPH
+               ? layer->impls.items[own].nodedef
+               : LIBRARY_NONE;
 }
 
 enum { MAX_LISTED = 24 }; /* inputs in a note */

@@ -220,7 +220,10 @@ struct library {
     VEC(uint32_t) refs;
     /* node name → first nodedef of that node (own index + 1) */
     struct table node_table;
-    /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
+    /*
+     * per own element: 1 + own index of its nodedef, type, geomprop or graph_node, or of the first
+     * implementation that is this nodegraph; 0 = none
+     */
     VEC(uint32_t) element_info;
     /* replaces `element_info` in an image layer whose indices fit in 16 bits */
     const uint16_t *narrow_info;
@@ -374,8 +377,8 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
 /* The enclosing nodegraph; 0: none. */
 elem_id library_graph_around(const struct library *lib, elem_id element);
 /*
- * The definition that a nodegraph of this layer implements, by its own attribute or by an
- * <implementation>. LIBRARY_NONE.
+ * The definition that a nodegraph implements, by its own attribute or by the first
+ * <implementation> of its layer. LIBRARY_NONE.
  */
 uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph);
 /*
@@ -429,8 +432,8 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
 
 /*
  * shaders.c: reports values where a node of this layer takes a shader, and a material without any
- * shader. An input that names an interface or a source counts as given. `bindings` are those of the
- * node.
+ * shader. An input that names a source or an input of a definition counts as given; an input of a
+ * graph counts if something stands there. `bindings` are those of the node.
  */
 void library_check_shaders(const struct library *lib, elem_id node, uint32_t nodedef,
                            const struct binding *bindings, struct diag_list *diags);

@@ -360,6 +360,19 @@ static elem_id follow_output(const struct library *lib, elem_id port, str_id out
     return target && library_is_unique(lib, target, port, STR_output, diags) ? target : 0;
 }
 
+/*
+ * True if an interfacename in a graph refers to the graph's own inputs: no definition, whose
+ * arguments would reach it, has the input.
+ */
+static bool is_plain_input(const struct library *lib, elem_id graph, str_id input)
+{
+    if (doc_element(&lib->doc, graph)->kind != KIND_NODEGRAPH)
+        return true;
+    uint32_t nodedef = library_implemented_nodedef(lib, graph);
+    return !doc_attr(&lib->doc, graph, STR_nodedef)
+           && (nodedef == LIBRARY_NONE || library_find_input(lib, nodedef, input) < 0);
+}
+
 /* The next port of the chain, or 0 with *out at its end. */
 static elem_id follow(const struct library *lib, elem_id port, doc_type type, struct binding *out,
                       struct diag_list *diags)
@@ -379,9 +392,8 @@ static elem_id follow(const struct library *lib, elem_id port, doc_type type, st
     if (source.node || source.graph)
         return follow_name(lib, port, scope, &source, type, out, diags);
     if (source.interface) {
-        const struct element *graph = doc_element(doc, scope);
         elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, source.interface);
-        bool is_plain = graph->kind != KIND_NODEGRAPH || !doc_attr(doc, scope, STR_nodedef);
+        bool is_plain = is_plain_input(lib, scope, source.interface);
         if (input && is_plain) {
             return library_is_unique(lib, input, port, STR_interfacename, diags) ? input : 0;
         }

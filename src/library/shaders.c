@@ -47,25 +47,34 @@ static str_id only_node(const struct library *lib, elem_id node, str_id type,
     return found;
 }
 
-static void report_missing(const struct library *lib, elem_id material, const struct port *port,
-                           struct diag_list *diags)
+/* `owner` has the input that needs a node: the material, or a graph around it. */
+static void report_missing(const struct library *lib, elem_id material, elem_id owner, str_id input,
+                           str_id type, struct diag_list *diags)
 {
-    const struct element *e = doc_element(&lib->doc, material);
-    str_id shader = only_node(lib, material, library_type_name(lib, port->type), diags);
-    struct text source;
+    const struct document *doc = &lib->doc;
+    const char *material_name = text_of(lib, doc_element(doc, material)->name);
+    const char *input_name = text_of(lib, input);
+    str_id shader = only_node(lib, owner, type, diags);
+    struct text source, target;
     text_init(&source, diags->arena);
     text_fmt(&source, shader ? "'%s'" : "a node", text_of(lib, shader));
-    diag_add(diags, DIAG_ID_no_shader, doc_name_place(&lib->doc, material), text_of(lib, e->name),
-             text_cstr(&source), text_of(lib, port->name));
+    text_init(&target, diags->arena);
+    if (owner == material)
+        text_fmt(&target, "its input '%s'", input_name);
+    else
+        text_fmt(&target, "the input '%s' of '%s'", input_name,
+                 text_of(lib, doc_element(doc, owner)->name));
+    diag_add(diags, DIAG_ID_no_shader, doc_name_place(doc, material), material_name,
+             text_cstr(&source), text_cstr(&target));
 }
 
-/* True if a node, an interface or a fault of its own stands at the input. */
-static bool is_given(const struct library *lib, elem_id node, const struct binding *binding)
+/* The input of a graph around the node that should have its shader; 0: it is not a graph's. */
+static elem_id unset_interface(const struct library *lib, elem_id node,
+                               const struct binding *binding)
 {
-    if (binding->kind != BIND_DEFAULT && binding->kind != BIND_VALUE)
-        return true;
-    /* the value of another port: the input is connected to it */
-    return binding->element && doc_element(&lib->doc, binding->element)->parent != node;
+    bool is_foreign = binding->kind == BIND_DEFAULT && binding->element
+                      && doc_element(&lib->doc, binding->element)->parent != node;
+    return is_foreign ? binding->element : 0;
 }
 
 void library_check_shaders(const struct library *lib, elem_id node, uint32_t nodedef,
@@ -73,22 +82,31 @@ void library_check_shaders(const struct library *lib, elem_id node, uint32_t nod
 {
     assert(node >= lib->doc.first_element);
     const struct nodedef *def = library_nodedef(lib, nodedef);
-    const struct port *ports = library_ports(lib, nodedef, NULL), *first = NULL;
+    const struct port *ports = library_ports(lib, nodedef, NULL);
+    elem_id owner = 0;
+    str_id input = 0, type = 0;
     bool is_any_given = false;
     for (unsigned i = 0; i < def->num_inputs; i++) {
         const struct binding *binding = &bindings[i];
         if (!ir_type_is_shader(library_type_ir(lib, ports[i].type)))
             continue;
-        first = first ? first : &ports[i];
+        elem_id interface = unset_interface(lib, node, binding);
+        if (!input || (owner == node && interface)) {
+            owner = interface ? doc_element(&lib->doc, interface)->parent : node;
+            input = interface ? doc_element(&lib->doc, interface)->name : ports[i].name;
+            type = library_type_name(lib, ports[i].type);
+        }
         str_id value = binding->kind == BIND_VALUE
                            ? doc_attr_value(&lib->doc, binding->element, STR_value)
                            : 0;
         bool is_value = value && binding->element >= lib->doc.first_element;
         if (is_value)
             report_value(lib, &ports[i], binding->element, value, diags);
-        is_any_given |= is_value || is_given(lib, node, binding);
+        /* a node, the input of a definition, or a fault of its own */
+        bool is_connected = binding->kind != BIND_DEFAULT && binding->kind != BIND_VALUE;
+        is_any_given |= is_value || is_connected;
     }
     bool needs_one = def->node == STR_surfacematerial || def->node == STR_volumematerial;
-    if (needs_one && first && !is_any_given)
-        report_missing(lib, node, first, diags);
+    if (needs_one && input && !is_any_given)
+        report_missing(lib, node, owner, input, type, diags);
 }

@@ -274,6 +274,65 @@ static void test_files(void)
     load(&files, "other.mtlx", "file-missing");
 }
 
+/* ---- Files of a size that no memory has: who reads a byte of one crashes ---- */
+
+struct endless_files {
+    struct memory_files files;
+    const char *endless; /* the name of the file that is one */
+};
+
+static bool endless_open(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
+                         const char **out_reason)
+{
+    struct endless_files *files = user_data;
+    if (!memory_open(&files->files, from, ref, out_blob, out_reason))
+        return false;
+    if (strcmp(out_blob->name, files->endless) == 0) {
+        out_blob->data = (const char *)(uintptr_t)64; /* no page of it can be read */
+        out_blob->size = (size_t)1 << (sizeof(size_t) * 8 - 4);
+    }
+    return true;
+}
+
+static void endless_release(void *user_data, mxg_blob *blob)
+{
+    memory_release(&((struct endless_files *)user_data)->files, blob);
+}
+
+/* The limit counts before a byte is hashed, copied or parsed, of documents and of libraries. */
+static void test_endless_files(void)
+{
+    static const char *const names[] = {"main.mtlx", "tint.mtlx", "tint.glsl", "curve.glsl"};
+    for (unsigned i = 0; i < 2 * sizeof names / sizeof *names; i++) {
+        struct endless_files files = {{.files = fixture_files}, names[i / 2]};
+        mxg_resolver resolver = {&files, endless_open, endless_release, NULL};
+        const char *fault = i / 2 < 2 ? "file-too-large" : "missing-source-file";
+        mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+        desc.resolver = &resolver;
+        mxg_context *context = NULL;
+        mxg_context_create(&desc, &context);
+        mxg_library *base = mxg_library_builtin(context), *library = NULL;
+        mxg_document *document = NULL;
+        bool is_library = i % 2;
+        mxg_status status = is_library ? mxg_library_load(context, base, names, 1, &library)
+                                       : mxg_document_load(context, base, *names, &document);
+        mxg_result *result = NULL;
+        if (document && status == MXG_OK)
+            status = mxg_document_validate(context, document, &result);
+        REQUIRE_EQ(status, MXG_ERROR_DOCUMENT);
+        REQUIRE(has_diagnostic(is_library ? mxg_library_diagnostics(library)
+                                          : mxg_document_diagnostics(document),
+                               fault)
+                || has_diagnostic(mxg_result_diagnostics(result), fault));
+        REQUIRE_EQ(files.files.num_opened, files.files.num_released);
+        mxg_result_destroy(result);
+        mxg_document_destroy(document);
+        mxg_library_unref(library);
+        mxg_library_unref(base);
+        mxg_context_destroy(context);
+    }
+}
+
 /* The resolver that a context without one has. */
 static void test_own_resolver(const char *folder)
 {
@@ -311,6 +370,7 @@ int main(int argc, char **argv)
     test_max_errors();
     test_cancel();
     test_files();
+    test_endless_files();
     test_own_resolver(argv[1]);
     return test_report("api-limits");
 }

@@ -32,7 +32,7 @@ chmod +x programs/held
 export PATH=$work/programs:$PATH
 mkdir show
 for i in $(seq 9); do material "M$i" "0.$i" >"show/m$i.mtlx"; done
-material Bad '1, 2' >show/bad.mtlx
+material Bad rough >show/bad.mtlx
 "$mxgen" check show --no-compile --baseline baseline.json --update-baseline --json none.json >/dev/null
 
 host=$(hostname -s) port=$((20000 + $$ % 20000))
@@ -110,7 +110,7 @@ fresh
 check 'an array and a merge against the baseline' merged 0 "$(submit 1-3)"
 check 'whose failure is known' grep -q '^9 passed, 1 failed (validate 1; known 1)' merge.log
 check 'is the report of one run' eval '"$mxgen" check merge shards/*.json --json plain.json >/dev/null; cmp plain.json none.json'
-material M3 '1, 2' >show/m3.mtlx
+material M3 rough >show/m3.mtlx
 fresh
 check 'a new failure' merged 1 "$(submit 1-3)"
 check 'fails the merge' grep -q '^FAILED show/m3.mtlx (fails)' merge.log

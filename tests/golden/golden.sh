@@ -44,17 +44,6 @@ run_line() {
             [ -z "$update" ] || cat check.log
         done
     done
-    if [[ " ${options[*]} " = *' --integrator=scatter '* ]]; then # a function without a program around it
-        for file in "$title.d"/*.frag; do
-            echo 'void main() { scatter(); }' >>"$file"
-            if command -v glslangValidator >/dev/null; then
-                check "$file compiles" glslangValidator "$file"
-            else
-                skip "without glslangValidator $file is not compiled"
-            fi
-        done
-        return
-    fi
     compiles "$target" && check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
 }
 

@@ -353,6 +353,58 @@ for document in shaderless value_only; do
     check "$document: what has a shader is written" files $document './C.frag ./C.vert '
 done
 
+# Every node of type material is an element to generate, whatever its category
+roots() { # FILE ELEMENTS of type material, and options
+    { echo '<materialx version="1.39">'; cat; echo '</materialx>'; } >"$1.mtlx"
+    check "$1: validate" exits 0 "$mxgen" validate "$1.mtlx" -Werror "${@:3}"
+    check "$1: generate" exits 0 "$mxgen" "$1.mtlx" -Werror -o "roots-$1" "${@:3}"
+    check "$1: its materials" files "roots-$1" "$2"
+}
+roots lama './Skin.frag ./Skin.vert ' <<'X'
+<LamaDiffuse name="b" type="BSDF"/>
+<LamaSurface name="Skin" type="material"><input name="materialFront" type="BSDF" nodename="b"/></LamaSurface>
+X
+check 'a material of Lama reflects light' grep -q u_lightData roots-lama/Skin.frag
+roots own './Root.frag ./Root.vert ' <<'X'
+<nodedef name="ND_shop" node="shop"><input name="base" type="color3" value="0.8, 0.1, 0.2"/><output name="out" type="material"/></nodedef>
+<nodegraph name="NG_shop" nodedef="ND_shop">
+  <oren_nayar_diffuse_bsdf name="b" type="BSDF"><input name="color" type="color3" interfacename="base"/></oren_nayar_diffuse_bsdf>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
+  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+  <output name="out" type="material" nodename="m"/>
+</nodegraph>
+<shop name="Root" type="material"/>
+X
+check 'a material of its own reflects light' grep -q u_lightData roots-own/Root.frag
+roots implemented './Root.frag ./Root.vert ' -Wno-bad-definition <<'X'
+<nodedef name="ND_shop" node="shop"><input name="paint" type="surfaceshader"/><output name="out" type="material"/></nodedef>
+<implementation name="IM_shop" nodedef="ND_shop" nodegraph="Booth"/>
+<nodegraph name="Booth">
+  <input name="paint" type="surfaceshader"/>
+  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" interfacename="paint"/></surfacematerial>
+  <output name="out" type="material" nodename="m"/>
+</nodegraph>
+<standard_surface name="SR" type="surfaceshader"/>
+<shop name="Root" type="material"><input name="paint" type="surfaceshader" nodename="SR"/></shop>
+X
+check 'the shader of its definition draws' grep -q u_lightData roots-implemented/Root.frag
+roots displaced './Waves.frag ./Waves.vert ' <<'X'
+<noise3d name="n" type="float"/>
+<displacement name="d" type="displacementshader"><input name="displacement" type="float" nodename="n"/></displacement>
+<surfacematerial name="Waves" type="material"><input name="displacementshader" type="displacementshader" nodename="d"/></surfacematerial>
+X
+check 'a displacement alone moves vertices' grep -q mx_noise_float roots-displaced/Waves.vert
+cat >booth.mtlx <<'X'
+<materialx version="1.39">
+<nodegraph name="Booth"><input name="paint" type="surfaceshader"/>
+<surfacematerial name="sprayed" type="material"><input name="surfaceshader" type="surfaceshader" interfacename="paint"/></surfacematerial>
+<output name="out" type="material" nodename="sprayed"/></nodegraph>
+</materialx>
+X
+check 'an input of a graph that nobody sets' exits 1 "$mxgen" booth.mtlx -e Booth/sprayed -o booth
+check 'is the place of the shader' grep -q "'sprayed' has no shader; connect a node to the input 'paint' of 'Booth' \[no-shader\]" err
+check 'which nothing is written for' none_in booth
+
 # Other commands
 check 'validate' exits 0 "$mxgen" validate two.mtlx
 check 'validate finds' exits 1 "$mxgen" validate bad.mtlx

@@ -174,6 +174,7 @@ shader /c
 check 'light passes a sheet' eval 'grep -q "medium" main && grep -q "out1 = vec4(color, 1.0);" main'
 for slots in blend stochastic; do
     check "slabs, $slots, path tracer" exits 0 stacks --slots $slots --integrator scatter
+    [ -z "$compile" ] || check "it compiles for all targets" exits 0 "$compile" look.mtlx --stage stage.txt --slots $slots --integrator scatter --targets glsl,essl,essl310,vulkan,hlsl --interfaces complete
     check "slabs, $slots, OSL" exits 0 "$mxgen" look.mtlx --stage stage.txt --slots $slots --target osl -o osl.d
     [ -z "$compile" ] || check "slabs, $slots" exits 0 "$compile" look.mtlx --stage stage.txt --slots $slots --targets vulkan,hlsl --interfaces complete
 done
