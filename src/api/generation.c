@@ -79,6 +79,7 @@ static void set_build_options(struct generation *g)
     g->build_options = (struct build_options){
         .syntax = g->result->target->syntax,
         .interface = (enum build_interface)o[OPTION_interface].number,
+        .publish_all = o[OPTION_publish].number != 0,
         .uniform_globs = o[OPTION_uniform].list.items,
         .num_uniform_globs = o[OPTION_uniform].list.len,
         .constant_globs = o[OPTION_constant].list.items,
