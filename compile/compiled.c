@@ -59,6 +59,92 @@ static void compile_part(const char *target, const mxg_part *part, struct compil
     compiled_finish(&compiled);
 }
 
+/* ---- Functions ---- */
+
+/* The file of a host around a function, per target: what stands above it, and what it calls. */
+static const struct host {
+    const char *target, *head, *vec3, *output, *main;
+} hosts[] = {
+    {"glsl", "#version 450\n", "vec3", "out vec4 host_color;\n", "void main()"},
+    {"vulkan", "#version 450\n", "vec3", "layout(location = 0) out vec4 host_color;\n",
+     "void main()"},
+    {"essl",
+     "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+     "precision highp sampler2DArray;\n",
+     "vec3", "out vec4 host_color;\n", "void main()"},
+    {"essl310",
+     "#version 310 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
+     "precision highp sampler2DArray;\n",
+     "vec3", "layout(location = 0) out vec4 host_color;\n", "void main()"},
+    {"hlsl", "", "float3", "", "void main(out float4 host_color : SV_Target0)"},
+};
+
+static const struct host *find_host(const char *target)
+{
+    for (size_t i = 0; i < sizeof hosts / sizeof *hosts; ++i)
+        if (strcmp(hosts[i].target, target) == 0)
+            return &hosts[i];
+    return NULL;
+}
+
+static unsigned count_lines(const char *text)
+{
+    unsigned lines = 0;
+    for (; *text; ++text)
+        lines += *text == '\n';
+    return lines;
+}
+
+/* "vec3 a0; int a1;" and "a0, a1": arguments of the types of the parameters. */
+static void write_arguments(const mxg_result *result, bool declare, char *out, size_t capacity)
+{
+    mxg_block_info block = MXG_INIT(mxg_block_info);
+    size_t len = 0;
+    out[0] = '\0';
+    mxg_result_block(result, MXG_BLOCK_VERTEX_DATA, &block);
+    for (uint32_t i = 0; i < block.num_variables && len < capacity; ++i) {
+        mxg_variable v = MXG_INIT(mxg_variable);
+        mxg_result_variable(result, block.first_variable + i, &v);
+        int more = declare ? snprintf(out + len, capacity - len, "%s a%u; ", v.type, i)
+                           : snprintf(out + len, capacity - len, "%sa%u", i ? ", " : "", i);
+        len += more > 0 ? (size_t)more : 0;
+    }
+}
+
+/* Compiles a function as a host has it: between a head, and lights and a main that calls it. */
+static bool compile_function(const char *target, const mxg_result *result,
+                             const mxg_shader_info *info, struct compiled *out)
+{
+    const struct host *host = find_host(target);
+    const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
+    enum { MAX_ARGUMENTS = 8192 };
+    size_t capacity = strlen(source) + 3 * MAX_ARGUMENTS;
+    char *text = malloc(capacity), *declared = malloc(MAX_ARGUMENTS),
+         *given = malloc(MAX_ARGUMENTS);
+    *out = (struct compiled){0};
+    bool good = host && text && declared && given;
+    if (good) {
+        write_arguments(result, true, declared, MAX_ARGUMENTS);
+        write_arguments(result, false, given, MAX_ARGUMENTS);
+        snprintf(text, capacity,
+                 "%s%s%sint mxg_light_count() { return 2; }\n"
+                 "void mxg_light(int i, %s P, out %s L, out %s radiance) { L = normalize(P); "
+                 "radiance = P; }\n%s\n{\n    %s\n    %s s = %s(%s);\n"
+                 "    host_color.xyz = s.color;\n    host_color.w = s.alpha;\n}\n",
+                 host->head, source, host->output, host->vec3, host->vec3, host->vec3, host->main,
+                 declared, info->function_type, info->function, given);
+        good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
+        unsigned head = count_lines(host->head);
+        for (size_t i = 0; i < out->num_messages; ++i)
+            if (out->messages[i].line > head)
+                out->messages[i].line -= head;
+    }
+    free(text);
+    free(declared);
+    free(given);
+    return good;
+}
+
 /*
  * A shader for a path tracer (integrator=scatter) is the function scatter() without a program
  * around it. It compiles with a main that calls it, behind its last line, so that the lines of
@@ -93,6 +179,9 @@ static bool compile_stages(const char *target, const mxg_result *result, struct 
 
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out)
 {
+    mxg_shader_info info = MXG_INIT(mxg_shader_info);
+    if (mxg_result_info(result, &info) == MXG_OK && info.function[0])
+        return compile_function(target, result, &info, out);
     if (mxg_result_num_parts(result) == 0)
         return compile_stages(target, result, out);
     *out = (struct compiled){0};

@@ -164,7 +164,8 @@ static bool parse(struct job *job)
     /* the device's samplers have neither arbitrary border colours nor cubic filters */
     if (!args_is_given(&job->cli.parser, "texture-modes"))
         mxg_options_set(job->cli.options, "texture-modes", "shared");
-    if (!args_is_given(&job->cli.parser, "sample-filter")) /* no picture of MaterialX to match */
+    /* there is no picture of MaterialX to match */
+    if (!job->options.path_trace && !args_is_given(&job->cli.parser, "sample-filter"))
         mxg_options_set(job->cli.options, "sample-filter", "narrow");
     if (job->options.path_trace) {
         mxg_options_set(job->cli.options, "integrator", "scatter");

@@ -71,7 +71,7 @@ static void write_uniform_block(struct spell *spell, enum shader_block block)
 {
     const struct shader_buffer *buffer = &spell->shader->buffers[block];
     write_layout(spell, buffer->set, buffer->binding, true);
-    SPELL(spell, "uniform ", shader_block_name(block), " {\n");
+    SPELL(spell, "uniform ", spell_frame_name(spell, shader_block_name(block)), " {\n");
     write_members(spell, block);
     spell_text(spell, "};\n");
 }
@@ -108,14 +108,18 @@ static void write_light_data(struct spell *spell)
     if (!spell->stage->has_lights)
         return;
     const struct shader_buffer *buffer = &spell->shader->buffers[BLOCK_LIGHT_DATA];
-    spell_text(spell, "struct LightData {\n");
+    const char *type = spell_frame_name(spell, "LightData"),
+               *lights = spell_frame_name(spell, "u_lightData");
+    SPELL(spell, "struct ", type, " {\n");
     write_members(spell, BLOCK_LIGHT_DATA);
     spell_text(spell, "};\n");
-    if (spell->shader->rules.blocks)
+    if (spell->shader->rules.blocks) {
         write_layout(spell, buffer->set, buffer->binding, true);
-    spell_text(spell, spell->shader->rules.blocks
-                          ? "uniform LightData_block { LightData u_lightData["
-                          : "uniform LightData u_lightData[");
+        SPELL(spell, "uniform ", spell_frame_name(spell, "LightData_block"), " { ", type, " ",
+              lights, "[");
+    } else {
+        SPELL(spell, "uniform ", type, " ", lights, "[");
+    }
     spell_number(spell, spell->shader->max_lights);
     spell_text(spell, spell->shader->rules.blocks ? "]; };\n" : "];\n");
 }
@@ -151,7 +155,8 @@ static void write_attributes(struct spell *spell, enum shader_block block, const
 
 static void write_vertex_data(struct spell *spell)
 {
-    const char *qualifier = spell->stage_id == STAGE_VERTEX ? "out " : "in ";
+    const char *qualifier = spell->stage_id == STAGE_VERTEX ? "out " : "in ",
+               *type = spell_frame_name(spell, "VertexData");
     if (!spell_uses_block(spell, BLOCK_VERTEX_DATA))
         return;
     if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
@@ -159,15 +164,24 @@ static void write_vertex_data(struct spell *spell)
         return;
     }
     if (spell->shader->scatters) { /* the caller sets it */
-        spell_text(spell, "struct VertexData {\n");
+        SPELL(spell, "struct ", type, " {
+");
         write_members(spell, BLOCK_VERTEX_DATA);
-        spell_text(spell, "};\nVertexData vd;\n");
+        SPELL(spell, "};\n", type, " ", spell_frame_name(spell, "vd"), ";\n");
         return;
     }
     write_location(spell, 0);
-    SPELL(spell, qualifier, "VertexData {\n");
+    SPELL(spell, qualifier, type, " {\n");
     write_members(spell, BLOCK_VERTEX_DATA);
-    spell_text(spell, "} vd;\n");
+    SPELL(spell, "} ", spell_frame_name(spell, "vd"), ";\n");
+}
+
+static void declare_for_function(struct spell *spell)
+{
+    spell_structs(spell);
+    write_uniforms(spell, BLOCK_PUBLIC_UNIFORMS);
+    write_uniforms(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_textures(spell);
 }
 
 static void declare(struct spell *spell)
@@ -187,7 +201,9 @@ static void declare(struct spell *spell)
 
 static void open_main(struct spell *spell)
 {
-    spell_text(spell, spell->shader->scatters ? "void scatter()\n{\n" : "void main()\n{\n");
+    SPELL(spell, "void ", spell->shader->scatters ? spell_frame_name(spell, "scatter") : "main",
+          "()\n{\n");
 }
 
-const struct target_frame glsl_frame = {.declare = declare, .open = open_main};
+const struct target_frame glsl_frame = {
+    .declare = declare, .open = open_main, .declare_for_function = declare_for_function};

@@ -48,7 +48,7 @@ static void open_buffer(struct spell *spell, enum shader_block block, const char
 {
     const struct shader_buffer *buffer = &spell->shader->buffers[block];
     write_binding(spell, buffer->binding, buffer->set);
-    SPELL(spell, "cbuffer ", name);
+    SPELL(spell, "cbuffer ", spell_frame_name(spell, name));
     write_register(spell, 'b', buffer->binding);
     spell_text(spell, "\n{\n");
 }
@@ -76,7 +76,8 @@ static void write_lights(struct spell *spell)
 {
     if (!spell->stage->has_lights)
         return;
-    spell_text(spell, "struct LightData {\n");
+    const char *type = spell_frame_name(spell, "LightData");
+    SPELL(spell, "struct ", type, " {\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_LIGHT_DATA)
     {
         write_member(spell, spell_interface_variable(spell, i));
@@ -84,7 +85,7 @@ static void write_lights(struct spell *spell)
     }
     spell_text(spell, "};\n");
     open_buffer(spell, BLOCK_LIGHT_DATA, "LightData_block");
-    text_fmt(spell->out, "    LightData u_lightData[%u];\n};\n",
+    text_fmt(spell->out, "    %s %s[%u];\n};\n", type, spell_frame_name(spell, "u_lightData"),
              (unsigned)spell->shader->max_lights);
 }
 
@@ -114,7 +115,11 @@ static const char *semantic_from(struct spell *spell, const struct shader_variab
 {
     struct text text;
     text_init(&text, spell->scratch);
-    const char *name = str_text(spell->shader->strings, variable->name) + strlen("i_");
+    const char *name = str_text(spell->shader->strings, variable->name);
+    size_t prefix = strlen(spell->shader->naming.prefix);
+    if (strncmp(name, spell->shader->naming.prefix, prefix) == 0
+        && strncmp(name + prefix, "i_", 2) == 0)
+        name += prefix + 2;
     for (; *name; name++) {
         bool joins_number = *name == '_' && strspn(name + 1, "0123456789") == strlen(name + 1);
         if (!joins_number)
@@ -142,7 +147,8 @@ static void write_semantic(struct spell *spell, uint32_t place)
 /* Both stages declare the whole struct, also members that they do not read, so that they match. */
 static void write_vertex_data(struct spell *spell)
 {
-    spell_text(spell, "struct VertexData {\n    float4 position : SV_Position;\n");
+    SPELL(spell, "struct ", spell_frame_name(spell, "VertexData"),
+          " {\n    float4 position : SV_Position;\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
@@ -166,11 +172,7 @@ static bool reads_vertex_data(const struct spell *spell)
  */
 static bool shares_vertex_data(const struct spell *spell)
 {
-    bool shares = spell->shader->scatters || spell->stage->functions.len > 0;
-    const struct lang_reach *reach = &spell->stage->reach;
-    for (uint32_t i = 0; i < reach->globals.len && !shares; i++)
-        shares = lang_global(spell->shader->unit, reach->globals.items[i], NULL)->kind
-                 == LANG_GLOBAL_STREAM;
+    bool shares = spell->shader->scatters || spell_functions_read_vertex_data(spell);
     return shares && reads_vertex_data(spell);
 }
 
@@ -185,6 +187,21 @@ static void write_results(struct spell *spell)
     }
 }
 
+static void declare_structs(struct spell *spell)
+{
+    spell_structs(spell);
+    for (uint32_t i = 0; i < spell->stage->reach.user_types.len; i++)
+        spell_name_maker(spell, spell->stage->reach.user_types.items[i]);
+}
+
+static void declare_for_function(struct spell *spell)
+{
+    declare_structs(spell);
+    write_buffer(spell, BLOCK_PUBLIC_UNIFORMS);
+    write_buffer(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_textures(spell);
+}
+
 static void declare(struct spell *spell)
 {
     const char *version =
@@ -192,16 +209,16 @@ static void declare(struct spell *spell)
     spell_text(spell, "// ");
     spell_title(spell);
     SPELL(spell, "\n// shader model ", version, "\n\n");
-    spell_structs(spell);
-    for (uint32_t i = 0; i < spell->stage->reach.user_types.len; i++)
-        spell_name_maker(spell, spell->stage->reach.user_types.items[i]);
+    declare_structs(spell);
     write_buffer(spell, BLOCK_PUBLIC_UNIFORMS);
     write_buffer(spell, BLOCK_PRIVATE_UNIFORMS);
     write_lights(spell);
     write_textures(spell);
     if (reads_vertex_data(spell))
         write_vertex_data(spell);
-    spell_text(spell, shares_vertex_data(spell) ? "static VertexData vd;\n" : "");
+    if (shares_vertex_data(spell))
+        SPELL(spell, "static ", spell_frame_name(spell, "VertexData"), " ",
+              spell_frame_name(spell, "vd"), ";\n");
     if (spell->shader->scatters)
         write_results(spell);
 }
@@ -238,9 +255,10 @@ static void write_parameters(struct spell *spell, enum shader_block block, bool 
 static void open_main(struct spell *spell)
 {
     if (spell->shader->scatters) {
-        spell_text(spell, "void scatter()\n{\n");
+        SPELL(spell, "void ", spell_frame_name(spell, "scatter"), "()\n{\n");
         return;
     }
+    const char *vd = spell_frame_name(spell, "vd");
     bool is_pixel = spell->stage_id == STAGE_PIXEL, shares = shares_vertex_data(spell),
          is_first = true;
     spell_text(spell, "void main(");
@@ -248,21 +266,27 @@ static void open_main(struct spell *spell)
         write_parameters(spell, BLOCK_APP_DATA, &is_first);
     if (reads_vertex_data(spell)) {
         begin_parameter(spell, &is_first);
-        SPELL(spell, is_pixel ? "" : "out ", "VertexData ",
-              !shares    ? "vd"
+        SPELL(spell, is_pixel ? "" : "out ", spell_frame_name(spell, "VertexData"), " ",
+              !shares    ? vd
               : is_pixel ? "vd_in"
                          : "vd_out");
     }
     if (is_pixel)
         write_parameters(spell, BLOCK_OUTPUTS, &is_first);
     spell_text(spell, ")\n{\n");
-    spell_text(spell, is_pixel && shares ? "    vd = vd_in;\n" : "");
+    if (is_pixel && shares)
+        SPELL(spell, "    ", vd, " = vd_in;\n");
 }
 
 static void close_main(struct spell *spell)
 {
     bool gives = spell->stage_id == STAGE_VERTEX && shares_vertex_data(spell);
-    spell_text(spell, gives ? "    vd_out = vd;\n" : "");
+    if (gives)
+        SPELL(spell, "    vd_out = ", spell_frame_name(spell, "vd"), ";\n");
 }
 
-const struct target_frame hlsl_frame = {.declare = declare, .open = open_main, .close = close_main};
+const struct target_frame hlsl_frame = {.declare = declare,
+                                        .open = open_main,
+                                        .close = close_main,
+                                        .declare_for_function = declare_for_function,
+                                        .variable = "static "};

@@ -82,6 +82,6 @@ const struct target target_hlsl = {
     .form = hlsl_form,
     .maker = hlsl_maker,
     .packing = PACKING_CBUFFER,
-    .position = "vd.position",
+    .position = ".position",
     .stage_suffix = {"vs.hlsl", "ps.hlsl"},
 };

@@ -672,6 +672,12 @@ typedef struct mxg_shader_info {
     bool transparent, lit;
     bool displaced; /* the vertex stage moves the surface: draw it with small triangles */
     mxg_alpha alpha;
+    /*
+     * With form=function: the names of the function and of the struct that it returns. Its
+     * parameters are the variables of MXG_BLOCK_VERTEX_DATA, its members those of
+     * MXG_BLOCK_OUTPUTS, both in order. "": a program
+     */
+    const char *function, *function_type;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

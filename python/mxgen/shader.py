@@ -277,6 +277,9 @@ class ShaderInfo:
     #: the vertex stage moves the surface
     displaced: bool
     alpha: Alpha
+    #: with form="function", the names of the function and of the struct that it returns; else ""
+    function: str
+    function_type: str
 
 
 class Shader(Native):

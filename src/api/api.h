@@ -240,6 +240,8 @@ const struct option_value *options_for(const struct target *target, const mxg_op
                                        struct arena *arena);
 const struct option_value *options_values(const mxg_options *options); /* as set */
 const char *option_key(enum option_id option);                         /* "interface" */
+/* True if a value is not the default; of a list always. */
+bool option_differs(enum option_id option, const struct option_value *value);
 /* A hash of all values. */
 uint64_t options_hash(const struct option_value *values);
 

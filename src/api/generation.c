@@ -79,6 +79,7 @@ static void set_build_options(struct generation *g)
     g->build_options = (struct build_options){
         .syntax = g->result->target->syntax,
         .interface = (enum build_interface)o[OPTION_interface].number,
+        .publish_all = o[OPTION_publish].number != 0,
         .uniform_globs = o[OPTION_uniform].list.items,
         .num_uniform_globs = o[OPTION_uniform].list.len,
         .constant_globs = o[OPTION_constant].list.items,
@@ -105,7 +106,7 @@ static void set_build_options(struct generation *g)
         .texture_fault = stdio_texture_fault,
         .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
-        .vertex_stage = (caps & CAP_VERTEX_STAGE) && o[OPTION_integrator].number != 2,
+        .vertex_stage = (caps & CAP_VERTEX_STAGE) && !shader_is_called(&g->result->shader),
         .codes = context->codes,
         .num_codes = context->num_codes,
         .cancel = context->cancel,
@@ -174,6 +175,9 @@ static void name_shader(struct generation *g)
     for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
         shader->source_language = t->source;
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
+    shader->scatters = g->options[OPTION_integrator].number == 2;
+    shader->is_function = g->options[OPTION_form].number != 0;
+    shader->picks = g->options[OPTION_slots].number != 0;
     shader->reserved = g->options[OPTION_reserved].list.items;
     shader->num_reserved = g->options[OPTION_reserved].list.len;
 }
@@ -188,12 +192,26 @@ static elem_id element_of_stack(const struct generation *g)
     return b->look.element ? b->look.element : g->document->layer.doc.root;
 }
 
+/* Names of vertex data and results have no prefix, because they are members or parameters. */
+static void name_variables(struct generation *g)
+{
+    struct shader *shader = &g->result->shader;
+    const char *prefix = g->options[OPTION_prefix].text;
+    shader->naming.prefix = arena_strndup(shader->arena, prefix, strlen(prefix));
+    naming_pairs(&g->options[OPTION_rename], shader->arena, &shader->naming);
+    shader->naming_of_members = shader->naming;
+    shader->naming_of_members.prefix = "";
+    shader->function = shader->is_function ? names_of_frame(shader, SHADER_FUNCTION) : "";
+    shader->function_type =
+        shader->is_function ? names_of_frame(shader, SHADER_FUNCTION_RESULT) : "";
+}
+
 bool generation_start(struct generation *g)
 {
     bool good = find_target(g);
     if (good) {
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena);
-        good = check_version(g);
+        good = check_version(g) && generation_check_options(g);
     }
     g->element = g->desc.bindings ? element_of_stack(g)
                                   : document_find_element(g->document, g->desc.element, diags_of(g),
@@ -204,6 +222,7 @@ bool generation_start(struct generation *g)
     generation_check_globs(g);
     init_layers(g);
     name_shader(g);
+    name_variables(g);
     set_build_options(g);
     return true;
 }
@@ -273,14 +292,24 @@ void generation_walk_slabs(struct generation *g)
     ir_assert_valid(&g->result->graph, "after the walk of slabs");
 }
 
+/* The lights of a host are there unless the option `lights` is set, to `none`. */
+static bool has_lights(const struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    if (shader->is_function)
+        return !g->options[OPTION_lights].is_set;
+    return shader->lights.len > 0 && shader->max_lights > 0;
+}
+
 void generation_start_closures(struct generation *g)
 {
     const struct option_value *lights = &g->options[OPTION_lights];
-    if (!g->result->target->closures) /* otherwise the renderer has the lights */
+    bool has_own_lights = !g->result->target->closures && !g->result->shader.is_function;
+    if (has_own_lights) /* otherwise the renderer or the host has the lights */
         build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
     g->closure_host = build_closure_host(g->builder, &g->point);
     g->lighting = (struct closure_lighting){
-        .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
+        .lights = has_lights(g),
         .environment = g->options[OPTION_environment].number != 0,
         .two_sided = g->options[OPTION_layering].number != 0,
         .transmits_alpha = g->options[OPTION_transmission].number != 0,
@@ -335,8 +364,6 @@ bool generation_emit(struct generation *g)
 {
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
-    g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
-    g->result->shader.picks = g->options[OPTION_slots].number != 0;
     if (g->result->shader.scatters && g->result->shader.source_leaves.len) {
         generation_report_not_renderable(
             g, "a path tracer cannot sample closures whose source is for one target");
@@ -460,8 +487,8 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
 static bool has_stage(const mxg_result *result, int stage)
 {
     const struct shader *shader = &result->shader;
-    bool is_idle =
-        stage == STAGE_VERTEX && (shader->scatters || shader->stages[stage].statements.len == 0);
+    bool is_idle = stage == STAGE_VERTEX
+                   && (shader_is_called(shader) || shader->stages[stage].statements.len == 0);
     return result->target->stage_suffix[stage] && !is_idle;
 }
 

@@ -139,6 +139,14 @@ bool generation_is_defined(struct generation *g, const struct ir_graph *graph, c
 bool generation_effects_are_defined(struct generation *g, const struct shader *shader,
                                     elem_id where);
 
+/*
+ * conflicts.c: false, after diagnostics, if an option has no effect with another one, or a name is
+ * none.
+ */
+bool generation_check_options(struct generation *g);
+/* The items of the option `rename`. */
+void naming_pairs(const struct option_value *value, struct arena *arena, struct name_rules *out);
+
 /* globs.c: warns about patterns in options that match nothing. */
 void generation_check_globs(struct generation *g);
 

@@ -129,6 +129,21 @@ static void set_defaults(struct arena *arena, struct option_value *values)
         parse(arena, &table[i], table[i].initial, &values[i]);
 }
 
+bool option_differs(enum option_id option, const struct option_value *value)
+{
+    const mxg_option *row = &table[option];
+    if (row->type == MXG_OPTION_LIST)
+        return true;
+    struct option_value initial = {0};
+    if (row->type == MXG_OPTION_BOOL)
+        parse_bool(row->initial, &initial);
+    else if (row->type == MXG_OPTION_INT)
+        parse_int(row, row->initial, &initial);
+    else
+        return strcmp(row->initial, value->text) != 0;
+    return initial.number != value->number;
+}
+
 uint64_t options_hash(const struct option_value *values)
 {
     uint64_t h = HASH_STABLE_SEED;

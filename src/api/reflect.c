@@ -257,6 +257,8 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .transparent = shader->transparent,
         .alpha = (mxg_alpha)shader->alpha,
         .displaced = shader->displaced,
+        .function = shader->function,
+        .function_type = shader->function_type,
         .lit = shader->lit,
     };
     /* only the topology is expensive */

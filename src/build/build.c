@@ -184,8 +184,11 @@ static ir_ref build_output_element(struct builder *b, elem_id output)
          * An <output> of the document shows the inputs of its node; an <output> of a nodegraph
          * shows the inputs of the graph.
          */
-        if (doc_element(build_doc(b), output)->parent == build_doc(b)->root)
+        elem_id parent = doc_element(build_doc(b), output)->parent;
+        if (parent == build_doc(b)->root)
             vec_push(b->arena, &b->public_nodes, binding.ref);
+        else
+            b->root_graph = parent;
         build_demand(b, b->document, binding.ref);
         if (b->document->slots[binding.ref - b->document->first] < SLOT_RESULTS)
             return 0;

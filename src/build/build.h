@@ -28,6 +28,7 @@ struct build_options {
     enum build_interface interface;
     const struct lang_syntax *syntax; /* of the target, whose words no uniform may have as name */
     /* patterns of element paths that become uniforms, or constants */
+    bool publish_all; /* the option `publish` */
     const char *const *uniform_globs, *const *constant_globs;
     unsigned num_uniform_globs, num_constant_globs;
     str_id colorspace; /* working colour space: "lin_rec709" */

@@ -84,7 +84,14 @@ struct builder {
     VEC(ir_ref) results;
     struct resolve_out resolved;
     VEC(elem_id) public_nodes; /* nodes whose inputs form the shader's interface */
-    struct table compiled;     /* the inputs in shader->compiled + 1: interface.c */
+    /* the input whose value is sought, which gives the name with the option publish=all */
+    struct {
+        elem_id node;
+        str_id input;
+        bool transforms; /* between colour spaces */
+    } reader;
+    elem_id root_graph;    /* the nodegraph whose output is generated; 0: none */
+    struct table compiled; /* the inputs in shader->compiled + 1: interface.c */
     VEC(struct memo) memos;
     uint32_t *memo_table;
     uint32_t memo_mask;

@@ -29,18 +29,18 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
         return build_struct(b, port, text, element);
     }
     ir_ref value = build_constant(b, port, text, element);
+    bool is_color = port->type == DOC_TYPE_color3 || port->type == DOC_TYPE_color4,
+         has_space = outermost || doc_attr(build_doc(b), element, STR_colorspace);
+    str_id space = is_color && has_space ? build_colorspace(b, element) : 0;
+    b->reader.transforms = space != 0;
     if (outermost)
         value = build_publish(b, owner, port, element, name, value, true);
     else if (ir_is_const(b->graph, value))
         build_compile_in(b, owner, port, element);
-    if (port->type == DOC_TYPE_color3 || port->type == DOC_TYPE_color4) {
-        str_id space = outermost || doc_attr(build_doc(b), element, STR_colorspace)
-                           ? build_colorspace(b, element)
-                           : 0;
-        if (space)
-            value = build_color_transform(b, value, port->type, space,
-                                          doc_attr_place(build_doc(b), element, STR_colorspace));
-    }
+    b->reader.transforms = false;
+    if (space)
+        value = build_color_transform(b, value, port->type, space,
+                                      doc_attr_place(build_doc(b), element, STR_colorspace));
     return build_unit_conversion(b, value, element, port);
 }
 
@@ -117,6 +117,8 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
                  build_text(b, port->geomprop));
         says_value = false;
     }
+    b->reader.node = node;
+    b->reader.input = port->name;
     ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost)
                               : unset(b, scope, owner, port, element, outermost);
     if (slot) {

@@ -77,9 +77,29 @@ static bool stays_variable(const struct builder *b, elem_id node, bool authored,
     if (o->num_uniform_globs
         && any_glob(o->uniform_globs, o->num_uniform_globs, build_text(b, path)))
         return true;
-    if (o->interface == INTERFACE_REDUCED || !is_public(b, node))
+    if (o->interface == INTERFACE_REDUCED || (!o->publish_all && !is_public(b, node)))
         return false;
     return o->interface == INTERFACE_COMPLETE || authored;
+}
+
+/*
+ * The name that MaterialX's generators give the uniform (ShaderGraph::create and finalize): that of
+ * the input of the generated shader or graph; else the node that reads the value and its input. A
+ * value in another colour space belongs to the input of the node that converts it.
+ */
+static str_id materialx_name(struct builder *b, elem_id owner, str_id input)
+{
+    bool is_of_graph = owner == b->root_graph || !b->reader.node;
+    elem_id node = is_of_graph ? owner : b->reader.node;
+    input = is_of_graph ? input : b->reader.input;
+    bool is_root = is_public(b, node) && !b->reader.transforms;
+    if (is_root && shader_name_is_free(b->shader, input))
+        return input;
+    struct text *name = &b->scratch;
+    name->len = 0;
+    text_fmt(name, "%s_%s%s", build_text(b, doc_element(build_doc(b), node)->name),
+             build_text(b, input), b->reader.transforms ? "_cm_in" : "");
+    return str_intern(b->shader->strings, name->data, name->len);
 }
 
 /*
@@ -88,6 +108,8 @@ static bool stays_variable(const struct builder *b, elem_id node, bool authored,
  */
 static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {
+    if (b->options->publish_all && !b->options->short_names && !b->slot)
+        return materialx_name(b, node, input);
     if (!b->slot && b->options->short_names && shader_name_is_free(b->shader, input))
         return input;
     struct text *name = &b->scratch;

@@ -112,6 +112,33 @@ static void sample_emitter(struct shader *shader, const struct closure_host *hos
                          : ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
 }
 
+/*
+ * The current light of a host: void mxg_light(int i, vec3 P, out vec3 L, out vec3 radiance).
+ */
+static void call_host(struct shader *shader, const struct closure_host *host,
+                      struct closure_light *out)
+{
+    static const char *const names[] = {"L", "radiance"};
+    struct ir_graph *g = shader->graph;
+    struct shader_verbatim light = {.result_names = names,
+                                    .function = str_intern_z(shader->strings, "mxg_light"),
+                                    .num_results = 2,
+                                    .first_result = shader->result_types.len};
+    for (uint32_t i = 0; i < light.num_results; i++)
+        vec_push(shader->arena, &shader->result_types, IR_TYPE_VEC3);
+    vec_push(shader->arena, &shader->verbatim, light);
+    uint32_t callee = ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                                          .index = shader->verbatim.len - 1,
+                                                          .name = light.function});
+    ir_ref args[] = {ir_build(g, IR_CONTEXT, IR_TYPE_INT, IR_LIGHT_INDEX, NULL, 0),
+                     closure_position(shader, host)};
+    ir_push_name(g, STR_light);
+    ir_ref call = ir_build(g, IR_VERBATIM, IR_TYPE_VOID, callee, args, 2);
+    ir_pop_origin(g);
+    out->direction = ir_build(g, IR_RESULT, IR_TYPE_VEC3, 1, &call, 1);
+    out->intensity = ir_build(g, IR_RESULT, IR_TYPE_VEC3, 2, &call, 1);
+}
+
 static ir_ref type_of_light(struct shader *shader)
 {
     return member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
@@ -121,8 +148,12 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
                           struct closure_light *out)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref type = type_of_light(shader);
     closure_position(shader, host); /* once, outside the loop */
+    if (shader->is_function) {
+        call_host(shader, host, out);
+        return;
+    }
+    ir_ref type = type_of_light(shader);
     *out = (struct closure_light){0, ir_const_splat(g, IR_TYPE_VEC3, 0.0f)};
     for (uint32_t i = shader->lights.len; i-- > 0;) {
         const struct shader_light *light = &shader->lights.items[i];

@@ -358,19 +358,31 @@ static ir_ref encoded(struct emitter *e, ir_ref color)
     return e->lighting->encodes ? closure_encoded(e->graph, color) : color;
 }
 
+static void write_value(struct emitter *e, str_id name, ir_ref value)
+{
+    struct shader_variable out = {
+        .name = name, .block = BLOCK_OUTPUTS, .type = ir_type_of(e->graph, value)};
+    effect(e, EFFECT_OUTPUT, shader_add_variable(e->shader, &out), value);
+}
+
+/* A program has one output for both, a function gives two members. */
 static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
 {
     struct ir_graph *g = e->graph;
-    color = encoded(e, color);
-    ir_suggest_name(g, alpha, STR_opacity, IR_NAME_ROLE);
-    uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, STR_out1);
-    if (out == UINT32_MAX)
-        out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,
-                                                                       .block = BLOCK_OUTPUTS,
-                                                                       .type = IR_TYPE_VEC4});
     assert(ir_type_of(g, color) == IR_TYPE_VEC3 && ir_type_of(g, alpha) == IR_TYPE_FLOAT);
+    if (e->shader->is_function) {
+        write_value(e, STR_color, color);
+        write_value(e, STR_alpha, alpha);
+        return;
+    }
     ir_ref parts[2] = {color, alpha};
-    effect(e, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
+    write_value(e, STR_out1, ir_construct(g, IR_TYPE_VEC4, parts, 2));
+}
+
+static void write_surface(struct emitter *e, ir_ref color, ir_ref alpha)
+{
+    ir_suggest_name(e->graph, alpha, STR_opacity, IR_NAME_ROLE);
+    write_output(e, encoded(e, color), alpha);
 }
 
 /* The pixel stage discards pixels below the host's threshold. */
@@ -412,7 +424,7 @@ static void finish_surface(struct emitter *e, const struct closure_surface *s)
     bool blends = e->lighting->transparency == TRANSPARENCY_BLEND;
     if (e->lighting->transparency == TRANSPARENCY_OPAQUE
         || (closure_is_opaque(e->graph, alpha) && !blends)) {
-        write_output(e, final_color(e), one);
+        write_surface(e, final_color(e), one);
         return;
     }
     alpha = alpha ? alpha : one;
@@ -421,7 +433,7 @@ static void finish_surface(struct emitter *e, const struct closure_surface *s)
     ir_ref color = final_color(e);
     if (s->alpha && !s->premultiplied && !e->host->keeps_color)
         color = ir_op2(e->graph, IR_MUL, color, s->alpha);
-    write_output(e, color, e->host->keeps_color ? one : alpha);
+    write_surface(e, color, e->host->keeps_color ? one : alpha);
 }
 
 /* Finds the parts under lights and environment. Returns which leaves contribute there. */
@@ -571,7 +583,7 @@ static void emit_volume(struct emitter *e, ir_ref root)
     e->shader->transparent = true;
     /* no alpha test: emission may leave the background unchanged */
     e->shader->alpha = ALPHA_BLEND;
-    write_output(e, final_color(e), volume.alpha);
+    write_surface(e, final_color(e), volume.alpha);
 }
 
 /* ---- values ---- */
@@ -588,31 +600,19 @@ static bool emit_value(struct emitter *e, ir_ref root)
     }
     if (type == IR_TYPE_VEC3 && e->shader->value_type == STR_color3)
         root = encoded(e, root);
-    ir_ref parts[3] = {root, zero, one};
-    uint32_t out = shader_add_variable(
-        e->shader,
-        &(struct shader_variable){.name = STR_out1, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    ir_ref color = root, alpha = one;
     switch (type) {
-    case IR_TYPE_FLOAT:
-        parts[0] = ir_convert(g, IR_TYPE_VEC3, root);
-        parts[1] = one;
-        root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
-        break;
-    case IR_TYPE_VEC2: root = ir_construct(g, IR_TYPE_VEC4, parts, 3); break;
-    case IR_TYPE_VEC3:
-        parts[1] = one;
-        root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
-        break;
+    case IR_TYPE_FLOAT: color = ir_convert(g, IR_TYPE_VEC3, root); break;
+    case IR_TYPE_VEC2: color = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){root, zero}, 2); break;
+    case IR_TYPE_VEC3: break;
     case IR_TYPE_VEC4:
-        if (e->lighting->encodes && e->shader->value_type == STR_color4) {
-            parts[0] = encoded(e, ir_swizzle(g, root, (uint8_t[]){0, 1, 2}, 3));
-            parts[1] = ir_component(g, root, 3);
-            root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
-        }
+        color = ir_swizzle(g, root, (uint8_t[]){0, 1, 2}, 3);
+        alpha = ir_component(g, root, 3);
+        color = e->shader->value_type == STR_color4 ? encoded(e, color) : color;
         break;
     default: return false;
     }
-    effect(e, EFFECT_OUTPUT, out, root);
+    write_output(e, color, alpha);
     return true;
 }
 

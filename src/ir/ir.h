@@ -215,6 +215,13 @@ extern const char *const ir_callee_kinds[IR_NUM_CALLEE_KINDS]; /* "function" …
 
 /* The attr of a CONTEXT that is the whole current light, for verbatim source. */
 #define IR_WHOLE_LIGHT UINT32_MAX
+/* The attr of a CONTEXT that is the number of the current light, for lights of the host. */
+#define IR_LIGHT_INDEX (UINT32_MAX - 1)
+/* True if a CONTEXT with this attr is the member of LightData that is variable `attr`. */
+static inline bool ir_is_light_member(uint32_t attr)
+{
+    return attr < IR_LIGHT_INDEX;
+}
 
 /* A callee of CALL, VERBATIM or LEAF nodes. Equal kind and index is an equal callee. */
 struct ir_callee {

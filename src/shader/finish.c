@@ -22,7 +22,7 @@ static void complete_loops(struct shader *shader, enum shader_stage_id id)
             mark_read(shader,
                       shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0), id);
     }
-    if (!stage->has_lights)
+    if (!stage->has_lights || shader->is_function)
         return;
     mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0),
               id);
@@ -107,6 +107,7 @@ static void name_neutrally(struct shader *shader)
             continue;
         struct text name;
         text_init(&name, shader->arena);
+        text_str(&name, shader->naming.prefix);
         text_str(&name, texture ? "t_" : "u_");
         text_u32(&name, texture ? textures++ : uniforms++);
         variable->name = str_intern(shader->strings, text_cstr(&name), name.len);
@@ -115,7 +116,7 @@ static void name_neutrally(struct shader *shader)
 
 static void finish_vertex_stage(struct shader *shader)
 {
-    if (!shader->scatters) {
+    if (!shader_is_called(shader)) {
         complete_vertex_stage(shader);
         mark_outputs(shader, STAGE_VERTEX);
         shader_schedule(shader, STAGE_VERTEX);

@@ -25,7 +25,7 @@ static bool is_reserved_prefix(const char *text, size_t len)
  */
 enum { MAX_LENGTH = 240 };
 
-static bool is_identifier(const char *text, size_t len)
+bool identifier_is(const char *text, size_t len)
 {
     if (len == 0 || len > MAX_LENGTH || is_digit(text[0]) || is_reserved_prefix(text, len))
         return false;
@@ -40,7 +40,7 @@ static bool is_identifier(const char *text, size_t len)
 const char *identifier_from(const char *text, size_t len, struct arena *arena, size_t *out_len)
 {
     *out_len = len;
-    if (is_identifier(text, len))
+    if (identifier_is(text, len))
         return text;
     len = len < MAX_LENGTH ? len : MAX_LENGTH;
     char *out = arena_alloc(arena, len + 2);

@@ -36,8 +36,15 @@ enum { FIRST_VARIABLES = 80 };
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
                  struct ir_graph *graph, struct lang_unit *unit)
 {
-    *shader = (struct shader){
-        .arena = arena, .strings = strings, .graph = graph, .unit = unit, .max_lights = 3};
+    *shader = (struct shader){.arena = arena,
+                              .strings = strings,
+                              .graph = graph,
+                              .unit = unit,
+                              .max_lights = 3,
+                              .naming.prefix = "",
+                              .naming_of_members.prefix = "",
+                              .function = "",
+                              .function_type = ""};
     for (int stage = 0; stage < NUM_STAGES; stage++)
         shader->stages[stage].reach.arena = arena;
     vec_reserve(arena, &shader->variables, FIRST_VARIABLES);
@@ -46,9 +53,11 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
 /* ---- Names ---- */
 
 /* Members of structs and of blocks with an instance name have their own scopes. */
-static uint32_t name_scope(enum shader_block block)
+static uint32_t name_scope(const struct shader *shader, enum shader_block block)
 {
-    return block == BLOCK_LIGHT_DATA || block == BLOCK_VERTEX_DATA ? (uint32_t)block : NUM_BLOCKS;
+    bool is_member = block == BLOCK_LIGHT_DATA || block == BLOCK_VERTEX_DATA
+                     || (block == BLOCK_OUTPUTS && shader->is_function);
+    return is_member ? (uint32_t)block : NUM_BLOCKS;
 }
 
 /* 1 + index of the variable of this name and scope; 0: there is none. */
@@ -58,7 +67,7 @@ static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
     for (uint32_t at = hash, found; (found = table_next(&shader->names, hash, &at));) {
         assert(found <= shader->variables.len);
         const struct shader_variable *variable = &shader->variables.items[found - 1];
-        if (variable->name == name && name_scope(variable->block) == scope)
+        if (variable->name == name && name_scope(shader, variable->block) == scope)
             return found;
     }
     return 0;
@@ -70,6 +79,8 @@ static struct name_set *names_of(struct shader *shader, uint32_t scope)
     struct name_set *names = &shader->taken[scope];
     if (!names->arena) {
         names_init(names, shader->arena, shader->style ? shader->style->syntax : NULL);
+        if (scope != BLOCK_LIGHT_DATA)
+            names->rules = scope == NUM_BLOCKS ? &shader->naming : &shader->naming_of_members;
         names_take_frame(names, shader);
     }
     return names;
@@ -89,21 +100,32 @@ static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
     return name.text == text ? wanted : str_intern(shader->strings, name.text, name.len);
 }
 
+/* True if the file around the function declares the variable, because the host names it. */
+static bool is_hosts(const struct shader *shader, const struct shader_variable *variable)
+{
+    bool may_be = variable->block == BLOCK_PRIVATE_UNIFORMS
+                  || (variable->block == BLOCK_TEXTURES && variable->semantic);
+    return shader->is_function && may_be
+           && names_renamed(&shader->naming, str_text(shader->strings, variable->name),
+                            str_len(shader->strings, variable->name));
+}
+
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable)
 {
-    uint32_t scope = name_scope(variable->block);
+    uint32_t scope = name_scope(shader, variable->block);
     str_id name = unique_name(shader, scope, variable->name);
     assert(!find(shader, scope, name));
     uint32_t index = shader->variables.len;
     table_add(&shader->names, shader->arena, hash_pair(name, scope), index + 1);
     vec_push(shader->arena, &shader->variables, *variable);
+    vec_last(&shader->variables).is_hosts = is_hosts(shader, variable);
     vec_last(&shader->variables).name = name;
     return index;
 }
 
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name)
 {
-    uint32_t found = find(shader, name_scope(block), name);
+    uint32_t found = find(shader, name_scope(shader, block), name);
     return found && shader->variables.items[found - 1].block == block ? found - 1 : UINT32_MAX;
 }
 
@@ -257,6 +279,11 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
     }
     variable.semantic = row ? row->semantic : semantic_of(shader, name);
     return bind(shader, &variable);
+}
+
+uint32_t shader_asked_uniform(const struct shader *shader, str_id name)
+{
+    return find_binding(shader, BLOCK_PRIVATE_UNIFORMS, name, scalar_of(shader_uniform_type(name)));
 }
 
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type)

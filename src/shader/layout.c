@@ -41,6 +41,11 @@ uint32_t std140_size(ir_type_id type, uint16_t array_length)
     return array_length ? array_length * round_up(size, STD140_ROUND) : size;
 }
 
+static bool is_in_interface(const struct shader_variable *variable)
+{
+    return variable->stages && !variable->is_hosts;
+}
+
 /*
  * Gathers the blocks first, so that the sort by rank moves private variables only, which are few.
  */
@@ -48,7 +53,8 @@ static void order_interface(struct shader *shader)
 {
     uint32_t starts[NUM_BLOCKS + 1] = {0}, ends[NUM_BLOCKS];
     for (uint32_t i = 0; i < shader->variables.len; i++)
-        starts[shader->variables.items[i].block + 1] += shader->variables.items[i].stages != 0;
+        starts[shader->variables.items[i].block + 1] +=
+            is_in_interface(&shader->variables.items[i]);
     for (int block = 0; block < NUM_BLOCKS; block++) {
         ends[block] = starts[block];
         starts[block + 1] += starts[block];
@@ -58,7 +64,7 @@ static void order_interface(struct shader *shader)
     uint32_t *order = vec_extend(shader->arena, &shader->interface, starts[NUM_BLOCKS]);
     for (uint32_t i = 0; i < shader->variables.len; i++) {
         const struct shader_variable *variable = &shader->variables.items[i];
-        if (!variable->stages)
+        if (!is_in_interface(variable))
             continue;
         uint32_t at = ends[variable->block]++;
         for (; at > starts[variable->block]

@@ -65,7 +65,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
     case IR_CONTEXT: /* u_lightData[i].member */
         plan->cost = 3;
         plan->chars = clamp16(NAME_CHARS + 15);
-        return plan->uses < 3 || node->attr == IR_WHOLE_LIGHT;
+        return plan->uses < 3 || !ir_is_light_member(node->attr);
     case IR_UNIFORM:
         plan->cost = 2;
         plan->chars = clamp16(NAME_CHARS + 3);

@@ -11,15 +11,34 @@ void names_init(struct name_set *names, struct arena *arena, const struct lang_s
     *names = (struct name_set){.arena = arena, .syntax = syntax};
 }
 
-void names_take_frame(struct name_set *names, const struct shader *shader)
+const char *names_renamed(const struct name_rules *rules, const char *text, size_t len)
 {
-    static const char *const frame[] = {"main",           "scatter",         "vd",
-                                        "u_lightData",    "LightData",       "LightData_block",
-                                        "PublicUniforms", "PrivateUniforms", "VertexData"};
-    for (size_t i = 0; i < sizeof frame / sizeof *frame; i++)
-        names_take(names, frame[i], strlen(frame[i]));
-    for (uint32_t i = 0; i < shader->num_reserved; i++)
-        names_take(names, shader->reserved[i], strlen(shader->reserved[i]));
+    for (uint32_t i = 0; i < rules->num_renamed; i++)
+        if (rules->renamed[i].from_len == len && memcmp(rules->renamed[i].from, text, len) == 0)
+            return rules->renamed[i].to;
+    return NULL;
+}
+
+static const char *with_prefix(const char *prefix, const char *text, size_t len,
+                               struct arena *arena)
+{
+    size_t prefix_len = strlen(prefix);
+    bool joins = prefix[prefix_len - 1] == '_' && *text == '_'; /* no "__" */
+    text += joins;
+    len -= joins;
+    char *longer = arena_alloc(arena, prefix_len + len + 1);
+    memcpy(longer, prefix, prefix_len);
+    memcpy(longer + prefix_len, text, len);
+    longer[prefix_len + len] = '\0';
+    return longer;
+}
+
+const char *names_of_frame(const struct shader *shader, const char *name)
+{
+    const char *renamed = names_renamed(&shader->naming, name, strlen(name));
+    if (renamed || !*shader->naming.prefix)
+        return renamed ? renamed : name;
+    return with_prefix(shader->naming.prefix, name, strlen(name), shader->arena);
 }
 
 void names_open_scope(struct name_set *names)
@@ -45,6 +64,9 @@ static bool is_over(const struct name_set *names, const struct name_entry *entry
     return entry->scope != 0 && entry->scope != names->scope;
 }
 
+/* name_entry.next of a name that waits for its use. */
+enum { KEPT = 1 };
+
 /* The index of a name in the current scope. *out_new: the name was free. */
 static uint32_t take(struct name_set *names, const char *text, size_t len, bool *out_new)
 {
@@ -52,7 +74,8 @@ static uint32_t take(struct name_set *names, const char *text, size_t len, bool 
     struct name_entry fresh = {text, (uint32_t)len, names->scope, 2};
     *out_new = !found || is_over(names, &names->entries.items[found - 1]);
     if (found) {
-        if (*out_new)
+        bool is_kept = names->entries.items[found - 1].next == KEPT && names->scope == 0;
+        if (*out_new || is_kept)
             names->entries.items[found - 1] = fresh;
         return found - 1;
     }
@@ -67,6 +90,35 @@ bool names_take(struct name_set *names, const char *text, size_t len)
     bool is_new;
     take(names, text, len, &is_new);
     return is_new;
+}
+
+/* Takes a name for the first variable, function or type that the host renames to it. */
+static void keep(struct name_set *names, const char *name)
+{
+    bool is_new;
+    uint32_t entry = take(names, name, strlen(name), &is_new);
+    names->entries.items[entry].next = KEPT;
+}
+
+void names_take_frame(struct name_set *names, const struct shader *shader)
+{
+    static const char *const frame[] = {"scatter",         "vd",
+                                        "u_lightData",     "LightData",
+                                        "LightData_block", "PublicUniforms",
+                                        "PrivateUniforms", "VertexData",
+                                        SHADER_FUNCTION,   SHADER_FUNCTION_RESULT};
+    static const char *const fixed[] = {"main", "result", "mxg_light", "mxg_light_count"};
+    size_t of_functions = shader->is_function ? 0 : 2, of_host = shader->is_function ? 0 : 3;
+    for (uint32_t i = 0; i < shader->naming.num_renamed; i++)
+        keep(names, shader->naming.renamed[i].to);
+    for (size_t i = 0; i < sizeof frame / sizeof *frame - of_functions; i++) {
+        const char *name = names_of_frame(shader, frame[i]);
+        names_take(names, name, strlen(name));
+    }
+    for (size_t i = 0; i < sizeof fixed / sizeof *fixed - of_host; i++)
+        names_take(names, fixed[i], strlen(fixed[i]));
+    for (uint32_t i = 0; i < shader->num_reserved; i++)
+        names_take(names, shader->reserved[i], strlen(shader->reserved[i]));
 }
 
 static bool is_reserved(const struct name_set *names, const char *text, size_t len)
@@ -98,10 +150,31 @@ static char *with_underscore(const struct name_set *names, const char *text, siz
     return longer;
 }
 
+/* True if the name waits for its use, and this is it. */
+static bool give(struct name_set *names, const char *name, size_t len)
+{
+    uint32_t found = find(names, name, len, hash_bytes(name, len));
+    bool is_kept = found && names->entries.items[found - 1].next == KEPT;
+    if (is_kept)
+        names_take(names, name, len);
+    return is_kept;
+}
+
 struct spell_name names_unique(struct name_set *names, const char *text, size_t text_len)
 {
     size_t base_len, len;
     const char *base = identifier_from(text, text_len, names->arena, &base_len);
+    const struct name_rules *rules = names->scope == 0 ? names->rules : NULL;
+    const char *renamed = rules ? names_renamed(rules, base, base_len) : NULL;
+    if (renamed) {
+        base = renamed;
+        base_len = strlen(renamed);
+        if (give(names, base, base_len))
+            return (struct spell_name){base, base_len};
+    } else if (rules && *rules->prefix) {
+        base = with_prefix(rules->prefix, base, base_len, names->arena);
+        base_len = strlen(base);
+    }
     bool is_new, is_word = is_reserved(names, base, base_len);
     uint32_t entry = take(names, base, base_len, &is_new);
     if (is_new && !is_word)

@@ -24,8 +24,22 @@ struct spell_name { /* in the output */
     size_t len;
 };
 
+/* The names that the host chooses: the options `prefix` and `rename`. */
+struct name_rules {
+    const char *prefix; /* of all names at file scope; "": none */
+    struct name_pair {
+        const char *from, *to; /* the name without prefix; the name in the source */
+        size_t from_len;
+    } * renamed;
+    uint32_t num_renamed;
+};
+/* The name that the host gives; NULL: it gives none. */
+const char *names_renamed(const struct name_rules *rules, const char *text, size_t len);
+
 struct name_set {
     struct arena *arena;
+    /* of names at file scope; NULL: none. Set after names_init */
+    const struct name_rules *rules;
     const struct lang_syntax *syntax; /* NULL: no word is reserved */
     VEC(struct name_entry) entries;
     struct table table; /* 1 + index of the entry */
@@ -34,12 +48,20 @@ struct name_set {
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax);
 struct shader;
-/* Takes the names in the frame of every shader ("main", "vd", …), and those that its host keeps. */
+/*
+ * Takes the names in the frame of every shader ("main", "vd", …), and those that its host keeps or
+ * gives.
+ */
 void names_take_frame(struct name_set *names, const struct shader *shader);
+/* A name of the frame as it is in the source: "PublicUniforms", "wood_PublicUniforms". */
+const char *names_of_frame(const struct shader *shader, const char *name);
 /* Opens the scope of a new function, which frees the names of the previous one. */
 void names_open_scope(struct name_set *names);
 /* The texts for the next two functions must live as long as the set. */
-/* Makes `text` an identifier, with a number as suffix if the name is taken. */
+/*
+ * Makes `text` an identifier, with a number as suffix if the name is taken. At file scope the rules
+ * apply first.
+ */
 struct spell_name names_unique(struct name_set *names, const char *text, size_t len);
 /* Takes a name unchanged; false if it is taken already. */
 bool names_take(struct name_set *names, const char *text, size_t len);

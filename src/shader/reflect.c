@@ -308,6 +308,10 @@ static void put_shader(struct reflect *r)
     if (shader->displaced)
         json_put_bool(&r->json, "displaced", true);
     json_put_bool(&r->json, "lit", shader->lit);
+    if (shader->is_function) {
+        json_put_text(&r->json, "function", shader->function);
+        json_put_text(&r->json, "functionType", shader->function_type);
+    }
     json_key(&r->json, "blocks");
     json_open(&r->json, '[');
     for (int block = 0; block < NUM_BLOCKS; block++)

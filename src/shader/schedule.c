@@ -82,7 +82,7 @@ static inline unsigned note_needs(struct scheduler *s, ir_ref ref, const struct 
     switch (node->op) {
     case IR_LOCAL: s->any_local = true; return PLAN_LOCAL;
     case IR_CONTEXT:
-        if (node->attr != IR_WHOLE_LIGHT)
+        if (ir_is_light_member(node->attr))
             note_variable(s, node->attr);
         return 0;
     case IR_UNIFORM:

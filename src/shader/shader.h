@@ -62,6 +62,7 @@ struct shader_variable {
     bool has_default;
     bool has_reader;  /* for textures: `sampling` and the default belong to a node */
     bool flat;        /* not interpolated (integer streams) */
+    bool is_hosts;    /* a function reads it under a name of the host, which declares it */
     bool is_computed; /* vertex data with a value of the document: shader_interpolate */
     uint16_t rank;    /* order within the block: the row of streams.def; equal ranks by index */
     ir_type_id type;
@@ -124,6 +125,7 @@ struct shader_verbatim {
     str_id expression; /* {{i}} stands for operand i */
     /* types of a function's results, in shader->result_types; RESULT 1 is the first */
     uint32_t num_results, first_result;
+    const char *const *result_names; /* for names of locals; NULL: "result" */
     bool has_initial; /* the last operands are the values of the results before the call */
 };
 
@@ -274,9 +276,24 @@ struct shader {
     bool displaced;   /* the vertex stage moves the surface */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
-    bool picks;                       /* one layer of a stack, by a random number */
-    struct shader_layout_rules rules; /* of shader_finish */
+    /* a function for rasters, without a vertex stage: the option `form` */
+    bool is_function;
+    const char *function, *function_type; /* their names in the source; "": a program */
+    struct name_rules naming;             /* of variables, functions and types */
+    struct name_rules naming_of_members;  /* of vertex data: without a prefix */
+    bool picks;                           /* one layer of a stack, by a random number */
+    struct shader_layout_rules rules;     /* of shader_finish */
 };
+
+/* The function of a shader that is one, and the struct that it returns, in the frame. */
+#define SHADER_FUNCTION "surface"
+#define SHADER_FUNCTION_RESULT "Surface"
+
+/* True if code of the host calls the shader, so that it has no vertex stage. */
+static inline bool shader_is_called(const struct shader *shader)
+{
+    return shader->scatters || shader->is_function;
+}
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
                  struct ir_graph *graph, struct lang_unit *unit);
@@ -298,6 +315,9 @@ bool shader_knows_uniform(str_id name);
 
 /* The IR node that reads a variable: UNIFORM, TEXTURE or STREAM by its block. */
 ir_ref shader_read(struct shader *shader, uint32_t variable);
+
+/* The private number that shader_private_uniform added for a name; UINT32_MAX: none. */
+uint32_t shader_asked_uniform(const struct shader *shader, str_id name);
 
 /*
  * The member of LightData with this name and type; adds it if absent. `type` exists from the first
@@ -341,10 +361,12 @@ void shader_add_closure(struct shader *shader, ir_ref leaf);
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type);
 
 /*
- * identifier.c: converts text to an identifier: other characters become '_', no leading digit, no
+ * identifier.c: true if text is an identifier that a shader may declare; converts text to an
+ * identifier: other characters become '_', no leading digit, no
  * "__", no prefix "gl_"; "x" for an empty text; long texts are cut. Returns the text itself if it
  * is an identifier.
  */
+bool identifier_is(const char *text, size_t len);
 const char *identifier_from(const char *text, size_t len, struct arena *arena, size_t *out_len);
 
 /*

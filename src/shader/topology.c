@@ -105,6 +105,14 @@ static void add_portable_functions(struct hasher *h, const struct lang_reach *re
 
 /* ---- The graph ---- */
 
+/* A variable of the host is not in the interface: its name tells it apart. */
+static uint32_t variable_number(struct hasher *h, uint32_t variable)
+{
+    if (h->shader->variables.items[variable].is_hosts)
+        add_text(h, h->shader->variables.items[variable].name);
+    return h->variable_numbers[variable];
+}
+
 static uint64_t attribute(struct hasher *h, ir_ref ref)
 {
     const struct ir_node *node = ir_get(h->shader->graph, ref);
@@ -112,10 +120,10 @@ static uint64_t attribute(struct hasher *h, ir_ref ref)
     case IR_POISON: /* an origin */
     case IR_CONST: return 0;
     case IR_CONTEXT:
-        return node->attr == IR_WHOLE_LIGHT ? IR_WHOLE_LIGHT : h->variable_numbers[node->attr];
+        return ir_is_light_member(node->attr) ? variable_number(h, node->attr) : node->attr;
     case IR_UNIFORM:
     case IR_STREAM:
-    case IR_TEXTURE: return h->variable_numbers[node->attr];
+    case IR_TEXTURE: return variable_number(h, node->attr);
     case IR_PARAM: return node->attr & 0xffff;
     case IR_CALL: return h->function_numbers[shader_callee(h->shader, ref)];
     case IR_GRAPH_CALL: return h->graph_function_numbers[node->attr];

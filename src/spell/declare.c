@@ -32,21 +32,54 @@ bool spell_uses(const struct spell *spell, const struct shader_variable *variabl
 
 /* ---- Names ---- */
 
+/* The text before the names of a block's variables; it ends with '.' if they are members. */
+static const char *member_prefix(struct spell *spell, enum shader_block block)
+{
+    if (spell->shader->is_function && block == BLOCK_OUTPUTS)
+        return "result.";
+    if (block != BLOCK_VERTEX_DATA || (spell->shader->is_function && !spell->shares_vertex_data))
+        return "";
+    struct text text;
+    bool is_member = spell_can(spell, CAP_BLOCK_STAGE_IO) || spell->shader->is_function;
+    text_init(&text, spell->scratch);
+    text_fmt(&text, "%s%c", spell_frame_name(spell, "vd"), is_member ? '.' : '_');
+    return text_cstr(&text);
+}
+
 void spell_name_interface(struct spell *spell)
 {
     names_take_frame(&spell->names, spell->shader);
-    bool io_block = spell_can(spell, CAP_BLOCK_STAGE_IO);
+    const char *prefixes[NUM_BLOCKS];
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        prefixes[block] = member_prefix(spell, (enum shader_block)block);
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         struct spell_name name = variable_name(spell, variable);
-        if (variable->block == BLOCK_VERTEX_DATA)
-            name = prefixed(spell, io_block ? "vd." : "vd_", name);
+        const char *prefix = prefixes[variable->block];
+        if (*prefix)
+            name = prefixed(spell, prefix, name);
         spell->variables[spell->shader->interface.items[i]] = name;
-        bool declared = spell->shader->rules.blocks || spell_uses(spell, variable);
-        if (declared && variable->block != BLOCK_LIGHT_DATA
-            && !(variable->block == BLOCK_VERTEX_DATA && io_block))
+        bool declared = spell->shader->rules.blocks || spell_uses(spell, variable),
+             is_member = variable->block == BLOCK_LIGHT_DATA || strchr(prefix, '.');
+        if (declared && !is_member)
             names_take(&spell->names, name.text, name.len);
     }
+    for (uint32_t i = 0; spell->shader->is_function && i < spell->shader->variables.len; i++)
+        if (spell->shader->variables.items[i].is_hosts)
+            spell->variables[i] = variable_name(spell, &spell->shader->variables.items[i]);
+}
+
+bool spell_functions_read_vertex_data(const struct spell *spell)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    const uint32_t *of_block = &spell->shader->first_of_block[BLOCK_VERTEX_DATA];
+    bool reads = spell->stage->functions.len > 0;
+    for (uint32_t i = 0; i < reach->globals.len && !reads; i++)
+        reads = lang_global(spell->shader->unit, reach->globals.items[i], NULL)->kind
+                == LANG_GLOBAL_STREAM;
+    for (uint32_t i = 0; i < spell->stage->verbatim.len && !reads; i++)
+        reads = spell->shader->verbatim.items[spell->stage->verbatim.items[i]].num_sources > 0;
+    return reads && of_block[0] < of_block[1];
 }
 
 /* ---- Declarations ---- */

@@ -266,6 +266,20 @@ static void write_form(struct spell *spell, const struct ir_node *node,
         text_char(spell->out, ')');
 }
 
+/* Writes the current light, a member of it, or its number. */
+static void write_light(struct spell *spell, uint32_t attr)
+{
+    if (attr == IR_LIGHT_INDEX) {
+        spell_text(spell, spell->loop_index);
+        return;
+    }
+    SPELL(spell, spell_frame_name(spell, "u_lightData"), "[", spell->loop_index, "]");
+    if (ir_is_light_member(attr)) {
+        text_char(spell->out, '.');
+        spell_name(spell, spell->variables[attr]);
+    }
+}
+
 /* Writes an op that has neither operands nor a form: a name. */
 static void write_source(struct spell *spell, const struct ir_node *node)
 {
@@ -278,13 +292,7 @@ static void write_source(struct spell *spell, const struct ir_node *node)
         text_u32(spell->out, node->attr & 0xffff);
         break;
     case IR_LOCAL: spell_name(spell, spell->locals[node->attr]); break;
-    case IR_CONTEXT:
-        SPELL(spell, "u_lightData[", spell->loop_index, "]");
-        if (node->attr != IR_WHOLE_LIGHT) {
-            text_char(spell->out, '.');
-            spell_name(spell, spell->variables[node->attr]);
-        }
-        break;
+    case IR_CONTEXT: write_light(spell, node->attr); break;
     case IR_SAMPLE: spell_text(spell, spell->loop_index); break;
     default: /* after an error, nobody uses the text */
         lang_print_value(spell->style, spell->shader->strings,

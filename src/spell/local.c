@@ -127,8 +127,9 @@ static struct spell_name joined(struct spell *spell, struct spell_name a, const 
 static struct spell_name input_name(const struct spell *spell,
                                     const struct shader_variable *variable)
 {
+    struct spell_name name = spell_name_of(spell->shader->strings, variable->name);
     if (!variable->path)
-        return without(spell_name_of(spell->shader->strings, variable->name), strlen("u_"));
+        return strncmp(name.text, "u_", 2) == 0 ? without(name, 2) : name;
     struct spell_name path = spell_name_of(spell->shader->strings, variable->path);
     const char *slash = strrchr(path.text, '/');
     return slash ? without(path, (size_t)(slash + 1 - path.text)) : path;
@@ -274,6 +275,8 @@ struct spell_name spell_local_base(struct spell *spell, ir_ref ref)
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
     if (spell->shader->rules.neutral_names)
         return word("v");
+    if (node->op == IR_CONTEXT && !ir_is_light_member(node->attr))
+        return word("light");
     if (node->op == IR_CONTEXT || node->op == IR_UNIFORM) {
         const struct shader_variable *variable = &spell->shader->variables.items[node->attr];
         return node->op == IR_UNIFORM ? input_name(spell, variable)

@@ -2,10 +2,12 @@
 /* Verbatim source in the text of a stage (shader/source.h). */
 #include "shader/source.h"
 
+#include "base/hash.h"
 #include "base/scan.h"
 #include "spell/spell.h"
 
 #include <assert.h>
+#include <stdio.h>
 
 struct writer {
     struct spell *spell;
@@ -22,6 +24,19 @@ static void write_token(struct spell *spell, const struct scan_word *word)
         spell_name(spell, spell->variables[token->variable]);
 }
 
+void spell_once(struct spell *spell, const char *text, size_t len)
+{
+    char guard[32];
+    if (!spell->shader->is_function) {
+        text_mem(spell->out, text, len);
+        return;
+    }
+    snprintf(guard, sizeof guard, "MXG_%016llx", (unsigned long long)hash_stable(0, text, len));
+    SPELL(spell, "#ifndef ", guard, "\n#define ", guard, "\n");
+    text_mem(spell->out, text, len);
+    spell_text(spell, len && text[len - 1] == '\n' ? "#endif\n" : "\n#endif\n");
+}
+
 /* Copies the text. The nesting of includes is bounded (library/source.c), so this recursion is,
  * too. */
 static void write_source(struct writer *w, uint32_t index)
@@ -31,6 +46,9 @@ static void write_source(struct writer *w, uint32_t index)
     if (w->written[index])
         return;
     w->written[index] = true;
+    struct text own, *out = spell->out;
+    text_init(&own, spell->scratch);
+    spell->out = &own;
     struct scan scan;
     struct scan_word word;
     uint32_t include = 0;
@@ -54,6 +72,8 @@ static void write_source(struct writer *w, uint32_t index)
     }
     text_mem(spell->out, from, (size_t)(scan.end - from));
     spell_text(spell, scan.end > text && scan.end[-1] == '\n' ? "" : "\n");
+    spell->out = out;
+    spell_once(spell, own.data, own.len);
 }
 
 static void write_root(struct writer *w, uint32_t index)
@@ -68,8 +88,11 @@ static void write_helpers(struct spell *spell, uint64_t helpers)
 {
     const struct source_language *language = spell->shader->source_language;
     for (unsigned i = 0; language && i < language->num_helpers; i++)
-        if (helpers >> i & 1)
-            SPELL(spell, shader_helper_text(spell->shader, i), "\n");
+        if (helpers >> i & 1) {
+            const char *text = shader_helper_text(spell->shader, i);
+            spell_once(spell, text, strlen(text));
+            spell_text(spell, "\n");
+        }
 }
 
 void spell_verbatim_sources(struct spell *spell)

@@ -49,7 +49,9 @@ struct spell {
     /* by node: 1 + index of the first name of its LET in let_names; 0: the node is an expression */
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
-    VEC(str_id) wanted_names;  /* names that several locals of the function want, sorted */
+    VEC(str_id) wanted_names; /* names that several locals of the function want, sorted */
+    /* of a shader that is a function: its parameters are copied to file scope */
+    bool shares_vertex_data;
     const char *loop_index;    /* inside LIGHTS and SAMPLES: the variable of the loop */
     struct name_set paths;     /* of the comments so far */
     VEC(const char *) helpers; /* texts of spell_helper, each once */
@@ -106,6 +108,8 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
 /* ---- declare.c: declarations above the functions, for frames ---- */
 
 void spell_name_interface(struct spell *spell);
+/* True if functions of the stage may read vertex data, which must then be at file scope. */
+bool spell_functions_read_vertex_data(const struct spell *spell);
 /* Loops over the positions of a block's variables in the interface. */
 #define SPELL_EACH_OF_BLOCK(i, spell, block) \
     for (uint32_t i = (spell)->shader->first_of_block[block]; \
@@ -120,6 +124,14 @@ void spell_declare(struct spell *spell, const struct shader_variable *variable,
                    struct spell_name name);
 /* Writes the structs of the stage's functions. */
 void spell_structs(struct spell *spell);
+
+/*
+ * function.c: the frame of a shader that is a function (option `form`). The struct of its results
+ * and the functions of the host that it calls; its head; its end.
+ */
+void spell_declare_function(struct spell *spell);
+void spell_open_function(struct spell *spell);
+void spell_close_function(struct spell *spell);
 
 /* ---- maker.c ---- */
 
@@ -152,6 +164,11 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
 /* The verbatim sources of the stage and the helpers that they use, each once. */
 void spell_verbatim_sources(struct spell *spell);
+/*
+ * Writes a text without the host's names. In the file of a function, which may have several, one
+ * guard per text keeps equal texts to one.
+ */
+void spell_once(struct spell *spell, const char *text, size_t len);
 /* Takes the names that these declare at file scope. */
 void spell_take_source_names(struct spell *spell);
 
@@ -163,6 +180,11 @@ void spell_function_doc(struct spell *spell, uint32_t function);
  * the next one.
  */
 void spell_comment(struct spell *spell, const char *text, size_t len);
+/* A name of the frame in the source: "PublicUniforms", "wood_PublicUniforms". */
+static inline const char *spell_frame_name(const struct spell *spell, const char *name)
+{
+    return names_of_frame(spell->shader, name);
+}
 static inline void spell_text(struct spell *spell, const char *text)
 {
     text_str(spell->out, text);

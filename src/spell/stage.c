@@ -224,8 +224,10 @@ void spell_helper(struct spell *spell, const char *text)
 static void join(struct spell *spell, struct text *out, const struct text *body)
 {
     spell->out = out;
-    for (uint32_t i = 0; i < spell->helpers.len; i++)
-        SPELL(spell, spell->helpers.items[i], "\n");
+    for (uint32_t i = 0; i < spell->helpers.len; i++) {
+        spell_once(spell, spell->helpers.items[i], strlen(spell->helpers.items[i]));
+        spell_text(spell, "\n");
+    }
     for (uint32_t i = 0; i < spell->marks.len; i++)
         spell->marks.items[i].at += (uint32_t)out->len;
     text_mem(out, body->data, body->len);
@@ -235,17 +237,27 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
 {
     (void)stage;
     struct text *out = spell->out, body;
-    spell->frame->declare(spell);
+    if (spell->shader->is_function) {
+        spell_text(spell, "// ");
+        spell_title(spell);
+        spell_text(spell, "\n\n");
+        spell->frame->declare_for_function(spell);
+        spell_declare_function(spell);
+    } else {
+        spell->frame->declare(spell);
+    }
     spell_text(spell, "\n");
     if (spell->lang_names.form || spell->lang_names.maker) {
         text_init(&body, spell->scratch);
         spell->out = &body;
     }
     write_functions(spell);
-    spell->frame->open(spell);
+    (spell->shader->is_function ? spell_open_function : spell->frame->open)(spell);
     names_open_scope(&spell->names);
     spell_statements(spell, &spell->stage->statements, 1);
-    if (spell->frame->close)
+    if (spell->shader->is_function)
+        spell_close_function(spell);
+    else if (spell->frame->close)
         spell->frame->close(spell);
     spell_text(spell, "}\n");
     if (spell->out != out)
@@ -293,12 +305,14 @@ static void init(struct spell *spell)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_alone(spell),
                         arena);
     names_init(&spell->names, arena, spell->style->syntax);
+    spell->names.rules = &shader->naming;
     if (spell->options->comments && spell->options->path && !spell->shader->rules.neutral_names) {
         names_init(&spell->paths, arena, NULL);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }
     if (spell->options->shader_name)
         names_take(&spell->names, spell->options->shader_name, strlen(spell->options->shader_name));
+    spell->shares_vertex_data = shader->is_function && spell_functions_read_vertex_data(spell);
     spell_name_interface(spell);
     spell_take_source_names(spell);
     name_types(spell);

@@ -118,7 +118,8 @@ static struct call_out describe_out(const struct spell *spell, ir_ref call, unsi
     }
     const struct shader_verbatim *verbatim = &shader->verbatim.items[shader_callee(shader, call)];
     assert(index < verbatim->num_results);
-    return (struct call_out){shader->result_types.items[verbatim->first_result + index], "result",
+    return (struct call_out){shader->result_types.items[verbatim->first_result + index],
+                             verbatim->result_names ? verbatim->result_names[index] : "result",
                              verbatim->has_initial};
 }
 
@@ -275,6 +276,14 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
 
 /* ---- Other effects ---- */
 
+/* The name of a private uniform of the shader. */
+static const char *private_name(const struct spell *spell, str_id asked)
+{
+    uint32_t variable = shader_asked_uniform(spell->shader, asked);
+    assert(variable < spell->shader->variables.len);
+    return str_text(spell->shader->strings, spell->shader->variables.items[variable].name);
+}
+
 /*
  * Over all lights from the last one: a driver that knows a loop's first number unrolls it, which
  * makes the shader by a third longer and no faster.
@@ -286,10 +295,15 @@ static void write_loop(struct spell *spell, unsigned indent, bool lights)
     const char *i = spell->loop_index;
     open_line(spell, indent, 0);
     if (!lights) {
-        SPELL(spell, "for (int ", i, " = 0; ", i, " < u_envRadianceSamples; ++", i, ") {\n");
+        SPELL(spell, "for (int ", i, " = 0; ", i, " < ",
+              private_name(spell, STR_u_envRadianceSamples), "; ++", i, ") {\n");
         return;
     }
-    SPELL(spell, "for (int ", i, " = min(u_numActiveLightSources, ");
+    if (spell->shader->is_function) {
+        SPELL(spell, "for (int ", i, " = mxg_light_count() - 1; ", i, " >= 0; --", i, ") {\n");
+        return;
+    }
+    SPELL(spell, "for (int ", i, " = min(", private_name(spell, STR_u_numActiveLightSources), ", ");
     spell_number(spell, spell->shader->max_lights);
     SPELL(spell, ") - 1; ", i, " >= 0; --", i, ") {\n");
 }
@@ -338,8 +352,11 @@ static void write_result(struct spell *spell, unsigned indent, const struct effe
 
 static struct spell_name position_name(const struct spell *spell)
 {
-    const char *name = spell->target->position ? spell->target->position : "gl_Position";
-    return (struct spell_name){name, strlen(name)};
+    struct text name;
+    text_init(&name, spell->scratch);
+    const char *position = spell->target->position ? spell->target->position : "gl_Position";
+    text_fmt(&name, "%s%s", *position == '.' ? spell_frame_name(spell, "vd") : "", position);
+    return (struct spell_name){text_cstr(&name), name.len};
 }
 
 static void write_comment(struct spell *spell, unsigned indent, str_id text)

@@ -93,6 +93,13 @@ struct target_frame {
     void (*declare)(struct spell *spell);
     void (*open)(struct spell *spell);  /* writes "void main()\n{\n" and the first lines of main */
     void (*close)(struct spell *spell); /* writes the last lines of main, without its brace */
+    /*
+     * Declares structs, uniforms and textures for a shader that is a function in a file of the host
+     * (spell/function.c); nothing that stands once per file. NULL: the option `form` has no
+     * function.
+     */
+    void (*declare_for_function)(struct spell *spell);
+    const char *variable; /* prefix of a variable at file scope, "static "; NULL: none */
 };
 
 struct target {
@@ -119,8 +126,8 @@ struct target {
      * lang_names)
      */
     const char *(*maker)(void *user_data, const char *type);
-    enum shader_packing packing;          /* of blocks of uniforms */
-    const char *position;                 /* variable of the vertex position; NULL: gl_Position */
+    enum shader_packing packing; /* of blocks of uniforms */
+    const char *position;        /* of a vertex; ".x": of the vertex data; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* file endings: "vert", "frag" */
     /*
      * The type of a node's local, or of each result of a call, if it differs from the IR's type.

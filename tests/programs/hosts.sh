@@ -85,9 +85,73 @@ check 'ambient occlusion' make Glass --occlusion-map
 check 'is bound by its name, too' eval 'says "float u_ambOccGain;" Glass.frag && says "texture\(u_ambOccMap, vd.texcoord_0\).x" Glass.frag'
 check 'not without lighting' exits 2 "$mxgen" glass.mtlx --target osl --shadow-map --stdout
 
+# The names that ShaderGraph::create and finalize of MaterialX 1.39 give to the sockets of a graph.
+cat >names.mtlx <<'XML'
+<materialx version="1.39">
+  <nodegraph name="NG">
+    <input name="tint" type="color3" value="1, 0.5, 0.2"/>
+    <mix name="color_mix" type="color3">
+      <input name="fg" type="color3" interfacename="tint"/>
+      <input name="bg" type="color3" value="0.1, 0.2, 0.3"/>
+      <input name="mix" type="float" value="0.5"/>
+    </mix>
+    <output name="out" type="color3" nodename="color_mix"/>
+  </nodegraph>
+  <multiply name="dim" type="float"><input name="in1" type="float" value="0.4"/></multiply>
+  <standard_surface name="SR" type="surfaceshader">
+    <input name="base_color" type="color3" nodegraph="NG" output="out"/>
+    <input name="base" type="float" nodename="dim"/>
+    <input name="specular_color" type="color3" value="0.5, 0.5, 0.5" colorspace="srgb_texture"/>
+  </standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
+</materialx>
+XML
+uniforms() { exits 0 "$mxgen" names.mtlx --element "$1" --target glsl --stdout "${@:2}" && sed -n 's/^uniform [a-z0-9]* \([a-zA-Z0-9_]*\) =.*/\1/p' out >names; }
+check 'all inputs' uniforms M --publish all
+for name in color_mix_fg color_mix_bg color_mix_mix dim_in1 dim_in2 diffuse_roughness specular SR_specular_color_cm_in coat_IOR; do
+    check "have MaterialX's names: $name" grep -qx "$name" names
+done
+check 'the interface' uniforms M
+for name in NG_tint SR_diffuse_roughness SR_specular_color; do
+    check "has the names of paths: $name" grep -qx "$name" names
+done
+check 'and no inputs of nodes inside' eval '! grep -q "dim_\|color_mix" names'
+check 'a graph' uniforms NG/out --publish all
+check 'has its inputs' eval 'grep -qx tint names && grep -qx color_mix_bg names'
+check 'authored inputs of all nodes' uniforms M --publish all --interface authored
+check 'are those in the document' eval 'grep -qx dim_in1 names && ! grep -qx dim_in2 names'
+
+check 'a function' make Glass --form function --prefix pane_ --rename u_viewPosition=eye,normalWorld=Nw,surface=pane
+check 'has its name' says '^pane_Surface pane\(vec3 positionWorld, vec3 Nw' Glass.frag
+check 'and a prefix' says '^    float pane_S_base;' Glass.frag
+check 'also before functions' says '^float pane_mx_fresnel_dielectric' Glass.frag
+check 'reads a name of the host' says 'eye - positionWorld' Glass.frag
+check 'and does not declare it' eval '! says "vec3 eye;" Glass.frag'
+check 'asks for the lights' says '^void mxg_light\(int i, vec3 P, out vec3 L, out vec3 radiance\);' Glass.frag
+check 'has no vertex stage' eval '! [ -e out.d/Glass.vert ]'
+check 'is in the reflection' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"function\":\"pane\",\"functionType\":\"pane_Surface\""'
+check 'without lights' make Glass --form function --lights none
+check 'asks for none' eval '! says mxg_light Glass.frag'
+check 'a prefix without a function' make Glass --prefix pane_ --rename out1=host_color
+check 'is in all names' eval 'says "pane_VertexData" Glass.frag && says "pane_VertexData" Glass.vert && says "vec4 host_color" Glass.frag'
+for options in '--form function --max-lights 8' '--form function --integrator scatter' '--form function --shadow-map' \
+    '--form function --lights point_light' '--integrator scatter --shadow-map' '--integrator scatter --occlusion-map' \
+    '--integrator scatter --transmission opacity' '--integrator scatter --encode srgb' '--integrator scatter --transparency mask' \
+    '--integrator scatter --sample-filter narrow'; do
+    # shellcheck disable=SC2086
+    check "no effect: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "option-without-effect" err'
+done
+for options in '--prefix 7up' '--prefix a__b' '--prefix gl_' '--rename u_viewPosition' '--rename =eye' '--rename a=b,c=b' '--rename a=b,a=c' \
+    '--rename out1=uniform' '--rename out1=a-b'; do
+    # shellcheck disable=SC2086
+    check "no name: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "bad-option" err'
+done
+check 'the default has an effect' exits 0 "$mxgen" glass.mtlx --target glsl --integrator scatter --transmission refraction --lights none --stdout
+check 'not in OSL' exits 2 "$mxgen" glass.mtlx --target osl --form function --stdout
+
 if [ -n "$compile" ]; then
     for options in '--binding-set 2 --first-binding 5' '--transmission opacity --transparency blend' '--transparency mask --encode srgb' \
-        '--texture-origin top --occlusion-map' '--shadow-map --reserved main,mx_square,color' '--transparency opaque'; do
+        '--form function' '--form function --prefix a_ --rename normalWorld=N' '--prefix a_' '--texture-origin top --occlusion-map' '--shadow-map --reserved main,mx_square,color' '--transparency opaque'; do
         case $options in --binding*) targets=vulkan,hlsl ;; *) targets=glsl,vulkan,essl,essl310,hlsl ;; esac
         # shellcheck disable=SC2086
         check "compiles with $options" exits 0 "$compile" glass.mtlx "$tiles" --targets $targets --interfaces complete,reduced $options

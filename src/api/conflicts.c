@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Options that mean nothing beside others, and names that the host chooses. */
+#include "api/generation.h"
+
+/* With value `number` of option `with`, `option` has no effect. */
+static const struct conflict {
+    enum option_id with;
+    int32_t number;
+    enum option_id option;
+} conflicts[] = {
+#define CONFLICT(with, number, option) {OPTION_##with, number, OPTION_##option},
+#include "api/conflicts.def"
+#undef CONFLICT
+};
+
+/* Options of a value that the default has, too, change nothing. */
+static bool is_changed(const struct generation *g, enum option_id option)
+{
+    const struct option_value *value = &g->options[option];
+    bool is_none = value->list.len == 1 && strcmp(value->list.items[0], "none") == 0;
+    return value->is_set && !is_none && option_differs(option, value);
+}
+
+static bool check_conflicts(struct generation *g)
+{
+    uint32_t before = g->result->object.diagnostics.list.num_errors;
+    for (size_t i = 0; i < sizeof conflicts / sizeof *conflicts; i++) {
+        const struct conflict *c = &conflicts[i];
+        if (g->options[c->with].number == c->number && is_changed(g, c->option))
+            diag_add(&g->result->object.diagnostics.list, DIAG_ID_option_without_effect,
+                     (struct diag_place){0}, option_key(c->option), option_key(c->with),
+                     g->options[c->with].text);
+    }
+    return g->result->object.diagnostics.list.num_errors == before;
+}
+
+/* ---- Names ---- */
+
+enum { MAX_PREFIX = 64 };
+
+static bool report(struct generation *g, enum option_id option, const char *value,
+                   const char *expected)
+{
+    diag_add(&g->result->object.diagnostics.list, DIAG_ID_bad_option, (struct diag_place){0}, value,
+             option_key(option), expected);
+    return false;
+}
+
+static bool check_prefix(struct generation *g)
+{
+    const char *prefix = g->options[OPTION_prefix].text;
+    size_t len = strlen(prefix);
+    if (!len || (len <= MAX_PREFIX && identifier_is(prefix, len)))
+        return true;
+    return report(g, OPTION_prefix, prefix,
+                  "an identifier of at most 64 characters, without '__' and 'gl_'");
+}
+
+void naming_pairs(const struct option_value *value, struct arena *arena, struct name_rules *out)
+{
+    out->renamed = ARENA_ARRAY(arena, struct name_pair, value->list.len + 1);
+    for (out->num_renamed = 0; out->num_renamed < value->list.len; out->num_renamed++) {
+        const char *item = value->list.items[out->num_renamed];
+        size_t len = strcspn(item, "=");
+        const char *to = item + len + (item[len] == '=');
+        out->renamed[out->num_renamed] =
+            (struct name_pair){.from = arena_strndup(arena, item, len),
+                               .to = arena_strndup(arena, to, strlen(to)),
+                               .from_len = len};
+    }
+}
+
+/* What is wrong with a pair, as the text of what is expected; NULL: nothing. */
+static const char *fault_of(const struct generation *g, const struct name_rules *rules, uint32_t i)
+{
+    const struct name_pair *pair = &rules->renamed[i];
+    if (!pair->from_len || !identifier_is(pair->to, strlen(pair->to)))
+        return "FROM=TO, where TO is an identifier without '__' and 'gl_'";
+    if (lang_syntax_is_reserved(g->result->target->syntax, pair->to, strlen(pair->to)))
+        return "a name that is no word of the language";
+    for (uint32_t k = 0; k < i; k++)
+        if (strcmp(rules->renamed[k].to, pair->to) == 0
+            || strcmp(rules->renamed[k].from, pair->from) == 0)
+            return "names that no other item has";
+    return NULL;
+}
+
+static bool check_renamed(struct generation *g)
+{
+    struct name_rules rules;
+    bool good = true;
+    naming_pairs(&g->options[OPTION_rename], &g->scratch, &rules);
+    for (uint32_t i = 0; i < rules.num_renamed; i++) {
+        const char *expected = fault_of(g, &rules, i);
+        if (expected)
+            good = report(g, OPTION_rename, g->options[OPTION_rename].list.items[i], expected);
+    }
+    return good;
+}
+
+bool generation_check_options(struct generation *g)
+{
+    bool names = check_prefix(g), renamed = check_renamed(g);
+    return check_conflicts(g) && names && renamed;
+}
