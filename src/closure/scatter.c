@@ -237,9 +237,7 @@ static ir_ref response(struct closure_scatter *s, ir_ref direction, ir_ref solid
 
 static void write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_ref a)
 {
-    uint32_t out = shader_add_variable(
-        s->shader,
-        &(struct shader_variable){.name = name, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    uint32_t out = shader_output(s->shader, name, IR_TYPE_VEC4);
     ir_ref parts[2] = {rgb, a};
     effect(s, EFFECT_OUTPUT, out, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
 }

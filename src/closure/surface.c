@@ -363,11 +363,7 @@ static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
     struct ir_graph *g = e->graph;
     color = encoded(e, color);
     ir_suggest_name(g, alpha, STR_opacity, IR_NAME_ROLE);
-    uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, STR_out1);
-    if (out == UINT32_MAX)
-        out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,
-                                                                       .block = BLOCK_OUTPUTS,
-                                                                       .type = IR_TYPE_VEC4});
+    uint32_t out = shader_output(e->shader, STR_out1, IR_TYPE_VEC4);
     assert(ir_type_of(g, color) == IR_TYPE_VEC3 && ir_type_of(g, alpha) == IR_TYPE_FLOAT);
     ir_ref parts[2] = {color, alpha};
     effect(e, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
@@ -589,9 +585,7 @@ static bool emit_value(struct emitter *e, ir_ref root)
     if (type == IR_TYPE_VEC3 && e->shader->value_type == STR_color3)
         root = encoded(e, root);
     ir_ref parts[3] = {root, zero, one};
-    uint32_t out = shader_add_variable(
-        e->shader,
-        &(struct shader_variable){.name = STR_out1, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    uint32_t out = shader_output(e->shader, STR_out1, IR_TYPE_VEC4);
     switch (type) {
     case IR_TYPE_FLOAT:
         parts[0] = ir_convert(g, IR_TYPE_VEC3, root);
