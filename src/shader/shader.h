@@ -46,6 +46,14 @@ struct shader_sampling {
     int32_t frameoffset;               /* offset from the current frame */
 };
 
+/* An AOV: a further output of the pixel stage, by a name of the document. */
+struct shader_aov {
+    str_id name, doc_type; /* "dirt", "color3"; a BSDF or EDF is its light */
+    ir_type_id type;       /* of its values */
+    uint32_t element;      /* of the document: the first node that has it */
+    bool is_output;        /* the root has it: closure_find_aovs */
+};
+
 /* A tile: one of several files of an image, which covers a unit square of texture coordinates. */
 struct shader_tile {
     str_id file;
@@ -234,6 +242,7 @@ struct shader {
     struct lang_style *style; /* its reserved words are not valid for variables; NULL: none */
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;
+    VEC(struct shader_aov) aovs; /* IR_AOV has an index in it */
     VEC(struct shader_compiled_input) compiled;
     VEC(struct shader_local) locals;
     VEC(struct shader_light) lights;
