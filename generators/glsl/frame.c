@@ -44,9 +44,9 @@ static void write_layout(struct spell *spell, uint32_t set, uint32_t binding, bo
     spell_text(spell, std140 ? ", std140) " : ") ");
 }
 
-static void write_location(struct spell *spell, uint32_t location)
+static void write_location(struct spell *spell, enum shader_block block, uint32_t location)
 {
-    if (!spell_can(spell, CAP_BINDINGS))
+    if (!shader_has_locations(spell->shader, block))
         return;
     spell_text(spell, "layout(location = ");
     spell_number(spell, location);
@@ -144,7 +144,7 @@ static void write_attributes(struct spell *spell, enum shader_block block, const
         if (!spell_uses(spell, variable))
             continue;
         if (*qualifier)
-            write_location(spell, variable->location);
+            write_location(spell, block, variable->location);
         if (variable->flat && *qualifier)
             spell_text(spell, "flat ");
         spell_text(spell, qualifier);
@@ -164,13 +164,12 @@ static void write_vertex_data(struct spell *spell)
         return;
     }
     if (spell->shader->scatters) { /* the caller sets it */
-        SPELL(spell, "struct ", type, " {
-");
+        SPELL(spell, "struct ", type, " {\n");
         write_members(spell, BLOCK_VERTEX_DATA);
         SPELL(spell, "};\n", type, " ", spell_frame_name(spell, "vd"), ";\n");
         return;
     }
-    write_location(spell, 0);
+    write_location(spell, BLOCK_VERTEX_DATA, 0);
     SPELL(spell, qualifier, type, " {\n");
     write_members(spell, BLOCK_VERTEX_DATA);
     SPELL(spell, "} ", spell_frame_name(spell, "vd"), ";\n");

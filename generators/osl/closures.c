@@ -92,6 +92,7 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
     case IR_SURFACE_SHADER:
         return surface(t, osl_sum(t, t->of[a[0]], t->of[a[1]]), a[2], premultiplied);
     case IR_SURFACE_UNLIT: return unlit(t, a[0], a[1], a[2]);
+    case IR_AOV: return t->of[a[0]];
     case IR_VOLUME_SHADER: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
     case IR_LIGHT_SHADER: return light(t, t->of[a[0]], a[1], a[2]);
     case IR_UNIFORM: /* an output of another OSL layer */
@@ -103,6 +104,7 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
 /* Notes whether a surface is a thin-walled shell. */
 static void set_thin(struct osl_tree *t, ir_ref surface)
 {
+    surface = closure_without_aovs(t->graph, surface);
     bool is_thin = ir_get(t->graph, surface)->op == IR_SURFACE_SHADER
                    && !osl_is_false(t, ir_arg(t->graph, surface, 3));
     t->thin = is_thin ? ir_arg(t->graph, surface, 3) : 0;
@@ -236,13 +238,49 @@ static void add_closures(struct osl_tree *t, ir_ref root)
             shader_add_closure(t->shader, ref);
 }
 
-static void put_closure(struct osl_tree *t, uint32_t out, ir_ref closure, ir_ref condition)
+static void declare_aovs(struct osl_tree *t)
+{
+    t->aovs = ARENA_ARRAY(t->shader->arena, uint32_t, t->shader->aovs.len);
+    for (uint32_t i = 0; i < t->shader->aovs.len; i++) {
+        ir_type_id type = t->shader->aovs.items[i].type;
+        type = ir_type_is_closure(type) ? IR_TYPE_BSDF : closure_aov_type(t->shader, i);
+        if (t->shader->aovs.items[i].is_output)
+            t->aovs[i] = closure_aov_output(t->shader, i, type);
+    }
+}
+
+static void put_aovs(struct osl_tree *t, struct closure_aovs aovs)
+{
+    for (uint32_t i = 0; i < aovs.num; i++) {
+        ir_ref value = aovs.items[i].value;
+        bool is_closure = ir_type_is_closure(t->shader->aovs.items[i].type);
+        if (!t->shader->aovs.items[i].is_output)
+            continue;
+        value = is_closure ? or_black(t, closure_below(t, value))
+                           : closure_aov_value(t->shader, i, value);
+        effect(t, EFFECT_OUTPUT, t->aovs[i], value);
+    }
+}
+
+/* The AOVs of a surface, seen through its alpha. */
+static struct closure_aovs aovs_of(struct osl_tree *t, ir_ref surface)
+{
+    if (!surface || !t->shader->aovs.len)
+        return (struct closure_aovs){0};
+    struct closure_surface s = closure_surface_of(t->shader, t->host, surface);
+    bool has_alpha = !s.alpha || s.premultiplied;
+    return has_alpha ? s.aovs : closure_aovs_scaled(t->graph, s.aovs, s.alpha);
+}
+
+static void put_closure(struct osl_tree *t, uint32_t out, ir_ref closure, struct closure_aovs aovs,
+                        ir_ref condition)
 {
     closure = or_black(t, closure);
     add_closures(t, closure);
     if (condition)
         effect(t, EFFECT_IF, 0, condition);
     effect(t, EFFECT_OUTPUT, out, closure);
+    put_aovs(t, aovs);
     if (condition)
         effect(t, EFFECT_END, 0, 0);
 }
@@ -256,12 +294,13 @@ static void emit_picked(struct osl_tree *t, uint32_t out, ir_ref slots)
     closure_choose(t->shader, t->host, slots, number, &choices);
     for (uint32_t i = 0; i < choices.items.len; i++) {
         const struct closure_choice *choice = &choices.items.items[i];
-        put_closure(t, out, parts_of(t, &choice->layer), choice->is_it);
+        put_closure(t, out, parts_of(t, &choice->layer), choice->layer.aovs, choice->is_it);
     }
     if (!choices.covered)
         return;
     t->shader->transparent = true;
-    put_closure(t, out, osl_transparent(t), ir_op2(t->graph, IR_GE, number, choices.covered));
+    struct closure_aovs none = {0};
+    put_closure(t, out, osl_transparent(t), none, ir_op2(t->graph, IR_GE, number, choices.covered));
 }
 
 static void emit_side(struct osl_tree *t, uint32_t out, ir_ref surface)
@@ -269,16 +308,19 @@ static void emit_side(struct osl_tree *t, uint32_t out, ir_ref surface)
     bool is_stack = surface && ir_get(t->graph, surface)->op == IR_SLOTS;
     if (is_stack)
         surface = closure_shade_slots(t->shader, surface, 0);
-    if (is_stack && t->shader->picks)
+    if (is_stack && t->shader->picks) {
         emit_picked(t, out, surface);
-    else
-        put_closure(t, out, is_stack ? blended(t, surface) : closure_of(t, surface), 0);
+        return;
+    }
+    ir_ref closure = is_stack ? blended(t, surface) : closure_of(t, surface);
+    put_closure(t, out, closure, aovs_of(t, surface), 0);
 }
 
 static void emit_sides(struct osl_tree *t, ir_ref front, ir_ref back)
 {
     struct ir_graph *g = t->graph;
     uint32_t out = output(t, str_intern_z(t->shader->strings, "Ci"), IR_TYPE_BSDF, 0);
+    declare_aovs(t);
     if (!back) {
         emit_side(t, out, front);
         return;
@@ -345,6 +387,7 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
         if (!front)
             front = ir_arg(t.graph, root, 3);
     }
+    closure_find_aovs(shader, root);
     emit_displacement(&t, displacement);
     if (displacement == root)
         return shader->displaced;

@@ -62,11 +62,14 @@ static const char *primitive_name(const char *stream)
                                                      : stream;
 }
 
-/* True for the closure result of surfaces and volumes, which is OSL's variable Ci. */
+/*
+ * True for the closure result of surfaces and volumes, which is OSL's variable Ci. Closures of AOVs
+ * are parameters.
+ */
 static bool is_result(const struct osl *osl, const struct shader_variable *variable)
 {
     return variable->block == BLOCK_OUTPUTS && ir_type_is_closure(variable->type)
-           && osl->spell->shader->kind != SHADER_VALUE;
+           && !variable->semantic && osl->spell->shader->kind != SHADER_VALUE;
 }
 
 static unsigned array_length(const struct shader_variable *variable)

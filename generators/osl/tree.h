@@ -17,6 +17,7 @@ struct osl_tree {
     ir_ref *of;           /* per node of closure or shader type: its closure in OSL; 0: none */
     uint8_t *slabs;       /* per node: it has a slab, whose layers do not weigh as those of OSL */
     ir_ref thin;          /* true if the surface is a thin-walled shell; 0: false */
+    uint32_t *aovs;       /* the outputs of the shader's AOVs */
     struct table counted; /* the leaves among the shader's closures */
     str_id unknown;       /* the family of a leaf without an OSL closure; 0: none */
 };

@@ -360,6 +360,18 @@ static bool cannot_fail(const struct generation *g)
            && closure_is_surface(&g->result->shader, g->root);
 }
 
+/* A path tracer writes the values of the first hit, where the light is not yet known. */
+static void report_closure_aovs(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    for (uint32_t i = 0; i < shader->aovs.len; i++)
+        if (shader->aovs.items[i].is_output && shader->aovs.items[i].type == IR_TYPE_BSDF)
+            diag_add(diags_of(g), DIAG_ID_aov_left_out,
+                     doc_place(&g->document->layer.doc, shader->aovs.items[i].element),
+                     str_text(shader->strings, shader->aovs.items[i].name),
+                     "a path tracer does not tell the light of one closure apart");
+}
+
 bool generation_emit(struct generation *g)
 {
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
@@ -374,6 +386,8 @@ bool generation_emit(struct generation *g)
     generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
+    if (g->result->shader.scatters)
+        report_closure_aovs(g);
     if (!is_emitted)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
@@ -420,6 +434,30 @@ static bool check_textures(struct generation *g)
         return true;
     diag_add(diags_of(g), DIAG_ID_texture_limit, doc_place(&g->document->layer.doc, g->element),
              (unsigned)num, (unsigned)target->max_textures, g->result->target->name, list_slots(g));
+    return false;
+}
+
+/* Reports AOVs beyond the attachments of the host. A path tracer has none. */
+static bool check_outputs(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    uint32_t num =
+                 shader->first_of_block[BLOCK_OUTPUTS + 1] - shader->first_of_block[BLOCK_OUTPUTS],
+             limit = (uint32_t)g->options[OPTION_max_outputs].number;
+    struct text list;
+    if (!shader->aovs.len || shader->scatters || g->result->target->closures || num <= limit)
+        return true;
+    text_init(&list, &g->scratch);
+    uint32_t last = 0;
+    for (uint32_t i = 0; i < shader->aovs.len; i++) {
+        if (!shader->aovs.items[i].is_output)
+            continue;
+        text_fmt(&list, "%s'%s'", list.len ? ", " : "",
+                 str_text(shader->strings, shader->aovs.items[i].name));
+        last = shader->aovs.items[i].element;
+    }
+    diag_add(diags_of(g), DIAG_ID_aov_limit, doc_place(&g->document->layer.doc, last),
+             (unsigned)num, (unsigned)limit, text_cstr(&list));
     return false;
 }
 
@@ -603,8 +641,8 @@ static void generate(struct generation *g)
     else
         g->result->has_shader =
             built && generation_emit(g) && (!g->desc.only_diagnostics || g->desc.bindings)
-            && generation_finish(g) && check_textures(g) && !g->desc.only_diagnostics
-            && (g->desc.without_source || generation_spell(g));
+            && generation_finish(g) && check_textures(g) && check_outputs(g)
+            && !g->desc.only_diagnostics && (g->desc.without_source || generation_spell(g));
     if (!g->result->has_shader)
         drop_source(g->result);
     assert(!g->result->has_shader || diags_of(g)->num_errors == 0);

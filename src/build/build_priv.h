@@ -32,8 +32,9 @@ struct frame {
     struct graph_node node;
     const struct binding *bindings;
     const struct implementation *impl;
-    uint32_t next; /* index of the next input or output to visit */
-    uint8_t phase; /* enum frame_phase */
+    uint32_t first_aov; /* in builder->aovs: those of the inner scope */
+    uint32_t next;      /* index of the next input or output to visit */
+    uint8_t phase;      /* enum frame_phase */
     ir_ref *args;
     bool has_tokens; /* it sets tokens, so no other use can share its results */
     uint32_t memo_key;
@@ -53,6 +54,15 @@ struct memo {
     uint32_t first_result; /* + 1 */
     uint32_t uses;         /* number of uses of a function */
     uint32_t function;     /* + 1, after its body is complete */
+};
+
+/* An <aov> that was built. aov.c */
+struct aov_use {
+    const struct instance *scope;
+    elem_id node;
+    str_id name;
+    str_id source; /* of an <aovpass>: the name in the shader, 0: none */
+    ir_ref value;
 };
 
 struct code_value { /* a value that the code of a node has */
@@ -95,13 +105,16 @@ struct builder {
     VEC(struct memo) memos;
     uint32_t *memo_table;
     uint32_t memo_mask;
-    VEC(ir_ref) geomprops;     /* value per geomprop name, in pairs (name, ref) */
-    ir_ref *globals;           /* by id: host data of functions, after the first use */
-    struct text scratch;       /* for a path or a name */
-    elem_id called;            /* the node whose implementation is lowered; 0: none */
-    ir_ref missing_texel;      /* the current node's texel outside all tiles of its image */
-    struct recorder *recorder; /* network.c; NULL: one shader is built */
-    str_id slot;               /* the name of the layer that is built, for names of variables; 0 */
+    VEC(ir_ref) geomprops;       /* value per geomprop name, in pairs (name, ref) */
+    ir_ref *globals;             /* by id: host data of functions, after the first use */
+    struct text scratch;         /* for a path or a name */
+    elem_id called;              /* the node whose implementation is lowered; 0: none */
+    ir_ref missing_texel;        /* the current node's texel outside all tiles of its image */
+    struct recorder *recorder;   /* network.c; NULL: one shader is built */
+    VEC(struct aov_use) aovs;    /* of the scopes that are in work, and of the layer */
+    VEC(elem_id) aov_graphs;     /* the nodegraphs of the layer's overrides; a later one wins */
+    struct aov_nodes *aov_nodes; /* of the document; NULL: not yet collected */
+    str_id slot; /* the name of the layer that is built, for names of variables; 0 */
     /* code.h */
     VEC(struct code_value) code_values;
     struct table code_names; /* by name: indices of options->codes + 1 */
@@ -306,6 +319,30 @@ const ir_ref *build_function_arguments(struct builder *b, const struct frame *fr
 bool build_is_light_source(const struct builder *b, const struct implementation *impl);
 /* Adds the function of a light shader to the shader; UINT32_MAX after a diagnostic. */
 uint32_t build_light_source(struct builder *b, const struct implementation *impl);
+
+/*
+ * aov.c: surfaces and materials with the AOVs of a scope (docs/slots.md, "AOVs"). The code of <aov>
+ * and <aovpass> notes each that is built in builder->aovs.
+ */
+/* The next <aov> or <aovpass> of a nodegraph from `element` on; 0: none. */
+elem_id build_next_aov(const struct builder *b, elem_id element);
+/*
+ * Gives the results of a nodegraph, whose <aov> nodes are all built, their values: those of
+ * builder->aovs from `first` on, which are then gone.
+ */
+void build_finish_graph_aovs(struct builder *b, const struct frame *frame, ir_ref *results);
+bool build_is_aov(const struct document *doc, elem_id element);
+void build_leave_out_aov(struct builder *b, const struct aov_use *use, const char *why);
+/* Gives the surfaces of a root the value of an AOV, unless it reports a fault. */
+void build_add_aov(struct builder *b, const struct aov_use *use, ir_ref *root);
+/* Reports two AOVs of one name in one material; false. */
+bool build_report_second_aov(struct builder *b, const struct aov_use *first,
+                             const struct aov_use *second);
+/*
+ * aov_document.c: builds the AOVs of a surface or material of the document, and gives it their
+ * values. 0 stays 0.
+ */
+ir_ref build_element_aovs(struct builder *b, ir_ref root);
 
 /* film.c: a thin film on a BSDF, as inputs of its microfacet leaves. `node` is the film node. */
 ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, elem_id node);

@@ -251,6 +251,7 @@ static void enter_graph(struct builder *b, struct frame *frame)
     if (frame->outline != LIBRARY_NONE)
         build_begin_function(b, frame);
     frame->phase = PHASE_OUTPUTS;
+    frame->first_aov = b->aovs.len;
     frame->next = 0;
 }
 
@@ -314,6 +315,7 @@ static void leave_graph(struct builder *b)
         results[i] = build_input(b, frame->inner, frame->inner->graph, &outputs[i], &binding);
     }
     if (frame->outline == LIBRARY_NONE) {
+        build_finish_graph_aovs(b, frame, results);
         finish_graph(b, frame, results);
         return;
     }
@@ -321,6 +323,32 @@ static void leave_graph(struct builder *b)
     ir_set_results(b->graph, frame->function, results, def->num_outputs);
     b->memos.items[frame->outline].function = frame->function + 1;
     finish_call(b, frame, frame->function);
+}
+
+static bool gives_surface(const struct builder *b, const struct nodedef *def,
+                          const struct port *outputs)
+{
+    for (uint32_t i = 0; i < def->num_outputs; i++) {
+        ir_type_id type = library_type_ir(b->lib, outputs[i].type);
+        if (type == IR_TYPE_SURFACE || type == IR_TYPE_MATERIAL)
+            return true;
+    }
+    return false;
+}
+
+/* True if it began to build an <aov> of the inner graph, which nothing needs to read. */
+static bool step_aovs(struct builder *b)
+{
+    struct frame *frame = &vec_last(&b->frames);
+    elem_id first = doc_element(build_doc(b), frame->inner->graph)->first_child;
+    for (elem_id e = first; (e = build_next_aov(b, e)) != 0; e = doc_element(build_doc(b), e)->next)
+        if (*build_slot(frame->inner, e) == SLOT_EMPTY) {
+            uint32_t before = b->frames.len;
+            push(b, frame->inner, e);
+            if (b->frames.len > before)
+                return true;
+        }
+    return false;
 }
 
 static void step_outputs(struct builder *b)
@@ -342,6 +370,9 @@ static void step_outputs(struct builder *b)
                 return;
         }
     }
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    if (gives_surface(b, def, ports + def->num_inputs) && step_aovs(b))
+        return;
     leave_graph(b);
 }
 

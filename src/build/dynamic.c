@@ -411,6 +411,7 @@ static bool build_chosen_input(void *user_data, mxg_build *build, mxg_ref *resul
 #define COLORS (OF(FLOAT) | OF(VEC3) | OF(VEC4))
 #define VECTORS (OF(FLOAT) | OF(VEC2) | OF(VEC3) | OF(VEC4))
 #define CLOSURES (OF(BSDF) | OF(EDF) | OF(VDF))
+#define AOVS (OF(BOOL) | OF(INT) | VECTORS | OF(BSDF) | OF(EDF))
 #define SHADERS (OF(SURFACE) | OF(VOLUME) | OF(DISPLACEMENT))
 #define SAME 0u /* as the output */
 static_assert(IR_NUM_TYPES <= 32, "a set of types has 32 bits");
@@ -523,6 +524,11 @@ static const struct dynamic_node {
       {STR_cutout, OF(FLOAT)},
       {STR_displacement_mode, OF(STRING)},
       {STR_normal_mode, OF(STRING)}}},
+    {STR_aov, dynamic_aov, AOVS, {{STR_name, OF(STRING)}, {STR_value, SAME}}},
+    {STR_aovpass,
+     dynamic_aovpass,
+     AOVS,
+     {{STR_name, OF(STRING)}, {STR_source, OF(STRING)}, {STR_shader, OF(SURFACE)}}},
     {STR_volumematerial, build_volumematerial, OF(MATERIAL), {{STR_volumeshader, OF(VOLUME)}}},
     {STR_chosen_input, build_chosen_input, ~0u, {{0}}},
 };

@@ -10,6 +10,10 @@ ir_ref dynamic_arg(const mxg_build *build, str_id name);
 /* Reports that the definition differs from the needs of the code; false. */
 bool dynamic_misfit(const mxg_build *build, const char *fault);
 
+/* aov.c: <aov> and <aovpass>, each an mxg_build_fn. */
+bool dynamic_aov(void *user_data, mxg_build *build, mxg_ref *results);
+bool dynamic_aovpass(void *user_data, mxg_build *build, mxg_ref *results);
+
 /* dynamic_slabs.c: the constructors of slabs, each an mxg_build_fn. */
 bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results);

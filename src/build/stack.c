@@ -49,9 +49,22 @@ static void publish_drives(struct builder *b, const struct library_drives *drive
     }
 }
 
+/* The nodegraphs of the layer's overrides: their AOVs are the layer's. */
+static void note_override_graphs(struct builder *b, const struct bindings *bindings,
+                                 const struct bind_item *items, uint32_t num)
+{
+    b->aov_graphs.len = 0;
+    for (uint32_t i = 1; i < num; i++) {
+        const struct look_assign *a = &bindings->look.assigns.items[items[i].assign];
+        if (items[i].kind == ITEM_OVERRIDE && a->kind == ASSIGN_GRAPH)
+            vec_push(b->arena, &b->aov_graphs, a->target);
+    }
+}
+
 /* Forgets the results of the layer before: the same nodes may have other inputs now. */
 static void begin_layer(struct builder *b, const char *slot, const struct library_drives *drives)
 {
+    b->aovs.len = 0;
     memset(b->document->slots, 0, b->document->num_slots * sizeof *b->document->slots);
     b->public_nodes.len = 0;
     b->resolved.drives = drives->items.len ? drives : NULL;
@@ -68,6 +81,7 @@ static ir_ref build_layer(struct builder *b, const struct bindings *bindings,
     elem_id node = bind_material_node(b->lib, a->target, b->diags);
     bind_drives(bindings, b->lib, items, num, NULL, b->arena, &drives);
     begin_layer(b, slot, &drives);
+    note_override_graphs(b, bindings, items, num);
     ir_push_name(b->graph, b->slot);
     ir_ref material = node ? build_element(b, node, 0) : 0;
     material = with_virtual_inputs(b, node, material);

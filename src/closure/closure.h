@@ -121,6 +121,19 @@ struct closure_lighting {
 bool closure_emit(struct shader *shader, const struct closure_host *host,
                   const struct closure_lighting *lighting, ir_ref root);
 
+/*
+ * The AOVs of a surface, by number in shader->aovs. Values have the weights and the alpha that the
+ * other parts of the surface have; integers and booleans stay, and their weight stands beside them.
+ */
+struct closure_aov {
+    ir_ref value; /* 0: absent */
+    ir_ref weight;
+};
+struct closure_aovs {
+    uint32_t num; /* 0: the shader has none */
+    struct closure_aov *items;
+};
+
 /* The parts of a surface, each 0 where absent: shaders.c. */
 struct closure_surface {
     ir_ref bsdf, edf;
@@ -128,10 +141,23 @@ struct closure_surface {
     ir_ref alpha;       /* 0 = 1 */
     bool premultiplied; /* alpha already scales the parts */
     bool is_matter;     /* and alpha is what the throughput of the bsdf says */
+    struct closure_aovs aovs;
 };
+/* aov.c: finds the AOVs of the surfaces of a root, which become outputs; the others do not. */
+void closure_find_aovs(struct shader *shader, ir_ref root);
+/* Closures and numbers times a factor; the operand stays. */
+struct closure_aovs closure_aovs_scaled(struct ir_graph *graph, struct closure_aovs aovs,
+                                        ir_ref factor);
+/* The variable of the output of an AOV; closures are vec3, booleans int. */
+uint32_t closure_aov_output(struct shader *shader, uint32_t index, ir_type_id type);
+ir_type_id closure_aov_type(const struct shader *shader, uint32_t index);
+/* The value, of closure_aov_type: the light of a closure; 0: absent. */
+ir_ref closure_aov_value(struct shader *shader, uint32_t index, ir_ref value);
 /* The parts of a surface shader, which may be made of others. root 0: a black one. */
 struct closure_surface closure_surface_of(struct shader *shader, const struct closure_host *host,
                                           ir_ref root);
+/* The surface below its AOVs; 0 stays 0. */
+ir_ref closure_without_aovs(const struct ir_graph *graph, ir_ref surface);
 /* Its alpha alone, for stacks: the rest of the surface need not be complete. */
 ir_ref closure_surface_alpha(struct shader *shader, ir_ref root);
 /* The layers of a SLOTS node with their vertical ones, by slot; a vertical one itself is empty. */

@@ -89,6 +89,7 @@ struct closure_scatter_layer {
     ir_ref alpha;    /* that the list and the emission have, but the tracer applies; 0: none */
     ir_ref is_it;    /* a bool: this layer is picked; 0: always */
     ir_ref chance;   /* a random number that picks a leaf; 0: that of the path tracer */
+    struct closure_aovs aovs; /* values and BSDFs; they have the alpha, too */
 };
 struct closure_scatter *closure_scatter_begin(struct shader *shader,
                                               const struct closure_host *host,
@@ -165,6 +166,24 @@ ir_ref closure_own_textures(struct shader *shader, ir_ref slots);
  * one loop is not that of another.
  */
 ir_ref closure_in_loop(struct shader *shader, ir_ref root, uint32_t loop);
+
+/* aov.c: the algebra of closure_aovs. Nothing changes an operand. */
+
+/* All absent, of weight 1. */
+struct closure_aovs closure_aovs_of(struct shader *shader);
+/* With a value, times alpha; alpha 0: 1. */
+struct closure_aovs closure_aovs_with(struct ir_graph *graph, struct closure_aovs aovs,
+                                      uint32_t index, ir_ref value, ir_ref alpha);
+struct closure_aovs closure_aovs_sum(struct ir_graph *graph, struct closure_aovs a,
+                                     struct closure_aovs b);
+struct closure_aovs closure_aovs_mixed(struct ir_graph *graph, struct closure_aovs bg,
+                                       struct closure_aovs fg, ir_ref mix);
+/* base·(1 - presence) + top for the AOVs that the top has; the others stay. */
+struct closure_aovs closure_aovs_coated(struct ir_graph *graph, struct closure_aovs base,
+                                        struct closure_aovs top, ir_ref presence);
+/* With these weights, 0: 1; a sum leaves that of its greatest part. */
+struct closure_aovs closure_aovs_weighing(struct ir_graph *graph, struct closure_aovs aovs,
+                                          ir_ref weight);
 
 /* shaders.c: 0 is 1. */
 bool closure_is_opaque(const struct ir_graph *graph, ir_ref opacity);

@@ -126,9 +126,7 @@ static void output_offset(struct shader *shader, ir_ref offset)
 {
     struct ir_graph *g = shader->graph;
     ir_ref parts[2] = {offset, ir_const_float(g, 0.0f)};
-    uint32_t out = shader_add_variable(
-        shader,
-        &(struct shader_variable){.name = STR_out8, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    uint32_t out = shader_output(shader, STR_out8, IR_TYPE_VEC4);
     shader_effect(shader, STAGE_PIXEL,
                   (struct effect){.kind = EFFECT_OUTPUT,
                                   .index = out,

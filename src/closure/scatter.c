@@ -48,6 +48,8 @@ struct closure_scatter {
     /* of a stack: locals for what the picked layer gives; of a surface: what it gives */
     bool is_stack;
     uint32_t emission_local, seen_local, lit_local, to_light, away;
+    uint32_t *aov_locals; /* by number of the AOV */
+    struct closure_aovs aovs;
     ir_ref emission, seen, lit;
 };
 
@@ -237,9 +239,7 @@ static ir_ref response(struct closure_scatter *s, ir_ref direction, ir_ref solid
 
 static void write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_ref a)
 {
-    uint32_t out = shader_add_variable(
-        s->shader,
-        &(struct shader_variable){.name = name, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    uint32_t out = shader_output(s->shader, name, IR_TYPE_VEC4);
     ir_ref parts[2] = {rgb, a};
     effect(s, EFFECT_OUTPUT, out, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
 }
@@ -306,6 +306,13 @@ struct closure_scatter *closure_scatter_begin(struct shader *shader,
     return s;
 }
 
+/* The light of a BSDF needs the whole path. */
+static bool has_value(const struct closure_scatter *s, uint32_t aov)
+{
+    const struct shader_aov *a = &s->shader->aovs.items[aov];
+    return a->is_output && a->type != IR_TYPE_BSDF;
+}
+
 /* The locals that the layers of a stack fill; before the first one. */
 static void declare_layers(struct closure_scatter *s)
 {
@@ -318,6 +325,11 @@ static void declare_layers(struct closure_scatter *s)
         s->to_light = local(s, STR_L, black);
         s->away = local(s, STR_distance, nothing);
     }
+    s->aov_locals = ARENA_ARRAY(s->shader->arena, uint32_t, s->shader->aovs.len);
+    for (uint32_t i = 0; i < s->shader->aovs.len; i++)
+        if (has_value(s, i))
+            s->aov_locals[i] =
+                local(s, s->shader->aovs.items[i].name, closure_aov_value(s->shader, i, 0));
     s->is_stack = true;
 }
 
@@ -336,6 +348,10 @@ static void keep_layer(struct closure_scatter *s)
 {
     effect(s, EFFECT_ASSIGN, s->emission_local, s->emission);
     effect(s, EFFECT_ASSIGN, s->seen_local, seen_of(s));
+    for (uint32_t i = 0; i < s->aovs.num; i++)
+        if (has_value(s, i) && s->aovs.items[i].value)
+            effect(s, EFFECT_ASSIGN, s->aov_locals[i],
+                   closure_aov_value(s->shader, i, s->aovs.items[i].value));
     if (!s->lighting->lights)
         return;
     light_up(s);
@@ -353,6 +369,7 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
 {
     s->list = &layer->list;
     s->scale = scale_of(s, layer->alpha);
+    s->aovs = s->scale ? closure_aovs_scaled(s->graph, layer->aovs, s->scale) : layer->aovs;
     s->emission = layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3,
                                                closure_mul(s->graph, layer->emission, s->scale))
                                   : grey(s, 0.0f);
@@ -372,6 +389,19 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
     s->loop++;
     if (layer->is_it)
         effect(s, EFFECT_END, 0, 0);
+}
+
+static void write_aovs(struct closure_scatter *s)
+{
+    for (uint32_t i = 0; i < s->shader->aovs.len; i++) {
+        if (!has_value(s, i))
+            continue;
+        ir_ref value =
+            s->is_stack ? read(s, s->aov_locals[i])
+                        : closure_aov_value(s->shader, i, s->aovs.num ? s->aovs.items[i].value : 0);
+        effect(s, EFFECT_OUTPUT, closure_aov_output(s->shader, i, ir_type_of(s->graph, value)),
+               value);
+    }
 }
 
 static void write_lit(struct closure_scatter *s)
@@ -400,5 +430,6 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
         s->lit = read(s, s->lit_local);
     if (s->lighting->lights)
         write_lit(s);
+    write_aovs(s);
     s->shader->transparent = alpha && !ir_const_is(s->graph, alpha, 1.0f);
 }

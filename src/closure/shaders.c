@@ -42,6 +42,7 @@ static struct closure_surface scaled(struct ir_graph *g, struct closure_surface 
     s.edf = scaled_closure(g, s.edf, factor);
     if (s.unlit && !ir_const_is(g, factor, 1.0f))
         s.unlit = ir_op2(g, IR_MUL, color_of(g, s.unlit), factor);
+    s.aovs = closure_aovs_scaled(g, s.aovs, factor);
     return s;
 }
 
@@ -72,6 +73,7 @@ static struct closure_surface mixed(const struct surfaces *s, struct closure_sur
         out.unlit = ir_op3(g, IR_MIX, bg.unlit ? color_of(g, bg.unlit) : black,
                            fg.unlit ? color_of(g, fg.unlit) : black, mix);
     out.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
+    out.aovs = closure_aovs_weighing(g, closure_aovs_mixed(g, bg.aovs, fg.aovs, mix), out.alpha);
     return out;
 }
 
@@ -106,6 +108,7 @@ static struct closure_surface sum(struct ir_graph *g, struct closure_surface a,
         a.unlit = ir_op2(g, IR_ADD, color_of(g, a.unlit), color_of(g, b.unlit));
     else
         a.unlit = a.unlit ? a.unlit : b.unlit;
+    a.aovs = closure_aovs_sum(g, a.aovs, b.aovs);
     return a;
 }
 
@@ -130,6 +133,7 @@ static struct closure_surface coated(const struct surfaces *s, struct closure_su
     if (base.premultiplied && base.alpha)
         lit = scaled(g, lit, base.alpha);
     lit.alpha = base.alpha;
+    ir_ref presence_of_aovs = presence;
     if (top.is_matter)
         presence = mask;
     if (top.bsdf && base.bsdf) {
@@ -143,6 +147,8 @@ static struct closure_surface coated(const struct surfaces *s, struct closure_su
         out.edf = scaled_closure(g, base.edf, passed);
         out.unlit = base.unlit ? ir_op2(g, IR_MUL, color_of(g, base.unlit), passed) : 0;
     }
+    out.aovs = closure_aovs_coated(g, base.aovs, lit.aovs, presence_of_aovs);
+    lit.aovs.num = 0;
     return sum(g, out, lit);
 }
 
@@ -201,6 +207,35 @@ static struct closure_surface stack_of(const struct surfaces *s, ir_ref slots)
     }
     out.alpha = ir_arg(s->graph, slots, 0);
     out.premultiplied = true;
+    out.aovs = closure_aovs_weighing(s->graph, out.aovs, out.alpha);
+    return out;
+}
+
+/* A surface with another value of an AOV. */
+static struct closure_surface with_aov(const struct surfaces *s, ir_ref ref)
+{
+    struct closure_surface out = s->known[ir_arg(s->graph, ref, 0)];
+    out.aovs = closure_aovs_with(s->graph, out.aovs, ir_get(s->graph, ref)->attr,
+                                 ir_arg(s->graph, ref, 1), out.premultiplied ? out.alpha : 0);
+    return out;
+}
+
+/* A surface without other surfaces. */
+static struct closure_surface leaf_of(const struct surfaces *s, ir_ref ref)
+{
+    const ir_ref *args = ir_args(s->graph, ref);
+    bool has_opacity = ir_get(s->graph, ref)->attr != 0;
+    struct closure_surface out = {0};
+    if (ir_get(s->graph, ref)->op == IR_SURFACE_UNLIT)
+        out = unlit_surface(s->graph, args[0], args[1], args[2]);
+    else
+        out = (struct closure_surface){.bsdf = args[0],
+                                       .edf = args[1],
+                                       .alpha = args[2],
+                                       .premultiplied = has_opacity,
+                                       .is_matter = has_opacity};
+    out.aovs = closure_aovs_weighing(s->graph, closure_aovs_of(s->shader),
+                                     out.premultiplied ? out.alpha : 0);
     return out;
 }
 
@@ -213,12 +248,8 @@ static struct closure_surface parts_of(const struct surfaces *s, ir_ref ref)
     memcpy(args, ir_args(g, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *args);
     switch (node->op) {
     case IR_SURFACE_SHADER:
-        return (struct closure_surface){.bsdf = args[0],
-                                        .edf = args[1],
-                                        .alpha = args[2],
-                                        .premultiplied = node->attr != 0,
-                                        .is_matter = node->attr != 0};
-    case IR_SURFACE_UNLIT: return unlit_surface(g, args[0], args[1], args[2]);
+    case IR_SURFACE_UNLIT: return leaf_of(s, ref);
+    case IR_AOV: return with_aov(s, ref);
     case IR_SHADER_MIX: return mixed(s, known[args[0]], known[args[1]], args[2]);
     case IR_SLOTS: return stack_of(s, ref);
     default: return (struct closure_surface){0};
@@ -259,6 +290,13 @@ struct closure_surface *closure_slot_surfaces(struct shader *shader,
     return layers;
 }
 
+ir_ref closure_without_aovs(const struct ir_graph *g, ir_ref surface)
+{
+    while (surface && ir_get(g, surface)->op == IR_AOV)
+        surface = ir_arg(g, surface, 0);
+    return surface;
+}
+
 /* The alpha of a surface that is made of no other ones. */
 static ir_ref alpha_of_leaf(struct ir_graph *g, ir_ref ref)
 {
@@ -274,6 +312,7 @@ static ir_ref alpha_of_leaf(struct ir_graph *g, ir_ref ref)
 ir_ref closure_surface_alpha(struct shader *shader, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
+    root = closure_without_aovs(g, root);
     if (ir_get(g, root)->op != IR_SHADER_MIX)
         return alpha_of_leaf(g, root);
     ir_ref *alphas = ARENA_ARRAY(shader->arena, ir_ref, root + 1), one = ir_const_float(g, 1.0f);
@@ -281,6 +320,10 @@ ir_ref closure_surface_alpha(struct shader *shader, ir_ref root)
     for (ir_ref ref = 1; ref <= root; ref++) {
         if (!needed[ref] || ir_type_of(g, ref) != IR_TYPE_SURFACE)
             continue;
+        if (ir_get(g, ref)->op == IR_AOV) {
+            alphas[ref] = alphas[ir_arg(g, ref, 0)];
+            continue;
+        }
         if (ir_get(g, ref)->op != IR_SHADER_MIX) {
             alphas[ref] = alpha_of_leaf(g, ref);
             continue;

@@ -60,12 +60,14 @@ static void add_normal(struct normals *n, const struct ir_slot *slot)
 static ir_ref shade(struct normals *n, ir_ref surface, ir_ref normal)
 {
     struct ir_graph *g = n->graph;
-    ir_ref shaded = ir_replace(g, surface, n->stream, normal, n->shader->arena);
-    if (ir_get(g, shaded)->op != IR_SURFACE_SHADER)
+    ir_ref shaded = ir_replace(g, surface, n->stream, normal, n->shader->arena),
+           inner = closure_without_aovs(g, shaded);
+    if (ir_get(g, inner)->op != IR_SURFACE_SHADER)
         return shaded;
-    ir_ref args[4] = {ir_arg(g, shaded, 0), ir_arg(g, shaded, 1), ir_arg(g, surface, 2),
-                      ir_arg(g, shaded, 3)};
-    return ir_build(g, IR_SURFACE_SHADER, IR_TYPE_SURFACE, ir_get(g, shaded)->attr, args, 4);
+    ir_ref args[4] = {ir_arg(g, inner, 0), ir_arg(g, inner, 1),
+                      ir_arg(g, closure_without_aovs(g, surface), 2), ir_arg(g, inner, 3)};
+    ir_ref seen = ir_build(g, IR_SURFACE_SHADER, IR_TYPE_SURFACE, ir_get(g, inner)->attr, args, 4);
+    return ir_replace(g, shaded, inner, seen, n->shader->arena);
 }
 
 ir_ref closure_shade_slots(struct shader *shader, ir_ref slots, ir_ref moved)

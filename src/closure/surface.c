@@ -360,9 +360,7 @@ static ir_ref encoded(struct emitter *e, ir_ref color)
 
 static void write_value(struct emitter *e, str_id name, ir_ref value)
 {
-    struct shader_variable out = {
-        .name = name, .block = BLOCK_OUTPUTS, .type = ir_type_of(e->graph, value)};
-    effect(e, EFFECT_OUTPUT, shader_add_variable(e->shader, &out), value);
+    effect(e, EFFECT_OUTPUT, shader_output(e->shader, name, ir_type_of(e->graph, value)), value);
 }
 
 /* A program has one output for both, a function gives two members. */
@@ -418,6 +416,20 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
     return s->alpha ? ir_op2(g, IR_MUL, s->alpha, rest) : rest;
 }
 
+/* AOVs have the alpha that the colour has. */
+static void write_aovs(struct emitter *e, struct closure_aovs aovs, ir_ref alpha)
+{
+    if (alpha)
+        aovs = closure_aovs_scaled(e->graph, aovs, alpha);
+    for (uint32_t i = 0; i < aovs.num; i++) {
+        if (!e->shader->aovs.items[i].is_output)
+            continue;
+        ir_ref value = closure_aov_value(e->shader, i, aovs.items[i].value);
+        effect(e, EFFECT_OUTPUT, closure_aov_output(e->shader, i, ir_type_of(e->graph, value)),
+               value);
+    }
+}
+
 static void finish_surface(struct emitter *e, const struct closure_surface *s)
 {
     ir_ref alpha = output_alpha(e, s), one = ir_const_float(e->graph, 1.0f);
@@ -425,15 +437,18 @@ static void finish_surface(struct emitter *e, const struct closure_surface *s)
     if (e->lighting->transparency == TRANSPARENCY_OPAQUE
         || (closure_is_opaque(e->graph, alpha) && !blends)) {
         write_surface(e, final_color(e), one);
+        write_aovs(e, s->aovs, 0);
         return;
     }
     alpha = alpha ? alpha : one;
     comment(e, STR_opacity);
     alpha_test(e, alpha);
     ir_ref color = final_color(e);
-    if (s->alpha && !s->premultiplied && !e->host->keeps_color)
+    bool has_alpha = !s->alpha || s->premultiplied || e->host->keeps_color;
+    if (!has_alpha)
         color = ir_op2(e->graph, IR_MUL, color, s->alpha);
     write_surface(e, color, e->host->keeps_color ? one : alpha);
+    write_aovs(e, s->aovs, has_alpha ? 0 : s->alpha);
 }
 
 /* Finds the parts under lights and environment. Returns which leaves contribute there. */
@@ -466,6 +481,12 @@ static void find_scattering(struct emitter *e, const struct closure_surface *s,
     flatten_surface(e, s, &out->list);
     out->emission = e->lit.base;
     out->alpha = s->premultiplied ? s->alpha : 0;
+    out->aovs = s->aovs;
+    for (uint32_t i = 0; i < s->aovs.num; i++) {
+        ir_ref *value = &out->aovs.items[i].value;
+        if (*value && ir_type_of(e->graph, *value) == IR_TYPE_EDF)
+            *value = emission(e, *value);
+    }
 }
 
 /* Finds the parts under lights and environment, and the emission. */
@@ -477,6 +498,79 @@ static void light_surface(struct emitter *e, const struct closure_surface *s)
     for (uint32_t i = 0; i < list.leaves.len; i++)
         if (emitted[i])
             shader_add_closure(e->shader, list.leaves.items[i].leaf);
+}
+
+/* ---- AOVs of closures ---- */
+
+/*
+ * Adds the light of a closure, as if it were the whole surface, to the current colour. Its loops
+ * are its own.
+ */
+static void light_aov(struct emitter *e, ir_ref closure)
+{
+    bool emits = ir_type_of(e->graph, closure) == IR_TYPE_EDF;
+    struct closure_surface s = {.bsdf = emits ? 0 : closure, .edf = emits ? closure : 0};
+    ir_ref through = e->through; /* it is not that of the surface */
+    e->loop++;
+    light_surface(e, &s);
+    emit_lit(e);
+    e->through = through;
+}
+
+static bool is_closure(const struct emitter *e, ir_ref value)
+{
+    return value && ir_type_is_closure(ir_type_of(e->graph, value));
+}
+
+/* Replaces closures by their light. */
+static void light_aovs(struct emitter *e, struct closure_aovs aovs)
+{
+    for (uint32_t i = 0; i < aovs.num; i++) {
+        if (!is_closure(e, aovs.items[i].value))
+            continue;
+        struct closure_lit surface = e->lit;
+        e->lit = (struct closure_lit){.color = UINT32_MAX};
+        light_aov(e, aovs.items[i].value);
+        aovs.items[i].value = final_color(e);
+        e->lit = surface;
+    }
+}
+
+/* Locals for the AOVs of the layer that is picked. */
+static uint32_t *declare_aovs(struct emitter *e)
+{
+    uint32_t num = e->shader->aovs.len;
+    uint32_t *locals = ARENA_ARRAY(e->shader->arena, uint32_t, num);
+    for (uint32_t i = 0; i < num; i++) {
+        locals[i] = shader_add_local(e->shader, e->shader->aovs.items[i].name,
+                                     closure_aov_type(e->shader, i));
+        effect(e, EFFECT_VAR, locals[i], closure_aov_value(e->shader, i, 0));
+    }
+    return locals;
+}
+
+static void keep_aovs(struct emitter *e, struct closure_aovs aovs, const uint32_t *locals)
+{
+    for (uint32_t i = 0; i < aovs.num; i++) {
+        ir_ref value = aovs.items[i].value;
+        if (is_closure(e, value)) {
+            e->lit = (struct closure_lit){.color = locals[i]};
+            light_aov(e, value);
+            if (e->lit.base)
+                effect(e, EFFECT_ACCUMULATE, locals[i], vec3_of(e, e->lit.base));
+        } else if (value) {
+            effect(e, EFFECT_ASSIGN, locals[i], closure_aov_value(e->shader, i, value));
+        }
+    }
+}
+
+static struct closure_aovs read_aovs(struct emitter *e, const uint32_t *locals)
+{
+    struct closure_aovs aovs = closure_aovs_of(e->shader);
+    for (uint32_t i = 0; i < aovs.num; i++)
+        aovs.items[i].value =
+            ir_build(e->graph, IR_LOCAL, closure_aov_type(e->shader, i), locals[i], NULL, 0);
+    return aovs;
 }
 
 /* ---- one layer of a stack ---- */
@@ -502,11 +596,15 @@ static void scatter_stack(struct emitter *e, ir_ref slots)
 
 static bool is_dark(const struct emitter *e, const struct closure_surface *s)
 {
+    for (uint32_t i = 0; i < s->aovs.num; i++)
+        if (s->aovs.items[i].value)
+            return false;
     return !s->bsdf && !s->edf && (!s->unlit || ir_const_is(e->graph, s->unlit, 0.0f));
 }
 
-static void emit_layer(struct emitter *e, const struct closure_choice *choice)
+static void emit_layer(struct emitter *e, const struct closure_choice *choice, const uint32_t *aovs)
 {
+    uint32_t color = e->lit.color;
     if (is_dark(e, &choice->layer))
         return;
     if (choice->is_it)
@@ -516,6 +614,8 @@ static void emit_layer(struct emitter *e, const struct closure_choice *choice)
     if (e->lit.base)
         effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, e->lit.base));
     emit_lit(e);
+    keep_aovs(e, choice->layer.aovs, aovs);
+    e->lit.color = color;
     e->loop++;
     if (choice->is_it)
         effect(e, EFFECT_END, 0, 0);
@@ -529,11 +629,12 @@ static void emit_picked(struct emitter *e, ir_ref slots)
     struct closure_choices choices = {0};
     closure_choose(e->shader, e->host, closure_own_textures(e->shader, slots), number, &choices);
     declare_color(e);
+    uint32_t *aovs = declare_aovs(e);
     for (uint32_t i = 0; i < choices.items.len; i++)
-        emit_layer(e, &choices.items.items[i]);
+        emit_layer(e, &choices.items.items[i], aovs);
     e->loop = 0;
     e->lit.base = 0;
-    struct closure_surface whole = {.premultiplied = true};
+    struct closure_surface whole = {.premultiplied = true, .aovs = read_aovs(e, aovs)};
     if (choices.covered)
         whole.alpha = ir_op3(g, IR_SELECT, ir_op2(g, IR_LT, number, choices.covered), one, nothing);
     finish_surface(e, &whole);
@@ -561,6 +662,8 @@ static void emit_surface(struct emitter *e, ir_ref root)
     }
     light_surface(e, &s);
     emit_lit(e);
+    light_aovs(e, s.aovs);
+    e->loop = 0;
     finish_surface(e, &s);
 }
 
@@ -641,6 +744,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
         root = ir_arg(e.graph, root, 3) ? ir_arg(e.graph, root, 3)
                                         : closure_displace(shader, host, ir_arg(e.graph, root, 0),
                                                            ir_arg(e.graph, root, 2));
+    closure_find_aovs(shader, root);
     ir_type_id type = root ? ir_type_of(e.graph, root) : IR_TYPE_SURFACE;
     if (type == IR_TYPE_BSDF || type == IR_TYPE_EDF) {
         ir_ref args[4] = {type == IR_TYPE_BSDF ? root : 0, type == IR_TYPE_EDF ? root : 0,

@@ -296,6 +296,9 @@ struct diag_place doc_attr_place(const struct document *doc, elem_id element, st
 /* The place of an attribute's name. */
 struct diag_place doc_attr_name_place(const struct document *doc, elem_id element, str_id attr);
 
+/* aovoutput.c: makes nodes <aov> and <aovpass> of the <aovoutput> in nodegraphs. */
+void doc_rewrite_aovs(struct document *doc);
+
 /* template.c: expands the <template> elements of this layer in place (docs/library.md). */
 void doc_expand_templates(struct document *doc, struct diag_list *diags);
 

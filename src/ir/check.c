@@ -22,6 +22,7 @@ static const struct operands {
     {IR_VOLUME_SHADER, "cc"}, {IR_DISPLACEMENT_SHADER, "nn"}, {IR_LIGHT_SHADER, "cnn"},
     {IR_SHADER_MIX, "ssn"},   {IR_MATERIAL, "ssss"},          {IR_SLAB_LAYER, "ccn"},
     {IR_SLAB_SURFACE, "cbn"}, {IR_SUBSTANCE, "snnn"},         {IR_SLOTS, "nsnnnx"},
+    {IR_AOV, "sx"},
 };
 
 /* The class of an operand: the last ones repeat for each layer of a stack. */

@@ -101,9 +101,12 @@ static void check_element(struct validate *v, elem_id element)
 
 /* ---- Unused nodes ---- */
 
-/* Materials, shaders, and nodes that a look or an output uses are entry points. */
+/* Materials, shaders, AOVs, and nodes that a look or an output uses are entry points. */
 static bool is_end(const struct validate *v, elem_id node)
 {
+    str_id category = doc_element(v->doc, node)->category;
+    if (category == STR_aov || category == STR_aovpass)
+        return true;
     doc_type type = library_type(v->lib, doc_attr_value(v->doc, node, STR_type));
     bool is_top_level = doc_element(v->doc, node)->parent == v->doc->root;
     return type == DOC_TYPE_material

@@ -123,6 +123,18 @@ uint32_t shader_add_variable(struct shader *shader, const struct shader_variable
     return index;
 }
 
+uint32_t shader_output(struct shader *shader, str_id name, ir_type_id type)
+{
+    assert(type != IR_TYPE_BOOL);
+    uint32_t found = shader_find_variable(shader, BLOCK_OUTPUTS, name);
+    if (found != UINT32_MAX) {
+        assert(shader->variables.items[found].type == type);
+        return found;
+    }
+    return shader_add_variable(
+        shader, &(struct shader_variable){.name = name, .block = BLOCK_OUTPUTS, .type = type});
+}
+
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name)
 {
     uint32_t found = find(shader, name_scope(shader, block), name);

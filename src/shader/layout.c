@@ -111,6 +111,14 @@ static uint32_t num_locations(ir_type_id type)
     return ir_type_info(type)->columns;
 }
 
+bool shader_has_locations(const struct shader *shader, enum shader_block block)
+{
+    const uint32_t *first = &shader->first_of_block[block];
+    bool are_several_outputs = block == BLOCK_OUTPUTS && first[1] - first[0] > 1
+                               && !shader->scatters && !shader->rules.one_stage;
+    return shader->rules.bindings || are_several_outputs;
+}
+
 static void finish_buffers(struct shader *shader)
 {
     for (int block = 0; block < NUM_BLOCKS; block++)
@@ -167,7 +175,7 @@ void shader_layout(struct shader *shader)
             }
             break;
         default:
-            if (rules->bindings) {
+            if (shader_has_locations(shader, (enum shader_block)variable->block)) {
                 variable->location = location[variable->block];
                 location[variable->block] += num_locations(variable->type);
             }

@@ -82,7 +82,7 @@ static void put_place(struct reflect *r, const struct shader_variable *variable)
         }
         break;
     default:
-        if (r->shader->rules.bindings)
+        if (shader_has_locations(r->shader, (enum shader_block)variable->block))
             json_put_number(&r->json, "location", variable->location);
     }
 }

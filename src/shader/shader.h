@@ -46,6 +46,14 @@ struct shader_sampling {
     int32_t frameoffset;               /* offset from the current frame */
 };
 
+/* An AOV: a further output of the pixel stage, by a name of the document. */
+struct shader_aov {
+    str_id name, doc_type; /* "dirt", "color3"; a BSDF or EDF is its light */
+    ir_type_id type;       /* of its values */
+    uint32_t element;      /* of the document: the first node that has it */
+    bool is_output;        /* the root has it: closure_find_aovs */
+};
+
 /* A tile: one of several files of an image, which covers a unit square of texture coordinates. */
 struct shader_tile {
     str_id file;
@@ -236,6 +244,7 @@ struct shader {
     struct lang_style *style; /* its reserved words are not valid for variables; NULL: none */
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;
+    VEC(struct shader_aov) aovs; /* IR_AOV has an index in it */
     VEC(struct shader_compiled_input) compiled;
     VEC(struct shader_local) locals;
     VEC(struct shader_light) lights;
@@ -307,6 +316,11 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable);
 /* At file scope, apart from the underscore for reserved words. */
 bool shader_name_is_free(struct shader *shader, str_id name);
+/*
+ * The pixel output of this name; adds it behind the others if absent. Its location follows theirs
+ * (shader_layout). Its type has no boolean, because no attachment has.
+ */
+uint32_t shader_output(struct shader *shader, str_id name, ir_type_id type);
 /* UINT32_MAX: none. */
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name);
 
@@ -388,6 +402,12 @@ void shader_specialise_calls(struct shader *shader, bool typed_textures);
  * before shader_finish.
  */
 uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id);
+
+/*
+ * layout.c: True if the source gives the variables of a block their locations: outputs have them in
+ * every target as soon as there are several, because their order alone says nothing to a host.
+ */
+bool shader_has_locations(const struct shader *shader, enum shader_block block);
 
 /* topology.c: a hash of a finished shader without names and uniform values. */
 uint64_t shader_topology(const struct shader *shader, struct arena *scratch);

@@ -1,0 +1,96 @@
+#version 300 es
+// Paint · surfacematerial · mxgen 0.1 · essl · reduced · 4 closures · 0 textures
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+
+uniform vec3 u_viewPosition;
+uniform int u_numActiveLightSources;
+uniform float u_alphaThreshold;
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+uniform LightData u_lightData[3];
+in vec3 vd_positionWorld;
+in vec3 vd_normalObject;
+in vec3 vd_normalWorld;
+in vec2 vd_texcoord_0;
+layout(location = 0) out vec4 out1;
+layout(location = 1) out vec3 aov_diffuse;
+layout(location = 2) out vec3 aov_glow;
+layout(location = 3) out vec3 aov_base_albedo;
+layout(location = 4) out vec2 aov_uv;
+layout(location = 5) out vec4 aov_weights;
+layout(location = 6) out int aov_is_paint;
+layout(location = 7) out int aov_id;
+layout(location = 8) out vec3 aov_normal;
+
+void main()
+{
+    vec3 color = vec3(0.1, 0.2, 0.3);
+    // lights
+    vec3 direction = normalize(vd_normalWorld);
+    vec3 P = direction * vd_texcoord_0.x + vd_positionWorld;
+    vec3 facet_direction = normalize(cross(dFdx(P), dFdy(P)));
+    vec3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
+    vec3 facet_direction_2 = normalize(cross(dFdx(vd_positionWorld), dFdy(vd_positionWorld)));
+    vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    // SR/base
+    vec3 diffuse_facing = faceforward(N, -normalize(u_viewPosition - P), N);
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // diffuse
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        vec3 d = u_lightData[i].position - P;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float product = smoothstep(difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio;
+        float choice = type == 3 ? product : 0.0;
+        float choice_2 = type == 2 ? ratio : choice;
+        vec3 to_light_2 = -u_lightData[i].direction;
+        vec3 diffuse_response = max(dot(type == 1 ? to_light_2 : to_light, diffuse_facing), 1e-8) / 3.1415927
+            * vec3(0.8, 0.1, 0.1);
+        color += u_lightData[i].color * (type == 1 ? intensity : choice_2) * diffuse_response;
+    }
+    vec3 color_2 = vec3(0.0);
+    // lights
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // diffuse
+        int type_2 = u_lightData[i].type;
+        float intensity_2 = u_lightData[i].intensity;
+        float spot_light_ratio = intensity_2
+            / pow(length(u_lightData[i].position - P) + 1.0, u_lightData[i].decay_rate);
+        float inner_angle = u_lightData[i].inner_angle;
+        vec3 direction_2 = u_lightData[i].direction;
+        vec3 spot_light_direction = normalize(u_lightData[i].position - P);
+        float spot_light_product = smoothstep(min(inner_angle, u_lightData[i].outer_angle) - 0.00001, inner_angle,
+            -dot(direction_2, spot_light_direction)) * spot_light_ratio;
+        float spot_light_choice = type_2 == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type_2 == 2 ? spot_light_ratio : spot_light_choice;
+        vec3 negative_direction_2 = -direction_2;
+        vec3 diffuse_product = max(dot(diffuse_facing, type_2 == 1 ? negative_direction_2 : spot_light_direction), 1e-8)
+            / 3.1415927 * vec3(0.8, 0.1, 0.1);
+        color_2 += u_lightData[i].color * (type_2 == 1 ? intensity_2 : point_light_choice) * diffuse_product;
+    }
+    // opacity
+    if (0.5 < u_alphaThreshold)
+        discard;
+    out1 = vec4(color * 0.5, 0.5);
+    aov_diffuse = color_2 * 0.5;
+    aov_glow = vec3(0.05, 0.1, 0.15);
+    aov_base_albedo = vec3(0.4, 0.05, 0.05);
+    aov_uv = vd_texcoord_0 * 0.5;
+    aov_weights = vec4(0.05, 0.1, 0.15, 0.2);
+    aov_is_paint = 1;
+    aov_id = 7;
+    aov_normal = normalize(vd_normalObject) * 0.5;
+}

@@ -1,0 +1,106 @@
+// Paint · surfacematerial · mxgen 0.1 · hlsl · reduced · 4 closures · 0 textures
+// shader model 6.0
+
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    float u_alphaThreshold : packoffset(c13);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalObject : TEXCOORD1;
+    float3 normalWorld : TEXCOORD2;
+    float2 texcoord_0 : TEXCOORD3;
+};
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0,
+    out float3 aov_diffuse : SV_Target1,
+    out float3 aov_glow : SV_Target2,
+    out float3 aov_base_albedo : SV_Target3,
+    out float2 aov_uv : SV_Target4,
+    out float4 aov_weights : SV_Target5,
+    out int aov_is_paint : SV_Target6,
+    out int aov_id : SV_Target7,
+    out float3 aov_normal : SV_Target8)
+{
+    float3 color = float3(0.1, 0.2, 0.3);
+    // lights
+    float3 direction = normalize(vd.normalWorld);
+    float3 P = direction * vd.texcoord_0.x + vd.positionWorld;
+    float3 facet_direction = normalize(cross(ddx(P), ddy(P)));
+    float3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
+    float3 facet_direction_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
+    float3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    // SR/base
+    float3 diffuse_facing = faceforward(N, -normalize(u_viewPosition - P), N);
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // diffuse
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        float3 d = u_lightData[i].position - P;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float product = smoothstep(difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio;
+        float choice = type == 3 ? product : 0.0;
+        float choice_2 = type == 2 ? ratio : choice;
+        float3 to_light_2 = -u_lightData[i].direction;
+        float3 diffuse_response = max(dot(type == 1 ? to_light_2 : to_light, diffuse_facing), 1e-8) / 3.1415927
+            * float3(0.8, 0.1, 0.1);
+        color += u_lightData[i].color * (type == 1 ? intensity : choice_2) * diffuse_response;
+    }
+    float3 color_2 = float3(0.0, 0.0, 0.0);
+    // lights
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // diffuse
+        int type_2 = u_lightData[i].type;
+        float intensity_2 = u_lightData[i].intensity;
+        float spot_light_ratio = intensity_2
+            / pow(length(u_lightData[i].position - P) + 1.0, u_lightData[i].decay_rate);
+        float inner_angle = u_lightData[i].inner_angle;
+        float3 direction_2 = u_lightData[i].direction;
+        float3 spot_light_direction = normalize(u_lightData[i].position - P);
+        float spot_light_product = smoothstep(min(inner_angle, u_lightData[i].outer_angle) - 0.00001, inner_angle,
+            -dot(direction_2, spot_light_direction)) * spot_light_ratio;
+        float spot_light_choice = type_2 == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type_2 == 2 ? spot_light_ratio : spot_light_choice;
+        float3 negative_direction_2 = -direction_2;
+        float3 diffuse_product = max(dot(diffuse_facing, type_2 == 1 ? negative_direction_2 : spot_light_direction),
+            1e-8) / 3.1415927 * float3(0.8, 0.1, 0.1);
+        color_2 += u_lightData[i].color * (type_2 == 1 ? intensity_2 : point_light_choice) * diffuse_product;
+    }
+    // opacity
+    if (0.5 < u_alphaThreshold)
+        discard;
+    out1 = float4(color * 0.5, 0.5);
+    aov_diffuse = color_2 * 0.5;
+    aov_glow = float3(0.05, 0.1, 0.15);
+    aov_base_albedo = float3(0.4, 0.05, 0.05);
+    aov_uv = vd.texcoord_0 * 0.5;
+    aov_weights = float4(0.05, 0.1, 0.15, 0.2);
+    aov_is_paint = 1;
+    aov_id = 7;
+    aov_normal = normalize(vd.normalObject) * 0.5;
+}

@@ -1,0 +1,77 @@
+#version 450
+// Paint · surfacematerial · mxgen 0.1 · vulkan · reduced · 3 closures · 0 textures
+
+struct VertexData {
+    vec3 normalObject;
+    vec3 normalWorld;
+    vec3 viewWorld;
+    vec4 random;
+    vec4 lightWorld;
+    vec3 normalMoved;
+    vec2 texcoord_0;
+};
+VertexData vd;
+vec4 out8;
+vec4 out1;
+vec4 out2;
+vec4 out3;
+vec4 out4;
+vec4 out5;
+vec3 aov_glow;
+vec3 aov_base_albedo;
+vec2 aov_uv;
+vec4 aov_weights;
+int aov_is_paint;
+int aov_id;
+vec3 aov_normal;
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(const vec3 N, const vec3 X)
+{
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+void scatter()
+{
+    out8 = vec4(normalize(vd.normalWorld) * vd.texcoord_0.x, 0.0);
+    float pick = vd.random.w * 0.4;
+    vec3 L = vec3(0.0);
+    float inside = 0.0;
+    vec3 weight = vec3(0.0);
+    float density = 0.0;
+    vec3 medium = vec3(1.0);
+    vec3 N = normalize(vd.normalMoved);
+    // SR/base
+    vec3 diffuse_N = faceforward(N, -vd.viewWorld, N);
+    // SR
+    const vec3 base_constant = vec3(0.8, 0.1, 0.1);
+    if (pick < 0.4 && pick >= 0.0) {
+        mat3 any_frame = mx_frame(diffuse_N, abs(diffuse_N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+        vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
+        vec3 L_2 = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
+        L = L_2;
+        float diffuse_n_dot_l_2 = dot(diffuse_N, L_2);
+        float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
+        weight = max(diffuse_n_dot_l_2, 1e-8) / 3.1415927 * base_constant / max(pdf, 1e-8);
+        density = pdf;
+    }
+    pick += -0.4;
+    out1 = vec4(0.1, 0.2, 0.3, 0.5);
+    out2 = vec4(L, inside);
+    out3 = vec4(weight, density);
+    out4 = vec4(medium, 0.0);
+    float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
+    float sum = vd.lightWorld.w * (max(diffuse_n_dot_l, 0.0) / 3.1415927) + 1.0;
+    out5 = vec4(max(diffuse_n_dot_l, 1e-8) / 3.1415927 * base_constant / sum, 0.0);
+    aov_glow = vec3(0.1, 0.2, 0.3);
+    aov_base_albedo = base_constant;
+    aov_uv = vd.texcoord_0;
+    aov_weights = vec4(0.1, 0.2, 0.3, 0.4);
+    aov_is_paint = 1;
+    aov_id = 7;
+    aov_normal = normalize(vd.normalObject);
+}
