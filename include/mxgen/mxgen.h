@@ -412,13 +412,14 @@ typedef enum mxg_option_type {
     MXG_OPTION_STRING,
     MXG_OPTION_ENUM,
     MXG_OPTION_LIST,
+    MXG_OPTION_FLOAT, /* empty: not set */
     MXG_OPTION_MAX_ENUM = 0x7fffffff
 } mxg_option_type;
 typedef struct mxg_option {
     size_t size;     /* in */
     const char *key; /* "interface" */
     mxg_option_type type;
-    const char *values;  /* ENUM: "complete|authored|reduced"; INT: "0..1024" */
+    const char *values;  /* ENUM: "complete|authored|reduced"; INT, FLOAT: "0..1024" */
     const char *initial; /* the default, as text */
     const char *doc;
 } mxg_option;

@@ -70,6 +70,8 @@ static void view_closures(struct generation *g, struct text *out)
     if (!generation_start(g) || !generation_build(g))
         return;
     generation_start_closures(g);
+    if (!generation_budget_slabs(g))
+        return;
     generation_walk_slabs(g);
     closure_describe(&g->result->shader, &g->closure_host, g->root, out);
 }
