@@ -12,7 +12,7 @@
 #include "base/names.h"
 #include "library/library.h"
 #include "shader/network.h"
-#include "slabs/budget.h"
+#include "slabs/sheet.h"
 
 /* The inputs that become uniforms: the option `interface`. */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
@@ -120,6 +120,9 @@ struct closure_host build_closure_host(struct builder *builder, struct closure_p
 void build_know_slabs(struct builder *builder);
 /* slabs_walk with the library's slabs. */
 ir_ref build_walk_slabs(struct builder *builder, const struct closure_host *closures, ir_ref root);
+/* slabs_fill_sheet with the library's slabs; scratch as below. */
+void build_fill_sheet(struct builder *builder, const struct closure_host *closures,
+                      struct arena *scratch, ir_ref root, struct slab_sheet *out);
 /* slabs_budget with the library's slabs. scratch: empty, and again after the call. */
 ir_ref build_budget_slabs(struct builder *builder, const struct closure_host *closures,
                           struct arena *scratch, const struct slab_budget *budget, ir_ref root,

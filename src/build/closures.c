@@ -63,6 +63,14 @@ ir_ref build_budget_slabs(struct builder *b, const struct closure_host *closures
     return slabs_budget(b->shader, &host, budget, root, out);
 }
 
+void build_fill_sheet(struct builder *b, const struct closure_host *closures, struct arena *scratch,
+                      ir_ref root, struct slab_sheet *out)
+{
+    struct slabs_host host = slabs_host(b, closures);
+    host.scratch = scratch;
+    slabs_fill_sheet(b->shader, &host, root, out);
+}
+
 static ir_ref without_slabs(struct builder *b, ir_ref root)
 {
     struct closure_point point = {0};

@@ -144,25 +144,39 @@ static ir_ref light_of(struct eye *eye, const struct closure_host *host,
     return ir_convert(g, IR_TYPE_VEC3, sum);
 }
 
+/* The host of the closures, with the eye's view and functions. */
+struct seen {
+    struct closure_host host;
+    struct closure_point point;
+    struct lang_host lang;
+};
+
+static void see(struct eye *eye, struct seen *out)
+{
+    const struct lang_host *lang = eye->host->closures->lang;
+    out->point = (struct closure_point){.view = eye->view};
+    out->lang = (struct lang_host){.user_data = eye,
+                                   .global = global,
+                                   .max_outer_nodes = lang->max_outer_nodes,
+                                   .max_inline_nodes = lang->max_inline_nodes};
+    out->host = *eye->host->closures;
+    out->host.point = &out->point;
+    out->host.lang = &out->lang;
+}
+
 /* The colour of a closure, before a grey background. */
 static ir_ref color_of(struct eye *eye, ir_ref lobes)
 {
     struct ir_graph *g = eye->shader->graph;
-    struct closure_point point = {.view = eye->view};
-    struct closure_host host = *eye->host->closures;
-    struct lang_host lang = {.user_data = eye,
-                             .global = global,
-                             .max_outer_nodes = host.lang->max_outer_nodes,
-                             .max_inline_nodes = host.lang->max_inline_nodes};
+    struct seen seen;
     struct closure_list list;
-    host.point = &point;
-    host.lang = &lang;
+    see(eye, &seen);
     ir_ref none = ir_const_float(g, 0.0f);
-    ir_ref through = closure_throughput(eye->shader, &host, lobes, none);
+    ir_ref through = closure_throughput(eye->shader, &seen.host, lobes, none);
     ir_ref sum = mul(g, through, ir_const_float(g, BACKGROUND));
-    closure_flatten(eye->shader, &host, lobes, &list);
+    closure_flatten(eye->shader, &seen.host, lobes, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++)
-        sum = ir_op2(g, IR_ADD, sum, light_of(eye, &host, &list.leaves.items[i]));
+        sum = ir_op2(g, IR_ADD, sum, light_of(eye, &seen.host, &list.leaves.items[i]));
     return sum;
 }
 
@@ -174,18 +188,23 @@ static struct ir_value light_for(float sine, float cosine, unsigned which)
     return which ? value_of_three(0.48f, 0.36f, 0.8f) : value_of_three(-sine, 0.0f, cosine);
 }
 
-static bool look_at(struct eye *eye, ir_ref color, struct slab_look *out)
+static bool evaluate(struct eye *eye, ir_ref color, struct ir_value *out)
 {
     const struct ir_eval_env env = {.user_data = eye, .source = source, .call = call};
+    bool good = ir_eval(eye->shader->graph, color, &env, eye->host->scratch, out);
+    arena_finish(eye->host->scratch);
+    return good;
+}
+
+static bool look_at(struct eye *eye, ir_ref color, struct slab_look *out)
+{
     for (unsigned i = 0; i < NUM_VIEWS * NUM_LIGHTS; i++) {
         float square = ((float)(i / NUM_LIGHTS) + 0.5f) / NUM_VIEWS;
         float sine = sqrtf(square), cosine = sqrtf(1.0f - square);
         struct ir_value value;
         eye->view_value = value_of_three(sine, 0.0f, cosine);
         eye->light_value = light_for(sine, cosine, i % NUM_LIGHTS);
-        bool good = ir_eval(eye->shader->graph, color, &env, eye->host->scratch, &value);
-        arena_finish(eye->host->scratch);
-        if (!good)
+        if (!evaluate(eye, color, &value))
             return false;
         for (unsigned c = 0; c < 3; c++)
             vec_push(eye->shader->arena, &out->colors, value.w[c].f);
@@ -214,14 +233,20 @@ static ir_ref direction(const struct eye *eye, uint32_t number)
     return ir_build(eye->shader->graph, IR_LOCAL, IR_TYPE_VEC3, UINT32_MAX - number, NULL, 0);
 }
 
+static struct eye open_eye(struct shader *shader, const struct slabs_host *host)
+{
+    struct eye eye = {.shader = shader, .host = host};
+    eye.view = direction(&eye, 0);
+    eye.light = direction(&eye, 1);
+    return eye;
+}
+
 void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref root,
                 const struct slab_look *like, struct slab_look *out)
 {
     struct ir_graph *g = shader->graph;
-    struct eye eye = {.shader = shader, .host = host};
+    struct eye eye = open_eye(shader, host);
     *out = (struct slab_look){.is_known = true};
-    eye.view = direction(&eye, 0);
-    eye.light = direction(&eye, 1);
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     out->num_points = like ? like->num_points : varies(shader, needed, root) ? NUM_POINTS : 1;
     for (ir_ref ref = 1; ref <= root && out->is_known; ref++) {
@@ -246,4 +271,27 @@ float slabs_difference(const struct slab_look *a, const struct slab_look *b)
     for (uint32_t i = 0; i < num; i++)
         sum += color_difference(a->colors.items + i * 3, b->colors.items + i * 3);
     return (float)(sum / num);
+}
+
+ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_ref top,
+                     ir_ref thickness)
+{
+    struct ir_graph *g = shader->graph;
+    struct eye eye = open_eye(shader, host);
+    struct seen seen;
+    see(&eye, &seen);
+    ir_ref args[3] = {top, ir_const_bool(g, true), thickness};
+    ir_ref sheet = ir_build(g, IR_SLAB_SURFACE, IR_TYPE_SURFACE, 0, args, 3);
+    ir_ref walked = slabs_walk(shader, host, sheet), mean = ir_const_float(g, CLOSURE_MEAN_WAY);
+    return closure_throughput(shader, &seen.host, ir_arg(g, walked, 0), mean);
+}
+
+float slabs_brightness(struct shader *shader, const struct slabs_host *host, ir_ref color)
+{
+    struct eye eye = open_eye(shader, host);
+    struct ir_value value;
+    eye.view_value = value_of_three(0.0f, 0.0f, 1.0f);
+    if (!evaluate(&eye, color, &value))
+        return -1.0f;
+    return (value.w[0].f + value.w[1].f + value.w[2].f) / 3.0f;
 }

@@ -22,6 +22,15 @@ struct slab_look {
 void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref root,
                 const struct slab_look *like, struct slab_look *out);
 
+/*
+ * What a closure lets through as a layer of this thickness, of light that comes in on the mean way
+ * and goes out along the normal: a vec3 for slabs_brightness.
+ */
+ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_ref top,
+                     ir_ref thickness);
+/* The mean of the channels, seen along the normal; below 0: unknown. */
+float slabs_brightness(struct shader *shader, const struct slabs_host *host, ir_ref color);
+
 /* The mean CIEDE2000 of two looks of one document. -1: unknown. */
 float slabs_difference(const struct slab_look *a, const struct slab_look *b);
 

@@ -55,9 +55,6 @@ struct slabs_host {
 /* True if a closure or shader has slabs. ref 0: it has none. */
 bool slabs_has(const struct shader *shader, ir_ref ref);
 
-/* describe.c: the tree of slabs as text, before the walk. */
-void slabs_describe(const struct shader *shader, ir_ref root, struct text *out);
-
 /*
  * Replaces all slabs below a root of any type by their lobes. Returns the root itself if it has no
  * slabs. The result has no SLAB, SLAB_LAYER and SLAB_SURFACE.
