@@ -117,11 +117,86 @@ static ir_ref mean_roughness(struct ir_graph *g, const struct part *part)
                  part->in[SLAB_second_roughness_weight]);
 }
 
-/* A lobe for each part, so that a sharp highlight stays beside a wide one. */
+/* A lobe of a part, of light that the whole slab reflects. */
+struct lobe {
+    float roughness, share;
+};
+
+enum { MAX_LOBES = 4 };
+
+/* The lobes of both parts; 0: some depend on the pixel. */
+static unsigned constant_lobes(const struct ir_graph *g, const struct part *a, const struct part *b,
+                               ir_ref share, struct lobe *out)
+{
+    struct ir_value of_b, weight, first, second;
+    if (!ir_get_const(g, share, &of_b))
+        return 0;
+    for (unsigned i = 0; i < 2; i++) {
+        const ir_ref *in = i ? b->in : a->in;
+        float whole = i ? of_b.w[0].f : 1.0f - of_b.w[0].f;
+        if (!ir_get_const(g, in[SLAB_second_roughness_weight], &weight)
+            || !ir_get_const(g, in[SLAB_roughness], &first)
+            || !ir_get_const(g, in[SLAB_second_roughness], &second))
+            return 0;
+        *out++ = (struct lobe){first.w[0].f, whole * (1.0f - weight.w[0].f)};
+        *out++ = (struct lobe){second.w[0].f, whole * weight.w[0].f};
+    }
+    return MAX_LOBES;
+}
+
+/* The mean of the lobes in a set, as bits; returns the spread around it. */
+static float gather(const struct lobe *lobes, unsigned set, struct lobe *out)
+{
+    float spread = 0.0f;
+    *out = (struct lobe){0.0f, 0.0f};
+    for (unsigned i = 0; i < MAX_LOBES; i++) {
+        out->share += set >> i & 1u ? lobes[i].share : 0.0f;
+        out->roughness += set >> i & 1u ? lobes[i].share * lobes[i].roughness : 0.0f;
+    }
+    out->roughness /= out->share > 1e-6f ? out->share : 1.0f;
+    for (unsigned i = 0; i < MAX_LOBES; i++) {
+        float away = lobes[i].roughness - out->roughness;
+        spread += set >> i & 1u ? lobes[i].share * away * away : 0.0f;
+    }
+    return spread;
+}
+
+/* The two lobes that are nearest to all, the first with the rough one: false if one is enough. */
+static bool two_lobes(const struct lobe *lobes, struct lobe *out)
+{
+    enum { ALL = (1 << MAX_LOBES) - 1 };
+    float least = gather(lobes, ALL, &out[0]);
+    out[1] = (struct lobe){out[0].roughness, 0.0f};
+    if (least < 1e-6f)
+        return false;
+    for (unsigned set = 1; set < ALL; set++) {
+        struct lobe pair[2];
+        float spread = gather(lobes, set, &pair[0]);
+        spread += gather(lobes, ALL & ~set, &pair[1]);
+        if (spread < least && pair[0].roughness >= pair[1].roughness) {
+            least = spread;
+            memcpy(out, pair, sizeof pair);
+        }
+    }
+    return true;
+}
+
+static void set_one_lobe(struct ir_graph *g, const struct part *a, ir_ref roughness, ir_ref *out)
+{
+    out[SLAB_roughness] = roughness;
+    out[SLAB_second_roughness] = a->in[SLAB_second_roughness];
+    out[SLAB_second_roughness_weight] = num(g, 0.0f);
+}
+
+/*
+ * Two lobes for those of both parts, so that a sharp highlight stays beside a wide one: the best
+ * two of constant ones, otherwise one for each part.
+ */
 static void blend_roughness(const struct slab_blend *blend, const struct part *a,
                             const struct part *b, ir_ref share, ir_ref *out)
 {
     struct ir_graph *g = blend->shader->graph;
+    struct lobe lobes[MAX_LOBES], best[2];
     bool is_b_alone = is_dark(g, a) && !is_dark(g, b), is_a_alone = is_dark(g, b) && !is_dark(g, a);
     if (is_a_alone || is_b_alone) {
         const ir_ref *in = is_a_alone ? a->in : b->in;
@@ -132,9 +207,17 @@ static void blend_roughness(const struct slab_blend *blend, const struct part *a
     }
     ir_ref of_a = mean_roughness(g, a), of_b = mean_roughness(g, b);
     if (of_a == of_b || blend->off & 1u << SLAB_SECOND_LOBE) {
-        out[SLAB_roughness] = mixed(g, of_a, of_b, share);
-        out[SLAB_second_roughness] = a->in[SLAB_second_roughness];
-        out[SLAB_second_roughness_weight] = num(g, 0.0f);
+        set_one_lobe(g, a, mixed(g, of_a, of_b, share), out);
+        return;
+    }
+    if (constant_lobes(g, a, b, share, lobes)) {
+        if (!two_lobes(lobes, best)) {
+            set_one_lobe(g, a, num(g, best[0].roughness), out);
+            return;
+        }
+        out[SLAB_roughness] = num(g, best[0].roughness);
+        out[SLAB_second_roughness] = num(g, best[1].roughness);
+        out[SLAB_second_roughness_weight] = num(g, best[1].share);
         return;
     }
     /* the first one is also the roughness of the diffuse light */
@@ -231,30 +314,43 @@ static bool is_opaque(const struct ir_graph *g, const struct part *part)
     return ir_const_is(g, part->in[SLAB_mean_free_path], 0.0f);
 }
 
-/* exp(-thickness / path): what a medium lets through along the normal. */
-static ir_ref let_through(struct ir_graph *g, ir_ref path, ir_ref thickness)
+/*
+ * How often light goes through a medium: out of a sheet once, through a layer on both ways. The
+ * media of a mix let through the mean of their powers, not the power of their mean.
+ */
+static ir_ref ways_of(struct ir_graph *g, const struct slab_spot *spot)
 {
-    ir_ref depth = ir_op2(g, IR_DIV, thickness, at_least(g, path, 1e-6f));
+    const struct ir_node *root = ir_get(g, spot->root);
+    bool is_sheet = root->op == IR_SLAB_SURFACE && ir_arg(g, spot->root, 2) == spot->thickness;
+    return num(g, is_sheet ? CLOSURE_MEAN_WAY : 2.0f * CLOSURE_MEAN_WAY);
+}
+
+/* exp(-ways thickness / path) */
+static ir_ref let_through(struct ir_graph *g, ir_ref path, ir_ref thickness, ir_ref ways)
+{
+    ir_ref depth = ir_op2(g, IR_DIV, mul(g, thickness, ways), at_least(g, path, 1e-6f));
     return ir_op1(g, IR_EXP, ir_op1(g, IR_NEG, depth));
 }
 
-/* The path of a medium that lets this much through. */
-static ir_ref path_of(struct ir_graph *g, ir_ref through, ir_ref thickness)
+/* -log(through) / ways */
+static ir_ref depth_of(struct ir_graph *g, ir_ref through, ir_ref ways)
 {
     ir_ref depth = ir_op1(g, IR_NEG, ir_op1(g, IR_LOG, between(g, through, 1e-30f, 0.99999f)));
-    return at_least(g, ir_op2(g, IR_DIV, thickness, depth), 1e-6f);
+    return ir_op2(g, IR_DIV, depth, ways);
 }
 
-/* In a body paths mix; a sheet lets as much through as both parts. */
+/* In a body paths mix; a layer lets as much through as both parts. */
 static ir_ref path_beside(struct ir_graph *g, const struct part *a, const struct part *b,
                           ir_ref share, const struct slab_spot *spot)
 {
     ir_ref path_a = a->in[SLAB_mean_free_path], path_b = b->in[SLAB_mean_free_path];
     if (!spot->thickness || path_a == path_b || (is_opaque(g, a) && is_opaque(g, b)))
         return mixed(g, path_a, path_b, share);
-    ir_ref through_a = let_through(g, path_a, spot->thickness),
-           through_b = let_through(g, path_b, spot->thickness);
-    return path_of(g, mixed(g, through_a, through_b, share), spot->thickness);
+    ir_ref ways = ways_of(g, spot);
+    ir_ref through_a = let_through(g, path_a, spot->thickness, ways),
+           through_b = let_through(g, path_b, spot->thickness, ways);
+    ir_ref depth = depth_of(g, mixed(g, through_a, through_b, share), ways);
+    return at_least(g, ir_op2(g, IR_DIV, spot->thickness, depth), 1e-6f);
 }
 
 static struct part whole_part(struct ir_graph *g, const ir_ref *in)
@@ -356,9 +452,9 @@ static void blend_depths(struct ir_graph *g, const struct part *a, const struct 
     out[SLAB_mean_free_path] = path;
     if (is_opaque(g, b) || !spot->thickness || ir_const_is(g, b->weight, 0.0f))
         return;
-    ir_ref through = let_through(g, a->in[SLAB_mean_free_path], thickness);
-    through = where_covered(g, a->in[SLAB_coverage], through);
-    ir_ref depth_a = ir_op1(g, IR_NEG, ir_op1(g, IR_LOG, at_least(g, through, 1e-30f)));
+    ir_ref ways = ways_of(g, spot);
+    ir_ref through = let_through(g, a->in[SLAB_mean_free_path], thickness, ways);
+    ir_ref depth_a = depth_of(g, where_covered(g, a->in[SLAB_coverage], through), ways);
     ir_ref depth_b = ir_op2(g, IR_DIV, spot->thickness, at_least(g, path, 1e-6f));
     ir_ref depth = at_least(g, add(g, depth_a, depth_b), 1e-6f);
     out[SLAB_mean_free_path] = ir_op2(g, IR_DIV, spot->thickness, depth);
