@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
+
 #include "cli/files.h"
 #include "cli/help.h"
 #include "cli/memory.h"
+#include "cli/profile.h"
 #include "cli/warnings.h"
 
 #include <errno.h>
@@ -27,6 +29,10 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
         {"plugin", 0, ARG_LIST, "FILE",
          "loads a shared object with nodes in C; it runs with your rights, so not with --sandbox",
          &cli->plugin_files, ARG_COMMON},
+        {"profile", 0, ARG_TEXT, "NAME",
+         "options of a platform: desktop, console, mobile, one-closure, or a file.toml; other "
+         "options of generation override them",
+         &cli->profile, ARG_COMMON},
         {"max-memory", 0, ARG_SIZE, "BYTES", "limit of memory (default: none)", &cli->max_memory,
          ARG_LIMITS},
         {"max-file-size", 0, ARG_SIZE, "MIB", "limit of the size of an input file (default: 256)",
@@ -155,6 +161,8 @@ static bool load_library(struct cli *cli)
 /* Invalid values are bad usage; the message of the option gives the reason. */
 static bool apply_settings(struct cli *cli)
 {
+    if (cli->profile && !profile_apply(cli->options, cli->profile))
+        return false;
     for (size_t i = 0; i < cli->parser.num_settings; ++i) {
         const struct arg_setting *setting = &cli->parser.settings[i];
         if (mxg_options_set(cli->options, setting->key, setting->value) != MXG_OK) {

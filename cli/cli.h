@@ -38,6 +38,7 @@ struct cli {
     struct arg_list include_roots;
     struct arg_list source_paths;
     struct arg_list plugin_files;
+    const char *profile; /* NULL: none */
     bool trust, sandbox;
     size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors,
         max_depth, max_include_depth, max_includes;

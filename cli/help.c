@@ -59,7 +59,7 @@ struct arg help_generation_arg(uint32_t index)
     if (option.type == MXG_OPTION_BOOL) {
         arg.kind = ARG_FLAG;
         arg.value = NULL;
-    } else if (option.type == MXG_OPTION_INT) {
+    } else if (option.type == MXG_OPTION_INT || option.type == MXG_OPTION_FLOAT) {
         arg.value = "N";
     } else if (option.type == MXG_OPTION_ENUM) {
         arg.value = option.values;

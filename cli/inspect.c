@@ -5,8 +5,8 @@
 #include <string.h>
 
 struct inspect {
-    bool views[MXG_VIEW_SLABS + 1];
-    const char *target, *element;
+    bool views[MXG_VIEW_SLABS_SVG + 1];
+    const char *target, *element, *format;
 };
 
 static bool print_view(struct cli *cli, const mxg_document *document, const struct inspect *inspect,
@@ -29,12 +29,34 @@ static bool print_view(struct cli *cli, const mxg_document *document, const stru
     return report_status(&cli->report, status);
 }
 
+/* Replaces the view of slabs by the one in the wanted format. False after a message. */
+static bool choose_format(struct inspect *inspect)
+{
+    static const struct {
+        const char *name;
+        mxg_view view;
+    } formats[] = {
+        {"text", MXG_VIEW_SLABS}, {"json", MXG_VIEW_SLABS_JSON}, {"svg", MXG_VIEW_SLABS_SVG}};
+    if (!inspect->format)
+        return true;
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
+        if (strcmp(formats[i].name, inspect->format) != 0)
+            continue;
+        bool is_wanted = inspect->views[MXG_VIEW_SLABS];
+        inspect->views[MXG_VIEW_SLABS] = false;
+        inspect->views[formats[i].view] = is_wanted;
+        return is_wanted || fprintf(stderr, "mxgen: --format is a format of --slabs\n") < 0;
+    }
+    fprintf(stderr, "mxgen: '%s' is no format; text, json or svg\n", inspect->format);
+    return false;
+}
+
 /* Prints the requested views, or without any the elements. */
 static void print_views(struct cli *cli, const mxg_document *document,
                         const struct inspect *inspect)
 {
     bool any = false, good = true;
-    for (int view = 0; view <= MXG_VIEW_SLABS && good; ++view) {
+    for (int view = 0; view <= MXG_VIEW_SLABS_SVG && good; ++view) {
         if (!inspect->views[view])
             continue;
         any = true;
@@ -57,8 +79,10 @@ int command_inspect(const struct command *command, int argc, char **argv)
         {"closures", 0, ARG_FLAG, NULL, "closure leaves and their weights",
          &inspect.views[MXG_VIEW_CLOSURES]},
         {"statistics", 0, ARG_FLAG, NULL, "counts", &inspect.views[MXG_VIEW_STATISTICS]},
-        {"slabs", 0, ARG_FLAG, NULL, "slabs, their operators, media and features",
+        {"slabs", 0, ARG_FLAG, NULL,
+         "slabs, their operators, media and features, and what budgets would do",
          &inspect.views[MXG_VIEW_SLABS]},
+        {"format", 0, ARG_TEXT, "text|json|svg", "of --slabs (default: text)", &inspect.format},
         {"element", 'e', ARG_TEXT, "PATH", "path of an element (default: the first renderable)",
          &inspect.element},
         {"target", 't', ARG_TEXT, "T", "target language (default: glsl)", &inspect.target},
@@ -69,7 +93,7 @@ int command_inspect(const struct command *command, int argc, char **argv)
                   argc, argv, &code)) {
         mxg_target target;
         bool good = cli_find_target(inspect.target, strlen(inspect.target), &target)
-                    && cli_options_apply(&cli, &target.name, 1);
+                    && cli_options_apply(&cli, &target.name, 1) && choose_format(&inspect);
         for (size_t i = 0; good && i < cli.parser.inputs.len; ++i) {
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
             if (document)

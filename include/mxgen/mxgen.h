@@ -412,13 +412,14 @@ typedef enum mxg_option_type {
     MXG_OPTION_STRING,
     MXG_OPTION_ENUM,
     MXG_OPTION_LIST,
+    MXG_OPTION_FLOAT, /* empty: not set */
     MXG_OPTION_MAX_ENUM = 0x7fffffff
 } mxg_option_type;
 typedef struct mxg_option {
     size_t size;     /* in */
     const char *key; /* "interface" */
     mxg_option_type type;
-    const char *values;  /* ENUM: "complete|authored|reduced"; INT: "0..1024" */
+    const char *values;  /* ENUM: "complete|authored|reduced"; INT, FLOAT: "0..1024" */
     const char *initial; /* the default, as text */
     const char *doc;
 } mxg_option;
@@ -785,7 +786,10 @@ typedef enum mxg_view {
     MXG_VIEW_IR,       /* the optimised IR, parseable (docs/ir.md) */
     MXG_VIEW_CLOSURES, /* leaves with weights */
     MXG_VIEW_STATISTICS,
-    MXG_VIEW_SLABS, /* the tree of slabs, with thickness, medium and features (docs/slabs.md) */
+    MXG_VIEW_SLABS, /* the tree of slabs, what they cost, and steps to one closure (docs/slabs.md)
+                     */
+    MXG_VIEW_SLABS_JSON, /* the same as JSON */
+    MXG_VIEW_SLABS_SVG,  /* the same as a picture */
     MXG_VIEW_MAX_ENUM = 0x7fffffff
 } mxg_view;
 /*

@@ -16,7 +16,7 @@ export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistic
 export type InputState = "unknown" | "unused" | "uniform" | "compiled" | "connected";
 export type ChangeKind = "nothing" | "values" | "shader";
 export type Rewriting = "format" | "upgrade";
-export type OptionType = "bool" | "int" | "string" | "enum" | "list";
+export type OptionType = "bool" | "int" | "string" | "enum" | "list" | "float";
 
 /** An instance of mxgen with memory of its own. */
 export class Mxgen {

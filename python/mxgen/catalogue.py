@@ -28,6 +28,7 @@ class OptionType(enum.IntEnum):
     STRING = lib.MXG_OPTION_STRING
     ENUM = lib.MXG_OPTION_ENUM
     LIST = lib.MXG_OPTION_LIST
+    FLOAT = lib.MXG_OPTION_FLOAT
 
 
 @dataclass(frozen=True)

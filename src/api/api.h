@@ -227,7 +227,8 @@ enum option_id {
 
 struct option_value {
     int32_t number;   /* BOOL, INT: the value; ENUM: index of the word */
-    const char *text; /* STRING: the value; ENUM: the word */
+    float real;       /* FLOAT: the value; below 0: not set */
+    const char *text; /* STRING, FLOAT: the value; ENUM: the word */
     VEC(const char *) list;
     bool is_set; /* differs from the default */
 };

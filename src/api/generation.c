@@ -224,7 +224,7 @@ bool generation_start(struct generation *g)
     name_shader(g);
     name_variables(g);
     set_build_options(g);
-    return true;
+    return generation_slab_features(g, &g->build_options.slab_features_off);
 }
 
 /* ---- Build ---- */
@@ -383,6 +383,8 @@ bool generation_emit(struct generation *g)
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
+    if (!generation_budget_slabs(g))
+        return false;
     generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
@@ -610,6 +612,7 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     g->document = document;
     g->user_data = user_data;
     arena_init(&g->scratch, &result->object.mem);
+    arena_init(&g->estimates, &result->object.mem);
     file_source_init(&g->files, &result->object);
     g->reader = file_source_for_lang(&g->files);
     diag_list_follow(&result->object.diagnostics.list, &document->object.diagnostics.list);
@@ -618,6 +621,7 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     result->files.len = g->files.names.len;
     file_source_finish(&g->files);
     arena_finish(&g->scratch);
+    arena_finish(&g->estimates);
     object_settle(&result->object);
     if (status != MXG_OK) {
         object_unref(&result->object);

@@ -8,6 +8,7 @@
 
 #include "api/api.h"
 #include "closure/closure.h"
+#include "slabs/budget.h"
 
 #include <assert.h>
 
@@ -39,10 +40,11 @@ struct mxg_result {
     struct network network;  /* option `network`: replaces `shader`; arena NULL: no network */
     VEC(const char *) files; /* files read during the generation */
     const char *
-        *origin_paths; /* paths by origin of the graph; filled on demand during generation */
-    uint64_t options;  /* a hash of the options */
-    bool has_shader;   /* the generation succeeded */
-    const char *text;  /* the text of mxg_inspect, or NULL */
+        *origin_paths;        /* paths by origin of the graph; filled on demand during generation */
+    uint64_t options;         /* a hash of the options */
+    bool has_shader;          /* the generation succeeded */
+    struct slab_report slabs; /* of the generation */
+    const char *text;         /* the text of mxg_inspect, or NULL */
     size_t text_size;
 };
 
@@ -62,6 +64,7 @@ struct generation {
     ir_ref root;
     str_id unknown_leaf; /* the family of a leaf for which the target has no closure; 0: none */
     struct arena scratch;
+    struct arena estimates;   /* of the looks of slabs; empty between them */
     struct file_source files; /* the files that the generation reads */
     struct lang_reader reader;
     bool cancelled;
@@ -84,6 +87,13 @@ bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
 /* prepares the closure room; generation_emit calls it itself */
 void generation_start_closures(struct generation *g);
+/*
+ * slabs.c: makes the slabs below the root cheaper, as the options ask; needs the closures' host.
+ * False, after a message, where they cannot be cheap enough.
+ */
+bool generation_budget_slabs(struct generation *g);
+/* The option `features` as bits; false after a message about a word. */
+bool generation_slab_features(struct generation *g, uint32_t *out_off);
 /* Replaces the slabs below the root by their lobes; needs the closures' host. */
 void generation_walk_slabs(struct generation *g);
 /* makes the effects of the stages; later steps cannot fail */

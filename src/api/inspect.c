@@ -70,14 +70,36 @@ static void view_closures(struct generation *g, struct text *out)
     if (!generation_start(g) || !generation_build(g))
         return;
     generation_start_closures(g);
+    if (!generation_budget_slabs(g))
+        return;
     generation_walk_slabs(g);
     closure_describe(&g->result->shader, &g->closure_host, g->root, out);
 }
 
+static void view_sheet(struct generation *g, struct text *out,
+                       void write(const struct slab_sheet *sheet, struct text *out))
+{
+    struct slab_sheet sheet;
+    if (!generation_start(g) || !generation_build(g))
+        return;
+    generation_start_closures(g);
+    build_fill_sheet(g->builder, &g->closure_host, &g->estimates, g->root, &sheet);
+    write(&sheet, out);
+}
+
 static void view_slabs(struct generation *g, struct text *out)
 {
-    if (generation_start(g) && generation_build(g))
-        slabs_describe(&g->result->shader, g->root, out);
+    view_sheet(g, out, slabs_write_text);
+}
+
+static void view_slabs_json(struct generation *g, struct text *out)
+{
+    view_sheet(g, out, slabs_write_json);
+}
+
+static void view_slabs_svg(struct generation *g, struct text *out)
+{
+    view_sheet(g, out, slabs_write_svg);
 }
 
 static void write_counts(struct text *out, const char *name, uint32_t count)
@@ -112,10 +134,15 @@ static const struct view {
     void (*write)(struct generation *g, struct text *out);
     bool generates; /* needs a target */
 } views[] = {
-    [MXG_VIEW_ELEMENTS] = {view_elements, false},    [MXG_VIEW_GRAPH] = {graph_view_text, false},
-    [MXG_VIEW_DOT] = {graph_view_dot, false},        [MXG_VIEW_IR] = {view_ir, true},
-    [MXG_VIEW_SLABS] = {view_slabs, true},           [MXG_VIEW_CLOSURES] = {view_closures, true},
+    [MXG_VIEW_ELEMENTS] = {view_elements, false},
+    [MXG_VIEW_GRAPH] = {graph_view_text, false},
+    [MXG_VIEW_DOT] = {graph_view_dot, false},
+    [MXG_VIEW_IR] = {view_ir, true},
+    [MXG_VIEW_SLABS] = {view_slabs, true},
+    [MXG_VIEW_CLOSURES] = {view_closures, true},
     [MXG_VIEW_STATISTICS] = {view_statistics, true},
+    [MXG_VIEW_SLABS_JSON] = {view_slabs_json, true},
+    [MXG_VIEW_SLABS_SVG] = {view_slabs_svg, true},
 };
 
 static void inspect(struct generation *g)

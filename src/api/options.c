@@ -81,6 +81,23 @@ static bool parse_int(const mxg_option *option, const char *text, struct option_
     return true;
 }
 
+/* "0..100"; an empty text is no value */
+static bool parse_float(struct arena *arena, const mxg_option *option, const char *text,
+                        struct option_value *out)
+{
+    float low = 0, high = 0, value = -1.0f;
+    size_t len = strlen(text),
+           low_len = num_parse_float(option->values, strcspn(option->values, "."), &low);
+    const char *rest = option->values + low_len + 2;
+    num_parse_float(rest, strlen(rest), &high);
+    assert(low_len > 0 && low < high && low >= 0.0f);
+    if (len && (num_parse_float(text, len, &value) != len || !(value >= low && value <= high)))
+        return false;
+    out->real = value;
+    out->text = arena_strndup(arena, text, len);
+    return true;
+}
+
 static bool parse_enum(struct arena *arena, const mxg_option *option, const char *text,
                        struct option_value *out)
 {
@@ -117,6 +134,7 @@ static bool parse(struct arena *arena, const mxg_option *option, const char *tex
     switch (option->type) {
     case MXG_OPTION_BOOL: return parse_bool(text, out);
     case MXG_OPTION_INT: return parse_int(option, text, out);
+    case MXG_OPTION_FLOAT: return parse_float(arena, option, text, out);
     case MXG_OPTION_ENUM: return parse_enum(arena, option, text, out);
     case MXG_OPTION_LIST: parse_list(arena, text, out); return true;
     default: out->text = arena_strndup(arena, text, strlen(text)); return true;
@@ -219,6 +237,8 @@ static const char *expected(struct arena *arena, const mxg_option *option)
         return "true or false";
     if (option->type == MXG_OPTION_INT)
         text_str(&text, "an integer of ");
+    if (option->type == MXG_OPTION_FLOAT)
+        text_str(&text, "a number of ");
     for (const char *c = option->values; *c; c++) {
         if (*c == '|')
             text_str(&text, ", ");

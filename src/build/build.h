@@ -12,7 +12,7 @@
 #include "base/names.h"
 #include "library/library.h"
 #include "shader/network.h"
-#include "slabs/slabs.h"
+#include "slabs/sheet.h"
 
 /* The inputs that become uniforms: the option `interface`. */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
@@ -26,6 +26,7 @@ struct build_options {
     const str_id *targets;
     unsigned num_targets;
     enum build_interface interface;
+    uint32_t slab_features_off;       /* bits of enum slab_feature */
     const struct lang_syntax *syntax; /* of the target, whose words no uniform may have as name */
     /* patterns of element paths that become uniforms, or constants */
     bool publish_all; /* the option `publish` */
@@ -120,6 +121,13 @@ struct closure_host build_closure_host(struct builder *builder, struct closure_p
 void build_know_slabs(struct builder *builder);
 /* slabs_walk with the library's slabs. */
 ir_ref build_walk_slabs(struct builder *builder, const struct closure_host *closures, ir_ref root);
+/* slabs_fill_sheet with the library's slabs; scratch as below. */
+void build_fill_sheet(struct builder *builder, const struct closure_host *closures,
+                      struct arena *scratch, ir_ref root, struct slab_sheet *out);
+/* slabs_budget with the library's slabs. scratch: empty, and again after the call. */
+ir_ref build_budget_slabs(struct builder *builder, const struct closure_host *closures,
+                          struct arena *scratch, const struct slab_budget *budget, ir_ref root,
+                          struct slab_report *out);
 
 /* Matches a path: '*' is any run without '/', '**' any run, '?' one character except '/'. */
 bool build_glob_matches(const char *glob, const char *path);

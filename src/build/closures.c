@@ -29,10 +29,46 @@ static ir_ref slab_lobes(void *user_data, const ir_ref *inputs, const struct sla
     return build_slab_lobes(user_data, inputs, place);
 }
 
+static ir_ref slab_of(void *user_data, ir_ref leaf, bool is_top, bool loosely)
+{
+    return build_slab_of(user_data, leaf, is_top, loosely);
+}
+
+static ir_ref slab_like(void *user_data, ir_ref albedo)
+{
+    return build_slab_like(user_data, albedo);
+}
+
+static struct slabs_host slabs_host(struct builder *b, const struct closure_host *closures)
+{
+    return (struct slabs_host){.user_data = b,
+                               .lobes = slab_lobes,
+                               .slab_of = slab_of,
+                               .slab_like = slab_like,
+                               .closures = closures};
+}
+
 ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, ir_ref root)
 {
-    struct slabs_host host = {.user_data = b, .lobes = slab_lobes, .closures = closures};
+    struct slabs_host host = slabs_host(b, closures);
     return slabs_walk(b->shader, &host, root);
+}
+
+ir_ref build_budget_slabs(struct builder *b, const struct closure_host *closures,
+                          struct arena *scratch, const struct slab_budget *budget, ir_ref root,
+                          struct slab_report *out)
+{
+    struct slabs_host host = slabs_host(b, closures);
+    host.scratch = scratch;
+    return slabs_budget(b->shader, &host, budget, root, out);
+}
+
+void build_fill_sheet(struct builder *b, const struct closure_host *closures, struct arena *scratch,
+                      ir_ref root, struct slab_sheet *out)
+{
+    struct slabs_host host = slabs_host(b, closures);
+    host.scratch = scratch;
+    slabs_fill_sheet(b->shader, &host, root, out);
 }
 
 static ir_ref without_slabs(struct builder *b, ir_ref root)

@@ -28,10 +28,11 @@ static bool is_off(const mxg_build *build, str_id input)
 }
 
 /* Parts of slabs that have no code yet are an error, so that none is lost in silence. */
-static bool is_missing(const mxg_build *build, str_id input, const char *part)
+static bool is_missing(const mxg_build *build, str_id input, enum slab_feature feature,
+                       const char *part)
 {
     struct builder *b = build->b;
-    if (is_off(build, input))
+    if (b->options->slab_features_off & 1u << feature || is_off(build, input))
         return false;
     diag_add(b->diags, DIAG_ID_slab_part_missing,
              doc_place(&b->lib->doc, build->frame->node.element), build_text(b, input),
@@ -39,11 +40,17 @@ static bool is_missing(const mxg_build *build, str_id input, const char *part)
     return true;
 }
 
-static bool finish(mxg_build *build, enum ir_op op, const ir_ref *args, unsigned n,
+static bool finish(mxg_build *build, enum ir_op op, uint32_t attr, const ir_ref *args, unsigned n,
                    mxg_ref *results)
 {
-    results[0] = code_issue(build, ir_build(build->b->graph, op, build->type, 0, args, n));
+    results[0] = code_issue(build, ir_build(build->b->graph, op, build->type, attr, args, n));
     return true;
+}
+
+/* The attribute of an operator: 1 asks to blend the parameters of its slabs. */
+static uint32_t blends(const mxg_build *build)
+{
+    return !is_off(build, STR_blend_parameters);
 }
 
 bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
@@ -54,8 +61,8 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
 #undef SLAB_INPUT
     };
     (void)user_data;
-    if (is_missing(build, STR_glint_density, "glints")
-        || is_missing(build, STR_specular_lut, "tints by view and light"))
+    if (is_missing(build, STR_glint_density, SLAB_GLINTS, "glints")
+        || is_missing(build, STR_specular_lut, SLAB_LUT, "tints by view and light"))
         return false;
     if (build_slab_definition(build->b) == LIBRARY_NONE)
         return dynamic_misfit(build, "the library lacks the definition 'ND_slab_lobes'");
@@ -65,7 +72,7 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
         args[i] = dynamic_arg(build, names[i]);
     args[SLAB_coverage] = ir_const_float(build->b->graph, 1.0f);
-    return finish(build, IR_SLAB, args, NUM_SLAB_OPERANDS, results);
+    return finish(build, IR_SLAB, 0, args, NUM_SLAB_OPERANDS, results);
 }
 
 bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
@@ -73,10 +80,8 @@ bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
     ir_ref args[3] = {dynamic_arg(build, STR_top), dynamic_arg(build, STR_base),
                       dynamic_arg(build, STR_thickness)};
     (void)user_data;
-    if (is_missing(build, STR_blend_parameters, "parameter blending"))
-        return false;
     if (args[0])
-        return finish(build, IR_SLAB_LAYER, args, 3, results);
+        return finish(build, IR_SLAB_LAYER, blends(build), args, 3, results);
     results[0] = code_issue(build, args[1]);
     return true;
 }
@@ -86,11 +91,9 @@ static bool beside(mxg_build *build, ir_ref bg, ir_ref fg, ir_ref share, mxg_ref
 {
     const struct ir_graph *g = build->b->graph;
     ir_ref args[3] = {bg, fg, share};
-    if (is_missing(build, STR_blend_parameters, "parameter blending"))
-        return false;
     bool is_bg = bg == fg || ir_const_is(g, share, 0.0f), is_fg = ir_const_is(g, share, 1.0f);
     if (!is_bg && !is_fg)
-        return finish(build, IR_CLOSURE_MIX, args, 3, results);
+        return finish(build, IR_CLOSURE_MIX, blends(build), args, 3, results);
     results[0] = code_issue(build, is_bg ? bg : fg);
     return true;
 }
@@ -127,5 +130,5 @@ bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results)
     ir_ref args[3] = {dynamic_arg(build, STR_bsdf),
                       ir_const_bool(build->b->graph, thin.values[0] != 0),
                       dynamic_arg(build, STR_surface_thickness)};
-    return finish(build, IR_SLAB_SURFACE, args, 3, results);
+    return finish(build, IR_SLAB_SURFACE, 0, args, 3, results);
 }

@@ -135,7 +135,15 @@ static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *ou
     case IR_PARAM:
     case IR_LOCAL:
     case IR_CONTEXT:
-    case IR_SAMPLE: return eval_source(e, ref, out);
+    case IR_SAMPLE:
+    case IR_TEX:
+    case IR_TEX_LOD:
+    case IR_TEX_GRAD:
+    case IR_TEX_FETCH:
+    case IR_TEX_SIZE:
+    case IR_DFDX:
+    case IR_DFDY:
+    case IR_FWIDTH: return eval_source(e, ref, out);
     case IR_CALL: return eval_call(e, ref, 0, node->type, out);
     case IR_RESULT: return eval_call(e, ir_arg(e->graph, ref, 0), node->attr, node->type, out);
     case IR_SELECT:

@@ -499,8 +499,8 @@ void ir_assert_valid(const struct ir_graph *graph, const char *step);
 struct ir_eval_env {
     void *user_data;
     /*
-     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT) or of a CALL's result; false
-     * if it is unknown.
+     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT), of a texture, of a screen
+     * derivative, or of a CALL's result; false if it is unknown.
      */
     bool (*source)(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
     bool (*call)(void *user_data, const struct ir_graph *graph, ir_ref call,

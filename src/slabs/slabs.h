@@ -19,6 +19,14 @@ enum slab_operand {
     NUM_SLAB_OPERANDS
 };
 
+/* The parts of slabs that can be turned off. */
+enum slab_feature {
+#define SLAB_FEATURE(id, key, doc) SLAB_##id,
+#include "slabs/features.def"
+#undef SLAB_FEATURE
+    NUM_SLAB_FEATURES
+};
+
 /* Where a slab lies. */
 struct slab_place {
     ir_ref thickness; /* float, centimetres */
@@ -30,16 +38,22 @@ struct slabs_host {
     void *user_data;
     /* The lobes of a slab: a tree of LEAF nodes. inputs: by enum slab_operand. */
     ir_ref (*lobes)(void *user_data, const ir_ref *inputs, const struct slab_place *place);
+    /*
+     * The SLAB that stands for a leaf; is_top: other matter lies below; loosely: without a film. 0:
+     * no slab does.
+     */
+    ir_ref (*slab_of)(void *user_data, ir_ref leaf, bool is_top, bool loosely);
+    /* An opaque SLAB without an interface. */
+    ir_ref (*slab_like)(void *user_data, ir_ref albedo);
     const struct closure_host *closures;
+    struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };
 
 #define SLABS_LAYER_THICKNESS 0.01f /* centimetres, of a layer without an input for it */
+#define SLABS_CLEAR_PATH 1e6f       /* centimetres, of matter that is only an interface */
 
 /* True if a closure or shader has slabs. ref 0: it has none. */
 bool slabs_has(const struct shader *shader, ir_ref ref);
-
-/* describe.c: the tree of slabs as text, before the walk. */
-void slabs_describe(const struct shader *shader, ir_ref root, struct text *out);
 
 /*
  * Replaces all slabs below a root of any type by their lobes. Returns the root itself if it has no

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Budgets of slabs: the options, and what they led to. */
+#include "api/generation.h"
+
+#include "base/json.h"
+#include "slabs/budget.h"
+
+#include <assert.h>
+
+static const struct diag_place nowhere = {0};
+
+static struct diag_list *diags_of(struct generation *g)
+{
+    return &g->result->object.diagnostics.list;
+}
+
+/* ---- The options ---- */
+
+static const char *const feature_keys[NUM_SLAB_FEATURES] = {
+#define SLAB_FEATURE(id, key, doc) "-" key,
+#include "slabs/features.def"
+#undef SLAB_FEATURE
+};
+
+/* The bit of "-fuzz"; 0, after a message, for another word. */
+static uint32_t feature_bit(struct generation *g, const char *word)
+{
+    struct text known;
+    for (unsigned i = 0; i < NUM_SLAB_FEATURES; i++)
+        if (strcmp(feature_keys[i], word) == 0)
+            return 1u << i;
+    text_init(&known, &g->scratch);
+    for (unsigned i = 0; i < NUM_SLAB_FEATURES; i++)
+        text_fmt(&known, "%s%s", i ? ", " : "", feature_keys[i]);
+    diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, word, option_key(OPTION_features),
+             text_cstr(&known));
+    return 0;
+}
+
+bool generation_slab_features(struct generation *g, uint32_t *out_off)
+{
+    const struct option_value *features = &g->options[OPTION_features];
+    *out_off = 0;
+    for (uint32_t i = 0; i < features->list.len; i++) {
+        uint32_t bit = feature_bit(g, features->list.items[i]);
+        if (!bit)
+            return false;
+        *out_off |= bit;
+    }
+    return true;
+}
+
+static struct slab_budget budget_of(const struct generation *g)
+{
+    return (struct slab_budget){
+        .max_closures = (uint32_t)g->options[OPTION_max_closures].number,
+        .max_bytes = (uint32_t)g->options[OPTION_max_bytes].number,
+        .max_error = g->options[OPTION_max_error].real,
+        .off = g->build_options.slab_features_off,
+        .recognises = g->options[OPTION_slabs].number != 0,
+    };
+}
+
+/* ---- The report ---- */
+
+static void write_error(struct text *out, float error)
+{
+    if (error < 0.0f)
+        text_str(out, "unknown");
+    else
+        text_float(out, (float)(int)(error * 100.0f + 0.5f) / 100.0f);
+}
+
+static void report_step(struct generation *g, const struct slab_step *step)
+{
+    struct text what, error;
+    const struct document *doc = &g->document->layer.doc;
+    text_init(&what, &g->scratch);
+    text_init(&error, &g->scratch);
+    slabs_describe_step(&g->result->shader, step, &what);
+    write_error(&error, step->error);
+    diag_add(diags_of(g), DIAG_ID_budget_step, doc_place(doc, g->element), text_cstr(&what),
+             (unsigned)step->before.closures, (unsigned)step->after.closures,
+             (unsigned)step->before.bytes, (unsigned)step->after.bytes, text_cstr(&error));
+}
+
+static void report_failure(struct generation *g, const struct slab_budget *budget)
+{
+    const struct slab_report *report = &g->result->slabs;
+    struct text limits, error;
+    const struct document *doc = &g->document->layer.doc;
+    text_init(&limits, &g->scratch);
+    text_init(&error, &g->scratch);
+    write_error(&error, report->error);
+    if (budget->max_closures)
+        text_fmt(&limits, "%u closures", (unsigned)budget->max_closures);
+    if (budget->max_bytes)
+        text_fmt(&limits, "%s%u bytes", limits.len ? ", " : "", (unsigned)budget->max_bytes);
+    if (budget->max_error >= 0.0f) {
+        text_fmt(&limits, "%san error of ", limits.len ? ", " : "");
+        write_error(&limits, budget->max_error);
+    }
+    diag_add(diags_of(g), DIAG_ID_budget_impossible, doc_place(doc, g->element), text_cstr(&limits),
+             (unsigned)report->after.closures, (unsigned)report->after.bytes, text_cstr(&error));
+}
+
+bool generation_budget_slabs(struct generation *g)
+{
+    struct slab_budget budget = budget_of(g);
+    struct slab_report *report = &g->result->slabs;
+    g->root =
+        build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, report);
+    ir_assert_valid(&g->result->graph, "after the budget of slabs");
+    for (uint32_t i = 0; i < report->steps.len; i++)
+        report_step(g, &report->steps.items[i]);
+    if (!report->is_met)
+        report_failure(g, &budget);
+    return report->is_met;
+}

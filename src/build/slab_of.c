@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The slab that stands for a leaf: libraries/slabs/recognise.mtlx has a definition for each leaf
+ * that is a part of matter.
+ */
+#include "build/build_priv.h"
+
+static uint32_t definition(const struct builder *b, const char *name)
+{
+    str_id id = str_find(b->shader->strings, name, strlen(name));
+    return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
+}
+
+static uint32_t definition_for(struct builder *b, const struct family *family)
+{
+    struct text name;
+    const char *function = build_text(b, family->name);
+    text_init(&name, b->arena);
+    text_fmt(&name, "ND_slab_of_%s", strncmp(function, "mx_", 3) == 0 ? function + 3 : function);
+    return definition(b, text_cstr(&name));
+}
+
+/* The operand of a leaf; 0: it has none of this name. */
+static ir_ref operand_of(struct builder *b, ir_ref leaf, const char *name)
+{
+    const struct ir_node *node = ir_get(b->graph, leaf);
+    const char *input;
+    if (strcmp(name, "weight") == 0)
+        return ir_arg(b->graph, leaf, 0);
+    for (unsigned i = 0; (input = build_leaf_input(b, node->attr, i)); i++)
+        if (strcmp(input, name) == 0)
+            return ir_arg(b->graph, leaf, i + 1);
+    return 0;
+}
+
+/* True for 0 and false, also as the document's value of a uniform. */
+static bool is_zero(struct builder *b, ir_ref ref)
+{
+    struct ir_value value;
+    return !ref || (build_initial(b, ref, &value) && value.w[0].u == 0);
+}
+
+/* False for a leaf with a part that no slab has: transmitted light; films, retroreflection. */
+static bool fits(struct builder *b, ir_ref leaf, bool loosely)
+{
+    struct ir_value mode;
+    ir_ref scatters = operand_of(b, leaf, "scatter_mode"),
+           film = operand_of(b, leaf, "thinfilm_thickness"),
+           returns = operand_of(b, leaf, "retroreflective");
+    if (scatters
+        && (!ir_get_const(b->graph, scatters, &mode)
+            || strcmp(build_text(b, mode.w[0].u), "R") != 0))
+        return false;
+    return loosely || (is_zero(b, film) && is_zero(b, returns));
+}
+
+/* The values of the outputs of a definition, over the operands of a leaf. */
+static void apply_to(struct builder *b, uint32_t id, ir_ref leaf, bool is_top, ir_ref *results)
+{
+    const struct nodedef *def = library_nodedef(b->lib, id);
+    const struct port *ports = library_ports(b->lib, id, NULL);
+    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
+    for (unsigned i = 0; i < def->num_inputs; i++) {
+        args[i] = ports[i].name == STR_is_top ? ir_const_float(b->graph, is_top ? 1.0f : 0.0f)
+                                              : operand_of(b, leaf, build_text(b, ports[i].name));
+        args[i] = args[i] ? args[i] : build_default(b, &ports[i]);
+    }
+    build_apply(b, id, build_doc(b)->root, args, results);
+}
+
+/* An input of <slab>: the output "slab_" of a definition, or the default. */
+static ir_ref input_of(struct builder *b, uint32_t id, const ir_ref *results, str_id name)
+{
+    const struct nodedef *def = library_nodedef(b->lib, id);
+    const struct port *outputs = library_ports(b->lib, id, NULL) + def->num_inputs;
+    const char *wanted = build_text(b, name);
+    for (unsigned i = 0; i < def->num_outputs && results; i++)
+        if (strcmp(build_text(b, outputs[i].name) + strlen("slab_"), wanted) == 0)
+            return results[i];
+    uint32_t slab = definition(b, "ND_slab");
+    int at = library_find_input(b->lib, slab, name);
+    assert(at >= 0);
+    return build_default(b, &library_ports(b->lib, slab, NULL)[at]);
+}
+
+static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, ir_ref albedo)
+{
+    static const str_id names[NUM_SLAB_INPUTS] = {
+#define SLAB_INPUT(name, type) STR_##name,
+#include "slabs/slabs.def"
+#undef SLAB_INPUT
+    };
+    ir_ref in[NUM_SLAB_OPERANDS];
+    for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
+        in[i] = input_of(b, id, results, names[i]);
+    in[SLAB_coverage] = ir_const_float(b->graph, 1.0f);
+    if (albedo) {
+        in[SLAB_diffuse_albedo] = albedo;
+        in[SLAB_f0] = ir_const_splat(b->graph, IR_TYPE_VEC3, 0.0f);
+    }
+    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
+}
+
+ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely)
+{
+    ir_ref results[LIBRARY_MAX_OUTPUTS] = {0};
+    if (closure_source(b->shader, leaf))
+        return 0;
+    uint32_t id = definition_for(b, build_leaf_family(b, ir_get(b->graph, leaf)->attr));
+    if (id == LIBRARY_NONE || !fits(b, leaf, loosely))
+        return 0;
+    apply_to(b, id, leaf, is_top, results);
+    return slab_with(b, id, results, 0);
+}
+
+ir_ref build_slab_like(struct builder *b, ir_ref albedo)
+{
+    return slab_with(b, definition(b, "ND_slab"), NULL, albedo);
+}

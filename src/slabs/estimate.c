@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slabs/estimate.h"
+
+#include "lower/lower.h"
+#include "slabs/difference.h"
+
+#include <math.h>
+
+/* Points of the disc that a ball covers, by rings of equal area; two lights for each. */
+enum { NUM_VIEWS = 5, NUM_LIGHTS = 2, NUM_POINTS = 4 };
+
+#define AMBIENT 0.5f
+#define RADIANCE 1.5f
+#define BACKGROUND 0.5f
+
+struct eye {
+    struct shader *shader;
+    const struct slabs_host *host;
+    ir_ref view, light; /* vec3: stand for directions */
+    unsigned at;        /* of NUM_POINTS */
+    struct ir_value view_value, light_value;
+};
+
+/* ---- Sources ---- */
+
+static struct ir_value value_of_three(float x, float y, float z)
+{
+    return (struct ir_value){.type = IR_TYPE_VEC3, .w = {{.f = x}, {.f = y}, {.f = z}}};
+}
+
+/* What the pixel stage knows of a point of the ball. */
+static void stream_value(const struct eye *eye, str_id name, struct ir_value *out)
+{
+    static const float places[NUM_POINTS][3] = {{0.31f, 0.17f, 0.52f},
+                                                {0.78f, -0.42f, 0.11f},
+                                                {-0.23f, 0.66f, -0.35f},
+                                                {0.05f, 0.91f, 0.74f}};
+    static const struct {
+        str_id name;
+        float value[3];
+    } frame[] = {{STR_normalWorld, {0, 0, 1}},
+                 {STR_normalObject, {0, 0, 1}},
+                 {STR_tangentWorld, {1, 0, 0}},
+                 {STR_bitangentWorld, {0, 1, 0}}};
+    const float *value = places[eye->at];
+    for (size_t i = 0; i < sizeof frame / sizeof *frame; i++)
+        if (frame[i].name == name)
+            value = frame[i].value;
+    for (unsigned i = 0; i < 16; i++)
+        out->w[i].f = i < 3 ? value[i] : i == 3 ? 1.0f : 0.0f;
+}
+
+/* A colour, a number and a bump at once: no file is read. */
+static void texel(const struct eye *eye, struct ir_value *out)
+{
+    static const float texels[NUM_POINTS][4] = {{0.5f, 0.5f, 0.9f, 1},
+                                                {0.3f, 0.45f, 0.8f, 1},
+                                                {0.7f, 0.55f, 0.9f, 1},
+                                                {0.45f, 0.35f, 0.85f, 1}};
+    for (unsigned i = 0; i < 4; i++)
+        out->w[i].f = texels[eye->at][i];
+}
+
+static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+{
+    const struct eye *eye = user_data;
+    const struct ir_node *node = ir_get(graph, ref);
+    *out = (struct ir_value){.type = node->type};
+    if (ref == eye->view || ref == eye->light) {
+        *out = ref == eye->view ? eye->view_value : eye->light_value;
+        return true;
+    }
+    switch (node->op) {
+    case IR_UNIFORM:
+        *out = eye->shader->variables.items[node->attr].value;
+        return out->type == node->type;
+    case IR_STREAM:
+        stream_value(eye, eye->shader->variables.items[node->attr].name, out);
+        return ir_type_is_float(node->type);
+    case IR_TEX:
+    case IR_TEX_LOD:
+    case IR_TEX_GRAD:
+    case IR_TEX_FETCH: texel(eye, out); return true;
+    case IR_DFDX:
+    case IR_DFDY:
+    case IR_FWIDTH: return true;
+    default: return false;
+    }
+}
+
+static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                 const struct ir_value *args, uint32_t result, struct ir_value *out)
+{
+    const struct eye *eye = user_data;
+    return lang_eval_node(eye->shader->unit, graph, ref, args, result, eye->host->scratch, out);
+}
+
+/* ---- Functions ---- */
+
+/*
+ * Lobes as a path tracer evaluates them: a raster shares structs between lobes, which the graph's
+ * evaluator does not compute.
+ */
+static ir_ref global(void *user_data, struct ir_graph *g, const struct lang_unit *unit,
+                     uint32_t global_id)
+{
+    const struct eye *eye = user_data;
+    const struct lang_host *lang = eye->host->closures->lang;
+    const struct lang_global *known = lang_global(unit, global_id, NULL);
+    if (strcmp(str_text(unit->strings, known->name), "option_integrator") == 0)
+        return ir_const_int(g, 1);
+    return lang->global(lang->user_data, g, unit, global_id);
+}
+
+/* ---- Light ---- */
+
+static ir_ref mul(struct ir_graph *g, ir_ref a, ir_ref b)
+{
+    return ir_op2(g, IR_MUL, a, b);
+}
+
+/* What one lobe sends to the viewer: of the environment, of the light, and its own. */
+static ir_ref light_of(struct eye *eye, const struct closure_host *host,
+                       const struct closure_leaf *leaf)
+{
+    struct shader *shader = eye->shader;
+    struct ir_graph *g = shader->graph;
+    ir_ref zero = ir_const_float(g, 0.0f), mean = ir_const_float(g, CLOSURE_MEAN_WAY);
+    ir_ref sum = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    ir_ref albedo = closure_call(shader, host, leaf->leaf, LEAF_ALBEDO, NULL),
+           value = closure_call(shader, host, leaf->leaf, LEAF_EVAL, &eye->light),
+           glow = closure_call(shader, host, leaf->leaf, LEAF_EMISSION, NULL);
+    if (albedo) {
+        ir_ref even = mul(g, albedo, closure_weight(shader, leaf, mean));
+        sum = ir_op2(g, IR_ADD, sum, mul(g, even, ir_const_float(g, AMBIENT)));
+    }
+    if (value) {
+        ir_ref way = closure_way(shader, host, eye->light);
+        ir_ref lit = mul(g, value, closure_weight(shader, leaf, way));
+        sum = ir_op2(g, IR_ADD, sum, mul(g, lit, ir_const_float(g, RADIANCE)));
+    }
+    if (glow)
+        sum = ir_op2(g, IR_ADD, sum, mul(g, glow, closure_weight(shader, leaf, zero)));
+    return ir_convert(g, IR_TYPE_VEC3, sum);
+}
+
+/* The host of the closures, with the eye's view and functions. */
+struct seen {
+    struct closure_host host;
+    struct closure_point point;
+    struct lang_host lang;
+};
+
+static void see(struct eye *eye, struct seen *out)
+{
+    const struct lang_host *lang = eye->host->closures->lang;
+    out->point = (struct closure_point){.view = eye->view};
+    out->lang = (struct lang_host){.user_data = eye,
+                                   .global = global,
+                                   .max_outer_nodes = lang->max_outer_nodes,
+                                   .max_inline_nodes = lang->max_inline_nodes};
+    out->host = *eye->host->closures;
+    out->host.point = &out->point;
+    out->host.lang = &out->lang;
+}
+
+/* The colour of a closure, before a grey background. */
+static ir_ref color_of(struct eye *eye, ir_ref lobes)
+{
+    struct ir_graph *g = eye->shader->graph;
+    struct seen seen;
+    struct closure_list list;
+    see(eye, &seen);
+    ir_ref none = ir_const_float(g, 0.0f);
+    ir_ref through = closure_throughput(eye->shader, &seen.host, lobes, none);
+    ir_ref sum = mul(g, through, ir_const_float(g, BACKGROUND));
+    closure_flatten(eye->shader, &seen.host, lobes, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++)
+        sum = ir_op2(g, IR_ADD, sum, light_of(eye, &seen.host, &list.leaves.items[i]));
+    return sum;
+}
+
+/* ---- Colours ---- */
+
+/* A mirrored light, and one from the side. */
+static struct ir_value light_for(float sine, float cosine, unsigned which)
+{
+    return which ? value_of_three(0.48f, 0.36f, 0.8f) : value_of_three(-sine, 0.0f, cosine);
+}
+
+static bool evaluate(struct eye *eye, ir_ref color, struct ir_value *out)
+{
+    const struct ir_eval_env env = {.user_data = eye, .source = source, .call = call};
+    bool good = ir_eval(eye->shader->graph, color, &env, eye->host->scratch, out);
+    arena_finish(eye->host->scratch);
+    return good;
+}
+
+static bool look_at(struct eye *eye, ir_ref color, struct slab_look *out)
+{
+    for (unsigned i = 0; i < NUM_VIEWS * NUM_LIGHTS; i++) {
+        float square = ((float)(i / NUM_LIGHTS) + 0.5f) / NUM_VIEWS;
+        float sine = sqrtf(square), cosine = sqrtf(1.0f - square);
+        struct ir_value value;
+        eye->view_value = value_of_three(sine, 0.0f, cosine);
+        eye->light_value = light_for(sine, cosine, i % NUM_LIGHTS);
+        if (!evaluate(eye, color, &value))
+            return false;
+        for (unsigned c = 0; c < 3; c++)
+            vec_push(eye->shader->arena, &out->colors, value.w[c].f);
+    }
+    return true;
+}
+
+/* True if the surface differs from point to point. */
+static bool varies(const struct shader *shader, const uint8_t *needed, ir_ref root)
+{
+    const struct ir_graph *g = shader->graph;
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        const struct ir_node *node = ir_get(g, ref);
+        str_id name = node->op == IR_STREAM ? shader->variables.items[node->attr].name : 0;
+        if (needed[ref]
+            && (node->op == IR_TEXTURE
+                || (node->op == IR_STREAM && name != STR_normalWorld && name != STR_tangentWorld)))
+            return true;
+    }
+    return false;
+}
+
+static ir_ref direction(const struct eye *eye, uint32_t number)
+{
+    /* a variable that no shader has: only the evaluator reads it */
+    return ir_build(eye->shader->graph, IR_LOCAL, IR_TYPE_VEC3, UINT32_MAX - number, NULL, 0);
+}
+
+static struct eye open_eye(struct shader *shader, const struct slabs_host *host)
+{
+    struct eye eye = {.shader = shader, .host = host};
+    eye.view = direction(&eye, 0);
+    eye.light = direction(&eye, 1);
+    return eye;
+}
+
+void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref root,
+                const struct slab_look *like, struct slab_look *out)
+{
+    struct ir_graph *g = shader->graph;
+    struct eye eye = open_eye(shader, host);
+    *out = (struct slab_look){.is_known = true};
+    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    out->num_points = like ? like->num_points : varies(shader, needed, root) ? NUM_POINTS : 1;
+    for (ir_ref ref = 1; ref <= root && out->is_known; ref++) {
+        uint8_t op = ir_get(g, ref)->op;
+        bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER,
+             is_closure = ref == root && ir_type_of(g, ref) == IR_TYPE_BSDF;
+        if (!needed[ref] || (!is_surface && !is_closure) || (is_surface && !ir_arg(g, ref, 0)))
+            continue;
+        ir_ref walked = slabs_walk(shader, host, ref);
+        ir_ref color = color_of(&eye, is_surface ? ir_arg(g, walked, 0) : walked);
+        for (eye.at = 0; eye.at < out->num_points; eye.at++)
+            out->is_known &= look_at(&eye, color, out);
+    }
+}
+
+float slabs_difference(const struct slab_look *a, const struct slab_look *b)
+{
+    double sum = 0.0;
+    uint32_t num = a->colors.len / 3;
+    if (!a->is_known || !b->is_known || a->colors.len != b->colors.len || num == 0)
+        return -1.0f;
+    for (uint32_t i = 0; i < num; i++)
+        sum += color_difference(a->colors.items + i * 3, b->colors.items + i * 3);
+    return (float)(sum / num);
+}
+
+ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_ref top,
+                     ir_ref thickness)
+{
+    struct ir_graph *g = shader->graph;
+    struct eye eye = open_eye(shader, host);
+    struct seen seen;
+    see(&eye, &seen);
+    ir_ref args[3] = {top, ir_const_bool(g, true), thickness};
+    ir_ref sheet = ir_build(g, IR_SLAB_SURFACE, IR_TYPE_SURFACE, 0, args, 3);
+    ir_ref walked = slabs_walk(shader, host, sheet), mean = ir_const_float(g, CLOSURE_MEAN_WAY);
+    return closure_throughput(shader, &seen.host, ir_arg(g, walked, 0), mean);
+}
+
+float slabs_brightness(struct shader *shader, const struct slabs_host *host, ir_ref color)
+{
+    struct eye eye = open_eye(shader, host);
+    struct ir_value value;
+    eye.view_value = value_of_three(0.0f, 0.0f, 1.0f);
+    if (!evaluate(&eye, color, &value))
+        return -1.0f;
+    return (value.w[0].f + value.w[1].f + value.w[2].f) / 3.0f;
+}

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slabs/sheet.h"
+
+#include "slabs/bytes.h"
+#include "slabs/estimate.h"
+#include "slabs/recognise.h"
+
+const struct slab_shown slab_shown[] = {{SLAB_diffuse_albedo, "albedo"},
+                                        {SLAB_f0, "f0"},
+                                        {SLAB_roughness, "roughness"},
+                                        {SLAB_mean_free_path, "mean free path"}};
+const unsigned num_slab_shown = sizeof slab_shown / sizeof *slab_shown;
+
+const char *const slab_row_names[] = {[SLAB_ROW_SLAB] = "slab",
+                                      [SLAB_ROW_LAYER] = "layer",
+                                      [SLAB_ROW_MIX] = "mix",
+                                      [SLAB_ROW_COVERAGE] = "coverage",
+                                      [SLAB_ROW_OTHER] = "no slab"};
+
+const char *const slab_feature_names[NUM_SLAB_FEATURES] = {
+#define SLAB_FEATURE(id, key, doc) doc,
+#include "slabs/features.def"
+#undef SLAB_FEATURE
+};
+
+struct filler {
+    struct slab_sheet *sheet;
+    struct shader *shader;
+    const struct ir_graph *graph;
+    const struct slabs_host *host;
+    struct slab_tree *tree;
+    uint8_t *is_written; /* per node */
+    struct line {
+        ir_ref ref, thickness, above; /* above: vec3, what the tops let through */
+        uint32_t depth;
+        const char *role;
+    } line;
+    VEC(struct line) open;
+    VEC(ir_ref) masks; /* in pairs: what drives an operator, the operator */
+    VEC(ir_ref) bases; /* in pairs: normal and tangent of slabs, each pair once */
+};
+
+/* ---- Names and values ---- */
+
+const char *slab_name(const struct slab_sheet *sheet, ir_ref ref)
+{
+    const struct ir_graph *g = sheet->shader->graph;
+    str_id name = g->origins.items[ir_get(g, ref)->origin].name;
+    return name ? str_text(sheet->shader->strings, name) : "?";
+}
+
+void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *out)
+{
+    struct ir_value value;
+    const struct ir_graph *g = sheet->shader->graph;
+    const struct ir_node *node = ir_get(g, ref);
+    if (node->op == IR_UNIFORM) {
+        const struct shader_variable *v = &sheet->shader->variables.items[node->attr];
+        text_str(out, str_text(sheet->shader->strings, v->path ? v->path : v->name));
+        return;
+    }
+    if (!ir_get_const(g, ref, &value)) {
+        text_str(out, slab_name(sheet, ref));
+        return;
+    }
+    unsigned count = ir_type_info(value.type)->components;
+    bool is_splat = count == 3 && value.w[0].u == value.w[1].u && value.w[0].u == value.w[2].u;
+    for (unsigned i = 0; i < (is_splat ? 1 : count); i++) {
+        text_str(out, i ? ", " : "");
+        text_float(out, value.w[i].f);
+    }
+}
+
+ir_ref slab_operator_value(const struct slab_sheet *sheet, const struct slab_row *row)
+{
+    const struct ir_graph *g = sheet->shader->graph;
+    bool has_one = row->kind != SLAB_ROW_SLAB && row->kind != SLAB_ROW_OTHER;
+    return has_one && ir_get(g, row->ref)->num_args > 2 ? ir_arg(g, row->ref, 2) : 0;
+}
+
+/* ---- Slabs ---- */
+
+static const char *regime_of(const struct ir_graph *g, ir_ref slab, bool is_body)
+{
+    ir_ref free_path = ir_arg(g, slab, SLAB_mean_free_path);
+    if (ir_const_is(g, free_path, 0.0f))
+        return "opaque";
+    if (!ir_is_const(g, free_path))
+        return "of a medium that varies";
+    if (ir_const_is(g, ir_arg(g, slab, SLAB_diffuse_albedo), 0.0f))
+        return "translucent";
+    return is_body ? "thick" : "thin";
+}
+
+static void note_basis(struct filler *f, ir_ref slab)
+{
+    ir_ref normal = ir_arg(f->graph, slab, SLAB_normal);
+    bool is_even = ir_const_is(f->graph, ir_arg(f->graph, slab, SLAB_anisotropy), 0.0f);
+    ir_ref tangent = is_even ? 0 : ir_arg(f->graph, slab, SLAB_tangent);
+    for (uint32_t i = 0; i < f->bases.len; i += 2)
+        if (f->bases.items[i] == normal && f->bases.items[i + 1] == tangent)
+            return;
+    vec_push(f->shader->arena, &f->bases, normal);
+    vec_push(f->shader->arena, &f->bases, tangent);
+    f->tree->num_bases++;
+}
+
+static void fill_slab(struct filler *f, const struct line *line, struct slab_row *row)
+{
+    struct slab_spot spot = {.ref = line->ref, .thickness = line->thickness};
+    row->regime = regime_of(f->graph, line->ref, !line->thickness);
+    row->features = slab_features(f->graph, &spot);
+    row->bytes = slab_bytes_of(row->features)
+                 + (f->tree->num_slabs ? (unsigned)SLAB_BYTES_OTHER : (unsigned)SLAB_BYTES_FIRST);
+    row->through = slabs_brightness(f->shader, f->host, line->above);
+    f->tree->num_slabs++;
+    note_basis(f, line->ref);
+}
+
+/* ---- Operators ---- */
+
+static void push(struct filler *f, const struct line *from, ir_ref ref, ir_ref thickness,
+                 ir_ref above, const char *role)
+{
+    if (ref)
+        vec_push(f->shader->arena, &f->open,
+                 (struct line){ref, thickness, above, from->depth + 1, role});
+}
+
+static void fill_layer(struct filler *f, const struct line *line)
+{
+    struct ir_graph *g = f->shader->graph;
+    const struct ir_node *node = ir_get(g, line->ref);
+    ir_ref top = ir_arg(g, line->ref, 0), base = ir_arg(g, line->ref, 1);
+    ir_ref thickness = node->op == IR_SLAB_LAYER ? ir_arg(g, line->ref, 2)
+                                                 : ir_const_float(g, SLABS_LAYER_THICKNESS);
+    ir_ref through = top && base ? slabs_through(f->shader, f->host, top, thickness) : 0;
+    ir_ref below = through ? ir_op2(g, IR_MUL, line->above, through) : line->above;
+    push(f, line, base, line->thickness, below, "base");
+    push(f, line, top, thickness, line->above, "top");
+}
+
+static void fill_mix(struct filler *f, const struct line *line)
+{
+    ir_ref bg = ir_arg(f->graph, line->ref, 0), fg = ir_arg(f->graph, line->ref, 1),
+           share = ir_arg(f->graph, line->ref, 2);
+    if (!ir_is_const(f->graph, share)) {
+        vec_push(f->shader->arena, &f->masks, share);
+        vec_push(f->shader->arena, &f->masks, line->ref);
+    }
+    push(f, line, fg, line->thickness, line->above, bg ? "fg" : "in");
+    push(f, line, bg, line->thickness, line->above, fg ? "bg" : "in");
+}
+
+static void fill_other(struct filler *f, const struct line *line)
+{
+    const struct ir_node *node = ir_get(f->graph, line->ref);
+    for (uint32_t i = node->num_args; i-- > 0;) {
+        ir_ref arg = ir_arg(f->graph, line->ref, i);
+        if (arg && ir_type_is_closure(ir_type_of(f->graph, arg)))
+            push(f, line, arg, line->thickness, line->above, "in");
+    }
+}
+
+static enum slab_row_kind kind_of(const struct ir_graph *g, ir_ref ref)
+{
+    switch (ir_get(g, ref)->op) {
+    case IR_SLAB: return SLAB_ROW_SLAB;
+    case IR_LAYER:
+    case IR_SLAB_LAYER: return SLAB_ROW_LAYER;
+    case IR_CLOSURE_MIX:
+        return ir_arg(g, ref, 0) && ir_arg(g, ref, 1) ? SLAB_ROW_MIX : SLAB_ROW_COVERAGE;
+    default: return SLAB_ROW_OTHER;
+    }
+}
+
+static void fill_row(struct filler *f, const struct line *line)
+{
+    struct slab_row row = {.kind = kind_of(f->graph, line->ref),
+                           .ref = line->ref,
+                           .thickness = line->thickness,
+                           .depth = line->depth,
+                           .role = line->role,
+                           .is_repeated = f->is_written[line->ref] != 0};
+    f->is_written[line->ref] = row.kind != SLAB_ROW_SLAB; /* it has another thickness elsewhere */
+    if (row.kind == SLAB_ROW_SLAB)
+        fill_slab(f, line, &row);
+    else if (!row.is_repeated && row.kind == SLAB_ROW_LAYER)
+        fill_layer(f, line);
+    else if (!row.is_repeated && row.kind != SLAB_ROW_OTHER)
+        fill_mix(f, line);
+    else if (!row.is_repeated)
+        fill_other(f, line);
+    vec_push(f->shader->arena, &f->tree->rows, row);
+}
+
+/* Operators that one value drives: the walk takes them as independent. */
+static void note_shared_masks(struct filler *f)
+{
+    for (uint32_t i = 0; i < f->masks.len; i += 2)
+        for (uint32_t k = i + 2; k < f->masks.len; k += 2)
+            if (f->masks.items[i] == f->masks.items[k]) {
+                vec_push(f->shader->arena, &f->tree->shared, f->masks.items[i + 1]);
+                vec_push(f->shader->arena, &f->tree->shared, f->masks.items[k + 1]);
+                break;
+            }
+}
+
+/* ---- Roots ---- */
+
+static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
+{
+    struct ir_graph *g = f->shader->graph;
+    struct ir_value thin = {.type = IR_TYPE_VOID};
+    struct slab_spots spots;
+    vec_push(f->shader->arena, &f->sheet->trees, (struct slab_tree){.root = root});
+    f->tree = &vec_last(&f->sheet->trees);
+    f->tree->is_sheet = ir_get(g, root)->op == IR_SLAB_SURFACE
+                        && ir_get_const(g, ir_arg(g, root, 1), &thin) && thin.w[0].u;
+    slabs_find_spots(f->shader, root, &spots);
+    f->tree->cost = slabs_cost(f->shader, &spots);
+    f->bases.len = f->masks.len = 0;
+    ir_ref white = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    push(f, &(struct line){.depth = 0}, bsdf, f->tree->is_sheet ? ir_arg(g, root, 2) : 0, white,
+         "");
+    while (f->open.len) {
+        struct line line = vec_last(&f->open);
+        f->open.len--;
+        fill_row(f, &line);
+    }
+    note_shared_masks(f);
+}
+
+static void note_textures(struct slab_sheet *sheet, const uint8_t *needed, ir_ref root)
+{
+    for (ir_ref ref = 1; ref <= root; ref++)
+        if (needed[ref] && ir_get(sheet->shader->graph, ref)->op == IR_TEXTURE)
+            vec_push(sheet->shader->arena, &sheet->textures, ref);
+}
+
+void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host, ir_ref root,
+                      struct slab_sheet *out)
+{
+    const struct ir_graph *g = shader->graph;
+    struct slab_budget budget = {.max_closures = 1, .max_error = -1.0f};
+    *out = (struct slab_sheet){.shader = shader};
+    out->is_recognised = root && !slabs_has(shader, root);
+    if (out->is_recognised)
+        root = slabs_recognise(shader, host, false, root);
+    if (!slabs_has(shader, root))
+        return;
+    struct filler f = {.sheet = out, .shader = shader, .graph = g, .host = host};
+    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    f.is_written = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
+    note_textures(out, needed, root);
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        uint8_t op = ir_get(g, ref)->op;
+        bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER;
+        if (needed[ref] && is_surface && slabs_has(shader, ir_arg(g, ref, 0)))
+            fill_tree(&f, ref, ir_arg(g, ref, 0));
+    }
+    if (ir_type_is_closure(ir_type_of(g, root)))
+        fill_tree(&f, root, root);
+    slabs_budget(shader, host, &budget, root, &out->report);
+}

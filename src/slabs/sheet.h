@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What `mxgen inspect --slabs` shows, as data: sheet.c fills it in, and three files write it, as
+ * text, as JSON and as a picture.
+ */
+#ifndef MXG_SLABS_SHEET_H
+#define MXG_SLABS_SHEET_H
+
+#include "slabs/budget.h"
+
+enum slab_row_kind {
+    SLAB_ROW_SLAB,
+    SLAB_ROW_LAYER,
+    SLAB_ROW_MIX,
+    SLAB_ROW_COVERAGE,
+    SLAB_ROW_OTHER
+};
+
+/* A slab or operator; the operands of an operator follow it, one level deeper. */
+struct slab_row {
+    enum slab_row_kind kind;
+    ir_ref ref;
+    ir_ref thickness; /* 0: of the body */
+    uint32_t depth;
+    const char *role;   /* "top", "base", "fg"; "" at the top */
+    const char *regime; /* of a slab: "opaque" */
+    bool is_repeated;   /* it stands above with its operands */
+    uint32_t features;  /* of a slab */
+    uint32_t bytes;     /* of a slab, with its share of the pixel */
+    float through; /* of a slab: light that what is above lets through, along the normal; below 0:
+                      unknown */
+};
+
+struct slab_tree {
+    ir_ref root;
+    bool is_sheet;
+    VEC(struct slab_row) rows;
+    VEC(ir_ref) shared; /* in pairs: operators that one value drives */
+    uint32_t num_slabs, num_bases;
+    struct slab_cost cost;
+};
+
+struct slab_sheet {
+    const struct shader *shader;
+    VEC(struct slab_tree) trees;
+    VEC(ir_ref) textures;      /* that the estimate does not read */
+    bool is_recognised;        /* the slabs stand for other closures */
+    struct slab_report report; /* of a budget of one closure */
+};
+
+void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host, ir_ref root,
+                      struct slab_sheet *out);
+
+/* The inputs of a slab that all three show. */
+struct slab_shown {
+    enum slab_operand input;
+    const char *name; /* "mean free path" */
+};
+extern const struct slab_shown slab_shown[];
+extern const unsigned num_slab_shown;
+extern const char *const slab_row_names[]; /* by enum slab_row_kind */
+extern const char *const slab_feature_names[NUM_SLAB_FEATURES];
+
+/* sheet.c: the name of a node, and a value as text: a number, a colour or what computes it. */
+const char *slab_name(const struct slab_sheet *sheet, ir_ref ref);
+void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *out);
+/* The input of an operator: the thickness of a layer, the share of a mix; 0: it has none. */
+ir_ref slab_operator_value(const struct slab_sheet *sheet, const struct slab_row *row);
+
+void slabs_write_text(const struct slab_sheet *sheet, struct text *out);
+void slabs_write_json(const struct slab_sheet *sheet, struct text *out);
+void slabs_write_svg(const struct slab_sheet *sheet, struct text *out);
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slabs/spots.h"
+
+#include "slabs/bytes.h"
+
+static bool is_closure(const struct ir_graph *g, ir_ref ref)
+{
+    return ref && ir_type_of(g, ref) == IR_TYPE_BSDF;
+}
+
+static void add_spot(const struct shader *shader, struct slab_spots *spots, ir_ref ref,
+                     ir_ref thickness, ir_ref root)
+{
+    if (!is_closure(shader->graph, ref))
+        return;
+    for (uint32_t i = spots->first[ref]; i; i = spots->items.items[i - 1].next)
+        if (spots->items.items[i - 1].thickness == thickness
+            && spots->items.items[i - 1].root == root)
+            return;
+    vec_push(shader->arena, &spots->items,
+             (struct slab_spot){ref, thickness, root, spots->first[ref]});
+    spots->first[ref] = spots->items.len;
+}
+
+static bool is_sheet(const struct ir_graph *g, ir_ref surface)
+{
+    struct ir_value thin;
+    return ir_get(g, surface)->op == IR_SLAB_SURFACE
+           && ir_get_const(g, ir_arg(g, surface, 1), &thin) && thin.w[0].u;
+}
+
+/* The operands of an operator lie where it lies, but the top of a layer has its thickness. */
+static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref ref,
+                   const struct slab_spot *spot)
+{
+    struct ir_graph *g = shader->graph;
+    const struct ir_node *node = ir_get(g, ref);
+    bool is_layer = node->op == IR_LAYER || node->op == IR_SLAB_LAYER;
+    for (uint32_t i = 0; i < node->num_args; i++) {
+        ir_ref arg = ir_arg(g, ref, i), thickness = spot->thickness;
+        if (is_layer && i == 0)
+            thickness = node->op == IR_SLAB_LAYER ? ir_arg(g, ref, 2)
+                                                  : ir_const_float(g, SLABS_LAYER_THICKNESS);
+        if (!is_closure(g, arg))
+            continue;
+        if (spots->depth[arg] <= spots->depth[ref])
+            spots->depth[arg] = spots->depth[ref] + 1;
+        add_spot(shader, spots, arg, thickness, spot->root);
+    }
+}
+
+void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spots *out)
+{
+    const struct ir_graph *g = shader->graph;
+    *out = (struct slab_spots){.num_nodes = root + 1};
+    out->first = ARENA_ARRAY(shader->arena, uint32_t, root + 1);
+    out->depth = ARENA_ARRAY(shader->arena, uint32_t, root + 1);
+    if (!root)
+        return;
+    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    add_spot(shader, out, root, 0, root);
+    for (ir_ref ref = root; ref; ref--) {
+        uint8_t op = ir_get(g, ref)->op;
+        if (needed[ref] && (op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER))
+            add_spot(shader, out, ir_arg(g, ref, 0), is_sheet(g, ref) ? ir_arg(g, ref, 2) : 0, ref);
+        for (uint32_t i = out->first[ref]; i; i = out->items.items[i - 1].next) {
+            const struct slab_spot spot = out->items.items[i - 1];
+            spread(shader, out, ref, &spot);
+        }
+    }
+}
+
+/* ---- Cost ---- */
+
+static bool differs(const struct ir_graph *g, ir_ref slab, enum slab_operand input, float off)
+{
+    return !ir_const_is(g, ir_arg(g, slab, input), off);
+}
+
+/* A closure that is no slab takes as much as a slab with these, because it may become one. */
+static const uint32_t features_of_others =
+    1u << SLAB_SECOND_LOBE | 1u << SLAB_FUZZ | 1u << SLAB_ANISOTROPY;
+
+uint32_t slab_features(const struct ir_graph *g, const struct slab_spot *spot)
+{
+    static const struct {
+        enum slab_feature feature;
+        enum slab_operand input;
+        float off; /* its value without the feature */
+    } features[] = {
+        {SLAB_SECOND_LOBE, SLAB_second_roughness_weight, 0.0f},
+        {SLAB_FUZZ, SLAB_fuzz_amount, 0.0f},
+        {SLAB_F90, SLAB_f90, 1.0f},
+        {SLAB_ANISOTROPY, SLAB_anisotropy, 0.0f},
+    };
+    uint32_t bits = 0;
+    if (ir_get(g, spot->ref)->op != IR_SLAB)
+        return 0;
+    for (size_t i = 0; i < sizeof features / sizeof *features; i++)
+        bits |= (uint32_t)differs(g, spot->ref, features[i].input, features[i].off)
+                << features[i].feature;
+    if (!spot->thickness && differs(g, spot->ref, SLAB_mean_free_path, 0.0f)
+        && differs(g, spot->ref, SLAB_diffuse_albedo, 0.0f))
+        bits |= 1u << SLAB_SUBSURFACE;
+    return bits;
+}
+
+/* True where another spot of the list before has the closure at the same thickness. */
+static bool is_repeated(const struct slab_spots *spots, const struct slab_spot *spot)
+{
+    for (uint32_t i = spot->next; i; i = spots->items.items[i - 1].next)
+        if (spots->items.items[i - 1].thickness == spot->thickness)
+            return true;
+    return false;
+}
+
+struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots *spots)
+{
+    const struct ir_graph *g = shader->graph;
+    struct slab_cost cost = {0};
+    uint32_t parts = 0;
+    bool is_plain = true;
+    for (uint32_t i = 0; i < spots->items.len; i++) {
+        const struct slab_spot *spot = &spots->items.items[i];
+        uint8_t op = ir_get(g, spot->ref)->op;
+        if ((op != IR_SLAB && op != IR_LEAF) || is_repeated(spots, spot))
+            continue;
+        cost.closures++;
+        cost.others += op == IR_LEAF;
+        uint32_t features = slab_features(g, spot);
+        cost.features |= features;
+        parts += slab_bytes_of(op == IR_LEAF ? features_of_others : features);
+        is_plain &= op == IR_SLAB && !features && !differs(g, spot->ref, SLAB_mean_free_path, 0.0f)
+                    && !differs(g, spot->ref, SLAB_coverage, 1.0f);
+    }
+    cost.bytes = slab_bytes_of_pixel(cost.closures, parts, is_plain && cost.closures == 1);
+    return cost;
+}

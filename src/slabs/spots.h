@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Where the slabs of a tree lie, before the walk. One slab at two thicknesses is two spots, and two
+ * closures.
+ */
+#ifndef MXG_SLABS_SPOTS_H
+#define MXG_SLABS_SPOTS_H
+
+#include "slabs/slabs.h"
+
+struct slab_spot {
+    ir_ref ref;       /* a closure */
+    ir_ref thickness; /* float; 0: of the body */
+    ir_ref root;      /* the surface shader, or the closure at the top */
+    uint32_t next;    /* of the same closure, + 1 */
+};
+
+struct slab_spots {
+    VEC(struct slab_spot) items; /* operators before their operands */
+    uint32_t *first;             /* per node up to the root: index in items + 1; 0: none */
+    uint32_t *depth;             /* per node: operators above it, at most */
+    ir_ref num_nodes;
+};
+
+/* All closures below a root of any type. root 0: none. */
+void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spots *out);
+
+/* The first spot of a closure below the root. */
+static inline const struct slab_spot *slab_spot_of(const struct slab_spots *spots, ir_ref ref)
+{
+    return &spots->items.items[spots->first[ref] - 1];
+}
+
+/* The features of a slab, as bits of enum slab_feature. */
+uint32_t slab_features(const struct ir_graph *graph, const struct slab_spot *spot);
+
+/* What the closures below a root cost. */
+struct slab_cost {
+    uint32_t closures; /* slabs and other BSDFs, each at each thickness */
+    uint32_t others;   /* of them, those that are no slabs */
+    uint32_t bytes;    /* of the slabs in one pixel */
+    uint32_t features; /* of any slab */
+};
+struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots *spots);
+
+#endif

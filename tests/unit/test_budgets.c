@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Budgets of slabs: sizes, colour differences, and for examples and random stacks that each step
+ * makes the tree cheaper, and that blended slabs are nearer to the whole than the heaviest of its
+ * slabs.
+ */
+#include "api/generation.h"
+#include "build/build_priv.h"
+#include "slabs/blend.h"
+#include "slabs/bytes.h"
+#include "slabs/difference.h"
+#include "slabs/estimate.h"
+
+#include "slab_stacks.h"
+#include "test.h"
+
+#include <stdlib.h>
+
+enum { NUM_STACKS = 40, MAX_CLOSURES = 3, MAX_ERRORS = 256 };
+
+struct run {
+    mxg_context *context;
+    mxg_library *library;
+    struct generation *generation;
+    struct arena scratch;
+    float blended[MAX_ERRORS], heaviest[MAX_ERRORS];
+    unsigned num_errors;
+};
+
+/* ---- Colour differences: pairs of table 1 in Sharma, Wu and Dalal 2005 ---- */
+
+static void test_difference(void)
+{
+    static const struct {
+        double a[3], b[3], difference;
+    } pairs[] = {
+        {{50.0, 2.6772, -79.7751}, {50.0, 0.0, -82.7485}, 2.0425},
+        {{50.0, 3.1571, -77.2803}, {50.0, 0.0, -82.7485}, 2.8615},
+        {{50.0, 0.0, 0.0}, {50.0, -1.0, 2.0}, 2.3669},
+        {{50.0, 2.5, 0.0}, {73.0, 25.0, -18.0}, 27.1492},
+        {{50.0, 2.5, 0.0}, {50.0, 3.1736, 0.5854}, 1.0000},
+        {{60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}, 1.2644},
+        {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        REQUIRE(fabs(lab_difference(pairs[i].a, pairs[i].b) - pairs[i].difference) < 1e-4);
+    const float white[3] = {1, 1, 1}, black[3] = {0, 0, 0}, brighter[3] = {9, 9, 9};
+    REQUIRE(fabs(color_difference(white, black) - 100.0) < 0.01);
+    REQUIRE(color_difference(white, brighter) == 0.0);
+}
+
+/* ---- Sizes: the list of the Substrate talk, each row with the parts of the one above ---- */
+
+static uint32_t pixel(uint32_t num_slabs, uint32_t features)
+{
+    return slab_bytes_of_pixel(num_slabs, slab_bytes_of(features), false);
+}
+
+static void test_bytes(void)
+{
+    uint32_t features = 0;
+    REQUIRE_EQ(slab_bytes_of_pixel(0, 0, true), 0);
+    REQUIRE_EQ(slab_bytes_of_pixel(1, 0, true), 12);
+    REQUIRE_EQ(pixel(1, features), 16);
+    features |= 1u << SLAB_SECOND_LOBE | 1u << SLAB_F90;
+    REQUIRE_EQ(pixel(1, features), 20);
+    features |= 1u << SLAB_FUZZ;
+    REQUIRE_EQ(pixel(1, features), 24);
+    features |= 1u << SLAB_ANISOTROPY;
+    REQUIRE_EQ(pixel(1, features), 28);
+    REQUIRE_EQ(pixel(2, features), 40);
+    features |= 1u << SLAB_LUT;
+    REQUIRE_EQ(pixel(2, features), 44);
+    features |= 1u << SLAB_GLINTS;
+    REQUIRE_EQ(pixel(2, features), 60);
+}
+
+/* ---- Generations ---- */
+
+static void with_document(struct run *run, mxg_document *document, const char *element,
+                          void (*steps)(struct generation *))
+{
+    mxg_result *result = NULL;
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    desc.element = element;
+    REQUIRE(generation_run(run->context, document, &desc, steps, run, &result) == MXG_OK);
+    mxg_result_destroy(result);
+}
+
+static bool begin(struct generation *g)
+{
+    struct run *run = g->user_data;
+    run->generation = g;
+    if (!REQUIRE(generation_start(g) && generation_build(g)))
+        return false;
+    generation_start_closures(g);
+    return true;
+}
+
+static ir_ref lobes(void *user_data, const ir_ref *inputs, const struct slab_place *place)
+{
+    return build_slab_lobes(user_data, inputs, place);
+}
+
+static struct slabs_host host_of(struct generation *g)
+{
+    return (struct slabs_host){.user_data = g->builder,
+                               .lobes = lobes,
+                               .closures = &g->closure_host,
+                               .scratch = &g->estimates};
+}
+
+/* ---- The heaviest slabs ---- */
+
+/* Without some slabs, by their number. */
+static ir_ref without(struct generation *g, ir_ref root, const struct slab_spots *spots,
+                      uint32_t dropped)
+{
+    struct ir_graph *graph = &g->result->graph;
+    unsigned number = 0;
+    for (uint32_t i = 0; i < spots->items.len; i++) {
+        ir_ref slab = spots->items.items[i].ref, in[NUM_SLAB_OPERANDS];
+        if (ir_get(graph, slab)->op != IR_SLAB || !(dropped >> number++ & 1u))
+            continue;
+        memcpy(in, ir_args(graph, slab), sizeof in);
+        in[SLAB_coverage] = ir_const_float(graph, 0.0f);
+        ir_ref absent = ir_build(graph, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
+        root = ir_replace(graph, root, slab, absent, g->result->shader.arena);
+    }
+    return root;
+}
+
+static float error_without(struct generation *g, const struct slab_look *whole,
+                           const struct slab_spots *spots, uint32_t dropped)
+{
+    struct slabs_host host = host_of(g);
+    struct slab_look look;
+    slabs_look(&g->result->shader, &host, without(g, g->root, spots, dropped), whole, &look);
+    return slabs_difference(whole, &look);
+}
+
+/* Drops the slabs that are missed least, one by one, until `num` are left. */
+static float error_of_heaviest(struct generation *g, uint32_t num_slabs, uint32_t num)
+{
+    struct slabs_host host = host_of(g);
+    struct slab_look whole;
+    struct slab_spots spots;
+    uint32_t dropped = 0;
+    float error = 0.0f;
+    slabs_find_spots(&g->result->shader, g->root, &spots);
+    slabs_look(&g->result->shader, &host, g->root, NULL, &whole);
+    for (uint32_t left = num_slabs; left > num; left--) {
+        uint32_t best = 0;
+        for (uint32_t i = 0; i < num_slabs; i++) {
+            if (dropped >> i & 1u)
+                continue;
+            float e = error_without(g, &whole, &spots, dropped | 1u << i);
+            if (!best || e < error) {
+                best = 1u << i;
+                error = e;
+            }
+        }
+        dropped |= best;
+    }
+    return error;
+}
+
+/* ---- Budgets ---- */
+
+static void check_steps(const struct slab_report *report)
+{
+    struct slab_cost at = report->before;
+    for (uint32_t i = 0; i < report->steps.len; i++) {
+        const struct slab_step *step = &report->steps.items[i];
+        REQUIRE(step->before.closures == at.closures && step->before.bytes == at.bytes);
+        REQUIRE(step->after.closures <= at.closures && step->after.bytes <= at.bytes);
+        REQUIRE(step->error >= 0.0f);
+        at = step->after;
+    }
+    REQUIRE(at.closures == report->after.closures && at.bytes == report->after.bytes);
+}
+
+static void save_closures(struct generation *g)
+{
+    struct run *run = g->user_data;
+    struct slab_report report;
+    struct slab_spots spots;
+    if (!begin(g))
+        return;
+    slabs_find_spots(&g->result->shader, g->root, &spots);
+    struct slab_cost whole = slabs_cost(&g->result->shader, &spots);
+    for (uint32_t num = 1; num <= MAX_CLOSURES && num < whole.closures; num++) {
+        struct slab_budget budget = {.max_closures = num, .max_error = -1.0f};
+        ir_ref root = build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget,
+                                         g->root, &report);
+        REQUIRE(report.is_met && report.after.closures == num);
+        check_steps(&report);
+        slabs_find_spots(&g->result->shader, root, &spots);
+        REQUIRE_EQ(slabs_cost(&g->result->shader, &spots).closures, num);
+        if (!REQUIRE(run->num_errors < MAX_ERRORS))
+            return;
+        run->heaviest[run->num_errors] = error_of_heaviest(g, whole.closures, num);
+        run->blended[run->num_errors++] = report.error;
+    }
+}
+
+static int by_size(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static const char *const examples[] = {"CoatedMetal", "DustyFibre", "WrappedSilk", "CarPaint"};
+
+static void test_closures(struct run *run, mxg_document *document)
+{
+    for (size_t i = 0; i < sizeof examples / sizeof *examples; i++)
+        with_document(run, document, examples[i], save_closures);
+    for (int i = 0; i < NUM_STACKS; i++) {
+        static char text[STACK_TEXT];
+        struct stack stack;
+        mxg_document *of_stack = NULL;
+        stack_make(&stack, 1 + i % 3, i % 2, stack_between(0.2, 0.9));
+        for (int k = 0; k < stack.num_nodes; k++) {
+            stack.nodes[k].f0 = stack_random() < 0.7 ? 0.04 : stack_between(0.3, 0.9);
+            stack.nodes[k].roughness = stack_between(0.1, 1.0);
+        }
+        stack_write(&stack, text);
+        REQUIRE(mxg_document_parse(run->context, run->library, "stack.mtlx", text, strlen(text),
+                                   &of_stack)
+                == MXG_OK);
+        with_document(run, of_stack, NULL, save_closures);
+        mxg_document_destroy(of_stack);
+    }
+    unsigned num = run->num_errors, nearer = 0;
+    for (unsigned i = 0; i < num; i++)
+        nearer += run->blended[i] < run->heaviest[i];
+    qsort(run->blended, num, sizeof *run->blended, by_size);
+    qsort(run->heaviest, num, sizeof *run->heaviest, by_size);
+    printf("%u budgets: median and worst error %.2f, %.2f; the heaviest slabs %.2f, %.2f; nearer "
+           "%u\n",
+           num, (double)run->blended[num / 2], (double)run->blended[num - 1],
+           (double)run->heaviest[num / 2], (double)run->heaviest[num - 1], nearer);
+    REQUIRE(2.0f * run->blended[num / 2] < run->heaviest[num / 2]);
+    REQUIRE(2.0f * run->blended[num - 1] < run->heaviest[num - 1]);
+}
+
+/* The smallest shader within an error. */
+static void save_error(struct generation *g)
+{
+    struct slab_report tight, loose;
+    if (!begin(g))
+        return;
+    struct slab_budget budget = {.max_error = 0.3f};
+    build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &tight);
+    budget.max_error = 5.0f;
+    build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &loose);
+    check_steps(&tight);
+    check_steps(&loose);
+    REQUIRE(tight.is_met && tight.error <= 0.3f && tight.after.closures == 2);
+    REQUIRE(loose.is_met && loose.error <= 5.0f && loose.after.closures == 1);
+    REQUIRE(loose.after.bytes <= tight.after.bytes);
+}
+
+/* Features go where blending is not enough; nothing keeps to 8 bytes. */
+static void save_bytes(struct generation *g)
+{
+    struct slab_report report;
+    if (!begin(g))
+        return;
+    for (uint32_t bytes = 8; bytes <= 64; bytes += 4) {
+        struct slab_budget budget = {.max_bytes = bytes, .max_error = -1.0f};
+        build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &report);
+        check_steps(&report);
+        REQUIRE(report.is_met == (bytes >= 12));
+        REQUIRE(report.after.bytes <= (bytes < 12 ? 12 : bytes));
+    }
+}
+
+/* Without options nothing changes, and nothing is looked at. */
+static void save_nothing(struct generation *g)
+{
+    struct slab_report report;
+    if (!begin(g))
+        return;
+    struct slab_budget budget = {.max_error = -1.0f};
+    uint32_t before = g->result->graph.nodes.len;
+    ir_ref root =
+        build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &report);
+    REQUIRE(root == g->root && report.steps.len == 0 && report.is_met);
+    REQUIRE(g->result->graph.nodes.len <= before + 1);
+}
+
+int main(int argc, char **argv)
+{
+    struct run run = {.num_errors = 0};
+    mxg_document *document = NULL;
+    test_difference();
+    test_bytes();
+    REQUIRE(argc == 2 && mxg_context_create(NULL, &run.context) == MXG_OK);
+    run.library = mxg_library_builtin(run.context);
+    REQUIRE(mxg_document_load(run.context, run.library, argv[1], &document) == MXG_OK);
+    test_closures(&run, document);
+    with_document(&run, document, "CarPaint", save_error);
+    with_document(&run, document, "WrappedSilk", save_bytes);
+    with_document(&run, document, "CarPaint", save_nothing);
+    mxg_document_destroy(document);
+    mxg_library_unref(run.library);
+    mxg_context_destroy(run.context);
+    return test_report("budgets");
+}
