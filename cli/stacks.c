@@ -7,6 +7,7 @@
 #include "cli/files.h"
 #include "cli/generate.h"
 #include "cli/memory.h"
+#include "cli/stage.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -284,13 +285,10 @@ static bool bind_scene(struct stacks *s)
     struct cli *cli = &s->gen->cli;
     mxg_bind_desc desc = MXG_BIND_DESC_INIT;
     desc.look = s->gen->look;
-    mxg_status status =
-        mxg_scene_load(cli->context, s->gen->stage_file, s->gen->purpose, &s->scene);
-    if (s->scene)
-        report_list(&cli->report, mxg_scene_diagnostics(s->scene));
-    if (!report_status(&cli->report, status))
+    s->scene = stage_load(cli->context, &cli->report, s->gen->stage_file, s->gen->purpose);
+    if (!s->scene)
         return false;
-    status = mxg_bind(cli->context, s->document, s->scene, &desc, &s->bindings);
+    mxg_status status = mxg_bind(cli->context, s->document, s->scene, &desc, &s->bindings);
     if (s->bindings)
         report_list(&cli->report, mxg_bindings_diagnostics(s->bindings));
     return report_status(&cli->report, status);

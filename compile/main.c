@@ -6,6 +6,7 @@
  */
 #include "cli/cli.h"
 #include "cli/files.h"
+#include "cli/stage.h"
 #include "compile/compile.h"
 
 #include <stdlib.h>
@@ -156,18 +157,15 @@ static void check_elements(struct check *check, const mxg_document *document, co
 /* False after a message. */
 static bool bind_stage(struct check *check, const mxg_document *document)
 {
-    mxg_scene *scene = NULL;
     mxg_bind_desc desc = MXG_BIND_DESC_INIT;
     desc.look = check->look;
-    mxg_status status = mxg_scene_load(check->cli.context, check->stage, NULL, &scene);
-    if (scene)
-        report_list(&check->cli.report, mxg_scene_diagnostics(scene));
-    if (report_status(&check->cli.report, status)) {
-        status = mxg_bind(check->cli.context, document, scene, &desc, &check->bindings);
-        if (check->bindings)
-            report_list(&check->cli.report, mxg_bindings_diagnostics(check->bindings));
-        report_status(&check->cli.report, status);
-    }
+    mxg_scene *scene = stage_load(check->cli.context, &check->cli.report, check->stage, NULL);
+    if (!scene)
+        return false;
+    mxg_status status = mxg_bind(check->cli.context, document, scene, &desc, &check->bindings);
+    if (check->bindings)
+        report_list(&check->cli.report, mxg_bindings_diagnostics(check->bindings));
+    report_status(&check->cli.report, status);
     mxg_scene_destroy(scene);
     return status == MXG_OK;
 }

@@ -235,7 +235,7 @@ static void apply_unit(struct job *job)
     } units[] = {{"meter", 1},     {"centimeter", 0.01}, {"millimeter", 0.001}, {"kilometer", 1000},
                  {"inch", 0.0254}, {"foot", 0.3048},     {"micron", 1e-6},      {"nanometer", 1e-9},
                  {"yard", 0.9144}, {"mile", 1609.344}};
-    double unit = mxg_scene_meters_per_unit(job->stage.scene);
+    double unit = job->stage.meters_per_unit;
     if (args_is_given(&job->cli.parser, "distance-unit") || unit <= 0)
         return;
     for (size_t i = 0; i < sizeof units / sizeof *units; ++i)
@@ -685,6 +685,20 @@ static unsigned find_facts(const struct job *job, bool is_grid, bool is_one)
            | fact(options->stage, FACT_STAGE) | fact(!options->stage, FACT_NO_STAGE);
 }
 
+/* mxgen render --stage FILE --list */
+static int list_stage(struct job *job)
+{
+    if (!job->options.stage) {
+        fputs("usage: mxgen render --stage FILE --list\n", stderr);
+        return EXIT_USAGE;
+    }
+    if (stage_open(&job->stage, job->cli.context, &job->cli.report, job->options.stage,
+                   job->options.purpose))
+        stage_list(&job->stage);
+    stage_close(&job->stage);
+    return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+}
+
 static int run(struct job *job)
 {
     const struct arg_list *inputs = &job->cli.parser.inputs;
@@ -696,6 +710,8 @@ static int run(struct job *job)
               stderr);
         return EXIT_USAGE;
     }
+    if (job->options.list)
+        return list_stage(job);
     bool is_grid = !strcmp(job->options.scene, "grid"),
          is_one = job->options.stage ? inputs->len < 2
                                      : inputs->len == 1 && !files_is_folder(inputs->items[0])
