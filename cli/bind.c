@@ -125,14 +125,11 @@ static void bind_document(struct bind *bind, const mxg_document *document, mxg_s
 /* The document, which may be missing, with the materials of the stage that it lacks. */
 static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *scene)
 {
-    mxg_document *own = path ? cli_load(&bind->cli, path) : NULL, *whole = NULL;
+    mxg_document *own = path ? cli_load(&bind->cli, path) : NULL;
     if (path && !own)
         return NULL;
-    mxg_status status =
-        mxg_document_with_materials(bind->cli.context, bind->cli.library, own, scene, &whole);
-    if (whole)
-        report_list(&bind->cli.report, mxg_document_diagnostics(whole));
-    report_status(&bind->cli.report, status);
+    mxg_document *whole =
+        stage_document(bind->cli.context, bind->cli.library, &bind->cli.report, own, scene);
     mxg_document_destroy(own);
     return whole;
 }

@@ -103,3 +103,16 @@ mxg_scene *stage_load(mxg_context *context, struct report *report, const char *p
     mxg_scene_destroy(scene);
     return NULL;
 }
+
+mxg_document *stage_document(mxg_context *context, mxg_library *library, struct report *report,
+                             const mxg_document *own, const mxg_scene *scene)
+{
+    mxg_document *whole = NULL;
+    mxg_status status = mxg_document_with_materials(context, library, own, scene, &whole);
+    if (whole)
+        report_list(report, mxg_document_diagnostics(whole));
+    if (report_status(report, status))
+        return whole;
+    mxg_document_destroy(whole);
+    return NULL;
+}

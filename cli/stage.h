@@ -21,4 +21,11 @@ enum stage_kind stage_kind(const char *path);
 mxg_scene *stage_load(mxg_context *context, struct report *report, const char *path,
                       const char *purpose);
 
+/*
+ * A copy of a document, which may be NULL, with the materials of a stage that it lacks. Reports
+ * what is new in it. The caller destroys it. NULL after a message.
+ */
+mxg_document *stage_document(mxg_context *context, mxg_library *library, struct report *report,
+                             const mxg_document *own, const mxg_scene *scene);
+
 #endif

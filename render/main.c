@@ -7,6 +7,7 @@
 #include "cli/outputs.h"
 #include "cli/parent.h"
 #include "cli/render_options.h"
+#include "cli/stage.h"
 #include "render/applies.h"
 #include "render/bake.h"
 #include "render/picture.h"
@@ -546,15 +547,10 @@ static void render_file(struct job *job, const char *path)
 static void render_stage(struct job *job, const char *path)
 {
     mxg_document *own = path ? load(job, path) : NULL, *document = NULL;
-    if ((path && !own) || !prepare(job)) {
-        mxg_document_destroy(own);
-        return;
-    }
-    mxg_status status = mxg_document_with_materials(job->cli.context, job->cli.library, own,
-                                                    job->stage.scene, &document);
+    if ((!path || own) && prepare(job))
+        document = stage_document(job->cli.context, job->cli.library, &job->cli.report, own,
+                                  job->stage.scene);
     if (document)
-        report_list(&job->cli.report, mxg_document_diagnostics(document));
-    if (report_status(&job->cli.report, status))
         draw_stage(job, document, path ? path : job->options.stage);
     mxg_document_destroy(document);
     mxg_document_destroy(own);

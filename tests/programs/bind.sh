@@ -298,6 +298,68 @@ check 'an input of the document wins' eval 'sed "s|<look|<standard_surface name=
 check 'a shader without a definition' eval 'sed s/ND_mix_color3/ND_mxi_color3/ network.usda >odd.usda; "$mxgen" bind --stage odd.usda 2>err; grep -q "^odd.usda:.*\[usda-shader\]" err'
 check 'a document without a stage' exits 2 "$mxgen" bind like.mtlx
 
+# Overrides of the stage: a Material without terminals, and a NodeGraph.
+cat >drives.usda <<'USD'
+#usda 1.0
+def Xform "set"
+{
+    rel material:slotBinding:_000 = </Looks/Paint>
+    rel material:slotBinding:_000:_:_010 = </Looks/Red>
+    def Mesh "a"
+    {
+        rel material:slotBinding:_000:_:_020 = </Looks/Pattern>
+    }
+}
+def Scope "Looks"
+{
+    def Material "Paint"
+    {
+        token outputs:mtlx:surface.connect = </Looks/Paint/S.outputs:out>
+        def Shader "S"
+        {
+            uniform token info:id = "ND_surface_unlit"
+            color3f inputs:emission_color = (0, 0, 1)
+        }
+    }
+    def Material "Red"
+    {
+        color3f inputs:color = (1, 0, 0)
+        color3f outputs:emission_color.connect = </Looks/Red.inputs:color>
+        float outputs:opacity = 0.5
+        float outputs:nothing
+    }
+    def NodeGraph "Pattern"
+    {
+        float outputs:emission.connect = </Looks/Pattern/N.outputs:out>
+        def Shader "N"
+        {
+            uniform token info:id = "ND_noise3d_float"
+            float inputs:amplitude = 0.25
+        }
+    }
+    def NodeGraph "Unused"
+    {
+        float outputs:emission.connect = </Looks/Unused/N.outputs:out>
+        def Shader "N"
+        {
+            uniform token info:id = "ND_none"
+        }
+    }
+}
+USD
+echo '<materialx version="1.39"/>' >nothing.mtlx
+check 'overrides of a stage' exits 0 "$mxgen" bind --stage drives.usda
+check 'without a warning' test ! -s err
+check 'are layers' row '/set/a (000 Paint) (::010 Red) [::020 Pattern]'
+check 'the JSON' exits 0 "$mxgen" bind --stage drives.usda --json -
+check 'calls them graphs' json '[o["nodegraph"] for o in p["/set/a"]["layers"][0]["overrides"]] == ["Red", "Pattern"]'
+# main PATH: what the shader of a primitive does
+main() { sed -n '/^void main/,$p' "drives.d/$(python3 -c "import json; print({p['path']: p['stack'] for p in json.load(open('drives.d/bindings.json'))['primitives']}['$1'])").frag"; }
+check 'shaders of materials of the stage' exits 0 "$mxgen" nothing.mtlx --stage drives.usda --target vulkan --interface reduced -o drives.d
+check 'values drive inputs' eval 'main /set | grep -qF "out1 = vec4(0.5, 0.0, 0.0, 0.5)"'
+check 'and networks' eval 'main /set/a | grep -qF "mx_noise_float(vd.positionObject) * 0.25 * 0.5 * vec3(1.0, 0.0, 0.0)"'
+check 'a material with terminals overrides by its shaders' eval 'sed "s|float outputs:nothing|token outputs:surface.connect = </Looks/Paint/S.outputs:out>|" drives.usda >both.usda; exits 0 "$mxgen" bind --stage both.usda --json - && json "p[\"/set\"][\"layers\"][0][\"overrides\"][0][\"material\"] == \"Red\""'
+
 # Files of Assimp come through mxgen-render: the same primitives as in USD.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\ng left\nf 1 2 3\n' >one.obj
 sed 's|</materialx>|<look name="l"><materialassign material="Clay" geom="/left"/></look>&|' materials.mtlx >obj.mtlx

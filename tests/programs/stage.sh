@@ -254,6 +254,33 @@ check 'a stage with z upwards' draw upright --camera 30,0
 sees 'what is above' upright 0 1 g
 sees 'what is below' upright 0 -1 r
 
+# Tangents are smooth over faces, though faces do not share vertices: beside the edge the left face has some of the right one's.
+cat >tangents.mtlx <<'XML'
+<materialx version="1.39">
+  <tangent name="t" type="vector3"><input name="space" type="string" value="world"/></tangent>
+  <convert name="c" type="color3"><input name="in" type="vector3" nodename="t"/></convert>
+  <surface_unlit name="S" type="surfaceshader"><input name="emission_color" type="color3" nodename="c"/></surface_unlit>
+  <surfacematerial name="Along" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  <look name="l"><materialassign material="Along" geom="/m"/></look>
+</materialx>
+XML
+cat >tangents.usda <<USD
+$head
+def Mesh "m" {
+    point3f[] points = [(-3, -2, 0), (0, -2, 0), (0, 2, 0), (-3, 2, 0), (3, -2, 0), (3, 2, 0)]
+    int[] faceVertexCounts = [4, 4]
+    int[] faceVertexIndices = [0, 1, 2, 3, 1, 4, 5, 2]
+    normal3f[] normals = [(0, 0, 1), (0, 0, 1), (0, 0, 1), (0, 0, 1), (0, 0, 1), (0, 0, 1)]
+    texCoord2f[] primvars:st = [(0, 0), (3, 0), (3, 4), (0, 4), (6, -3), (6, 1)] (
+        interpolation = "vertex"
+    )
+}
+USD
+check 'a mesh with texture coordinates' env document=tangents.mtlx bash -c "$(declare -f draw exits); render='$render'; draw tangents --look l"
+sees 'the tangent of the left face' tangents -2.8 0 r
+sees 'of the right face' tangents 2.8 0 rg
+sees 'smooth in between' tangents -0.2 0 rg
+
 # Groups of a file of Assimp, assigned by a look.
 cat >two.obj <<'OBJ'
 v -1 -1 0
