@@ -5,6 +5,7 @@
 #include "cli/cli.h"
 #include "cli/files.h"
 #include "cli/memory.h"
+#include "cli/stage.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -124,26 +125,20 @@ static void bind_document(struct bind *bind, const mxg_document *document, mxg_s
 /* The document, which may be missing, with the materials of the stage that it lacks. */
 static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *scene)
 {
-    mxg_document *own = path ? cli_load(&bind->cli, path) : NULL, *whole = NULL;
+    mxg_document *own = path ? cli_load(&bind->cli, path) : NULL;
     if (path && !own)
         return NULL;
-    mxg_status status =
-        mxg_document_with_materials(bind->cli.context, bind->cli.library, own, scene, &whole);
-    if (whole)
-        report_list(&bind->cli.report, mxg_document_diagnostics(whole));
-    report_status(&bind->cli.report, status);
+    mxg_document *whole =
+        stage_document(bind->cli.context, bind->cli.library, &bind->cli.report, own, scene);
     mxg_document_destroy(own);
     return whole;
 }
 
 static void bind_file(struct bind *bind, const char *path)
 {
-    mxg_scene *scene = NULL;
     mxg_document *document = NULL;
-    mxg_status status = mxg_scene_load(bind->cli.context, bind->stage, bind->purpose, &scene);
-    if (scene)
-        report_list(&bind->cli.report, mxg_scene_diagnostics(scene));
-    if (report_status(&bind->cli.report, status) && (document = load(bind, path, scene)) != NULL)
+    mxg_scene *scene = stage_load(bind->cli.context, &bind->cli.report, bind->stage, bind->purpose);
+    if (scene && (document = load(bind, path, scene)) != NULL)
         bind_document(bind, document, scene);
     mxg_scene_destroy(scene);
     mxg_document_destroy(document);
@@ -155,7 +150,7 @@ int command_bind(const struct command *command, int argc, char **argv)
     const struct arg args[] = {
         {"look", 0, ARG_TEXT, "LOOK", "a look, or a look group with a default", &bind.look},
         {"stage", 0, ARG_TEXT, "FILE",
-         "the primitives: a list of paths, one in each line, or a flattened .usda", &bind.stage},
+         "the primitives: a list of paths (.txt), a flattened .usda, glTF, OBJ, ...", &bind.stage},
         {"purpose", 0, ARG_TEXT, "full|preview",
          "also takes the bindings of the stage for this purpose", &bind.purpose},
         {"json", 0, ARG_TEXT, "FILE", "writes the layers of all primitives as JSON; '-': prints it",

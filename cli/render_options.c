@@ -22,6 +22,8 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
         {"stage", 0, ARG_TEXT, "FILE",
          "renders a stage, each primitive with its material: a flattened .usda, glTF, OBJ, ...",
          &options->stage},
+        {"list", 0, ARG_FLAG, NULL, "prints the primitives of the stage instead", &options->list,
+         ARG_MORE},
         {"purpose", 0, ARG_TEXT, "full|preview",
          "also takes the bindings of the stage for this purpose", &options->purpose, ARG_MORE},
         {"mesh", 'm', ARG_TEXT, "NAME|FILE",

@@ -10,7 +10,7 @@ struct render_options {
         *missing_texture, *baked, *stage, *purpose;
     struct arg_list settings, environments;
     size_t samples, frame, frames, paths, bounces;
-    bool path_trace, as_drawn;
+    bool path_trace, as_drawn, list;
 };
 
 #define RENDER_OPTIONS_DEFAULTS \

@@ -7,6 +7,7 @@
 #include "cli/files.h"
 #include "cli/generate.h"
 #include "cli/memory.h"
+#include "cli/stage.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -24,7 +25,7 @@ enum { NUM_BUCKETS = 4096 };
 
 struct stacks {
     struct generate *gen;
-    const mxg_document *document;
+    mxg_document *document; /* with the materials of the stage */
     const char *folder;
     mxg_scene *scene;
     mxg_bindings *bindings;
@@ -278,29 +279,28 @@ static void write_bindings(struct stacks *s)
 
 /* ---- The whole ---- */
 
-/* The scene and its bindings; false after a message. */
-static bool bind_scene(struct stacks *s)
+/* The scene, its materials and its bindings; false after a message. */
+static bool bind_scene(struct stacks *s, const mxg_document *own)
 {
     struct cli *cli = &s->gen->cli;
     mxg_bind_desc desc = MXG_BIND_DESC_INIT;
     desc.look = s->gen->look;
-    mxg_status status =
-        mxg_scene_load(cli->context, s->gen->stage_file, s->gen->purpose, &s->scene);
+    s->scene = stage_load(cli->context, &cli->report, s->gen->stage_file, s->gen->purpose);
     if (s->scene)
-        report_list(&cli->report, mxg_scene_diagnostics(s->scene));
-    if (!report_status(&cli->report, status))
+        s->document = stage_document(cli->context, cli->library, &cli->report, own, s->scene);
+    if (!s->document)
         return false;
-    status = mxg_bind(cli->context, s->document, s->scene, &desc, &s->bindings);
+    mxg_status status = mxg_bind(cli->context, s->document, s->scene, &desc, &s->bindings);
     if (s->bindings)
         report_list(&cli->report, mxg_bindings_diagnostics(s->bindings));
     return report_status(&cli->report, status);
 }
 
-static bool note_files(struct stacks *s)
+static bool note_files(struct stacks *s, const mxg_document *own)
 {
     bool good = generate_add_source(s->gen, s->gen->stage_file);
-    for (uint32_t i = 0; i < mxg_document_num_files(s->document); ++i)
-        good = generate_add_source(s->gen, mxg_document_file(s->document, i)) && good;
+    for (uint32_t i = 0; i < mxg_document_num_files(own); ++i)
+        good = generate_add_source(s->gen, mxg_document_file(own, i)) && good;
     return good;
 }
 
@@ -315,10 +315,10 @@ static void tell_programs(const struct stacks *s)
 void generate_stacks(struct generate *gen, const mxg_document *document, const char *folder)
 {
     struct stacks *s = memory_alloc(sizeof *s);
-    *s = (struct stacks){.gen = gen, .document = document, .folder = folder};
+    *s = (struct stacks){.gen = gen, .folder = folder};
     json_use_memory();
     s->stacks = json_array();
-    if (note_files(s) && bind_scene(s) && generate_make_folder(gen, folder)) {
+    if (note_files(s, document) && bind_scene(s, document) && generate_make_folder(gen, folder)) {
         for (uint32_t i = 0; i < mxg_bindings_num_stacks(s->bindings); ++i)
             generate_stack(s, i);
         if (!gen->cli.report.errors) {
@@ -332,5 +332,6 @@ void generate_stacks(struct generate *gen, const mxg_document *document, const c
     json_decref(s->stacks);
     mxg_bindings_destroy(s->bindings);
     mxg_scene_destroy(s->scene);
+    mxg_document_destroy(s->document);
     free(s);
 }

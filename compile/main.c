@@ -6,6 +6,7 @@
  */
 #include "cli/cli.h"
 #include "cli/files.h"
+#include "cli/stage.h"
 #include "compile/compile.h"
 
 #include <stdlib.h>
@@ -153,21 +154,26 @@ static void check_elements(struct check *check, const mxg_document *document, co
     }
 }
 
-/* False after a message. */
-static bool bind_stage(struct check *check, const mxg_document *document)
+/* Adds the materials of the stage to the document. False after a message. */
+static bool bind_stage(struct check *check, mxg_document **document)
 {
-    mxg_scene *scene = NULL;
     mxg_bind_desc desc = MXG_BIND_DESC_INIT;
     desc.look = check->look;
-    mxg_status status = mxg_scene_load(check->cli.context, check->stage, NULL, &scene);
-    if (scene)
-        report_list(&check->cli.report, mxg_scene_diagnostics(scene));
-    if (report_status(&check->cli.report, status)) {
-        status = mxg_bind(check->cli.context, document, scene, &desc, &check->bindings);
-        if (check->bindings)
-            report_list(&check->cli.report, mxg_bindings_diagnostics(check->bindings));
-        report_status(&check->cli.report, status);
+    mxg_scene *scene = stage_load(check->cli.context, &check->cli.report, check->stage, NULL);
+    if (!scene)
+        return false;
+    mxg_document *own = *document;
+    *document =
+        stage_document(check->cli.context, check->cli.library, &check->cli.report, own, scene);
+    mxg_document_destroy(own);
+    if (!*document) {
+        mxg_scene_destroy(scene);
+        return false;
     }
+    mxg_status status = mxg_bind(check->cli.context, *document, scene, &desc, &check->bindings);
+    if (check->bindings)
+        report_list(&check->cli.report, mxg_bindings_diagnostics(check->bindings));
+    report_status(&check->cli.report, status);
     mxg_scene_destroy(scene);
     return status == MXG_OK;
 }
@@ -175,7 +181,7 @@ static bool bind_stage(struct check *check, const mxg_document *document)
 static void check_document(struct check *check)
 {
     mxg_document *document = cli_load(&check->cli, check->input);
-    if (document && check->stage && !bind_stage(check, document)) {
+    if (document && check->stage && !bind_stage(check, &document)) {
         mxg_document_destroy(document);
         return;
     }

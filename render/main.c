@@ -7,6 +7,7 @@
 #include "cli/outputs.h"
 #include "cli/parent.h"
 #include "cli/render_options.h"
+#include "cli/stage.h"
 #include "render/applies.h"
 #include "render/bake.h"
 #include "render/picture.h"
@@ -236,7 +237,7 @@ static void apply_unit(struct job *job)
     } units[] = {{"meter", 1},     {"centimeter", 0.01}, {"millimeter", 0.001}, {"kilometer", 1000},
                  {"inch", 0.0254}, {"foot", 0.3048},     {"micron", 1e-6},      {"nanometer", 1e-9},
                  {"yard", 0.9144}, {"mile", 1609.344}};
-    double unit = mxg_scene_meters_per_unit(job->stage.scene);
+    double unit = job->stage.meters_per_unit;
     if (args_is_given(&job->cli.parser, "distance-unit") || unit <= 0)
         return;
     for (size_t i = 0; i < sizeof units / sizeof *units; ++i)
@@ -547,15 +548,10 @@ static void render_file(struct job *job, const char *path)
 static void render_stage(struct job *job, const char *path)
 {
     mxg_document *own = path ? load(job, path) : NULL, *document = NULL;
-    if ((path && !own) || !prepare(job)) {
-        mxg_document_destroy(own);
-        return;
-    }
-    mxg_status status = mxg_document_with_materials(job->cli.context, job->cli.library, own,
-                                                    job->stage.scene, &document);
+    if ((!path || own) && prepare(job))
+        document = stage_document(job->cli.context, job->cli.library, &job->cli.report, own,
+                                  job->stage.scene);
     if (document)
-        report_list(&job->cli.report, mxg_document_diagnostics(document));
-    if (report_status(&job->cli.report, status))
         draw_stage(job, document, path ? path : job->options.stage);
     mxg_document_destroy(document);
     mxg_document_destroy(own);
@@ -686,6 +682,20 @@ static unsigned find_facts(const struct job *job, bool is_grid, bool is_one)
            | fact(options->stage, FACT_STAGE) | fact(!options->stage, FACT_NO_STAGE);
 }
 
+/* mxgen render --stage FILE --list */
+static int list_stage(struct job *job)
+{
+    if (!job->options.stage) {
+        fputs("usage: mxgen render --stage FILE --list\n", stderr);
+        return EXIT_USAGE;
+    }
+    if (stage_open(&job->stage, job->cli.context, &job->cli.report, job->options.stage,
+                   job->options.purpose))
+        stage_list(&job->stage);
+    stage_close(&job->stage);
+    return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+}
+
 static int run(struct job *job)
 {
     const struct arg_list *inputs = &job->cli.parser.inputs;
@@ -697,6 +707,8 @@ static int run(struct job *job)
               stderr);
         return EXIT_USAGE;
     }
+    if (job->options.list)
+        return list_stage(job);
     bool is_grid = !strcmp(job->options.scene, "grid"),
          is_one = job->options.stage ? inputs->len < 2
                                      : inputs->len == 1 && !files_is_folder(inputs->items[0])

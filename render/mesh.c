@@ -163,6 +163,48 @@ static void any_tangent(const float normal[3], float out[3])
     store_unit(across, (const float[3]){1, 0, 0}, out);
 }
 
+/* A vertex with what makes it the same point of a smooth surface as another one. */
+struct twin {
+    float at[8]; /* position, normal, texcoord */
+    uint32_t vertex;
+};
+
+static int compare_twins(const void *a, const void *b)
+{
+    const struct twin *x = a, *y = b;
+    for (size_t i = 0; i < 8; ++i)
+        if (x->at[i] != y->at[i])
+            return x->at[i] < y->at[i] ? -1 : 1;
+    return 0;
+}
+
+/* Vertices that differ in nothing get the sum of their tangents: triangles need not share them. */
+static bool share_tangents(const struct mesh *mesh, double (*sums)[3])
+{
+    struct twin *twins = malloc(mesh->num_vertices * sizeof *twins + 1);
+    if (!twins)
+        return false;
+    for (uint32_t i = 0; i < mesh->num_vertices; ++i) {
+        const struct vertex *v = &mesh->vertices[i];
+        memcpy(twins[i].at, v->position, sizeof v->position);
+        memcpy(twins[i].at + 3, v->normal, sizeof v->normal);
+        memcpy(twins[i].at + 6, v->texcoord, sizeof v->texcoord);
+        twins[i].vertex = i;
+    }
+    qsort(twins, mesh->num_vertices, sizeof *twins, compare_twins);
+    for (uint32_t first = 0, end; first < mesh->num_vertices; first = end) {
+        double sum[3] = {0};
+        for (end = first; end < mesh->num_vertices && !compare_twins(twins + first, twins + end);
+             ++end)
+            for (size_t i = 0; i < 3; ++i)
+                sum[i] += sums[twins[end].vertex][i];
+        for (uint32_t k = first; k < end; ++k)
+            memcpy(sums[twins[k].vertex], sum, sizeof sum);
+    }
+    free(twins);
+    return true;
+}
+
 static bool make_tangents(struct mesh *mesh)
 {
     double(*sums)[3] = calloc(mesh->num_vertices, sizeof *sums);
@@ -172,6 +214,10 @@ static bool make_tangents(struct mesh *mesh)
         double tangent[3];
         face_tangent(mesh, i, tangent);
         add_to_corners(mesh, i, tangent, sums);
+    }
+    if (!share_tangents(mesh, sums)) {
+        free(sums);
+        return false;
     }
     for (uint32_t i = 0; i < mesh->num_vertices; ++i) {
         struct vertex *vertex = &mesh->vertices[i];

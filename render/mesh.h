@@ -27,8 +27,8 @@ void mesh_finish(struct mesh *mesh);
 
 /*
  * Adds the parts of `missing`: averages normals over the triangles at a vertex, projects texture
- * coordinates along the axis that a triangle faces, derives tangents from texture coordinates.
- * false: out of memory.
+ * coordinates along the axis that a triangle faces, derives tangents from texture coordinates,
+ * which vertices of equal position, normal and texture coordinates share. false: out of memory.
  */
 bool mesh_complete(struct mesh *mesh, unsigned missing);
 

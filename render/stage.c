@@ -2,6 +2,7 @@
 #include "render/stage.h"
 
 #include "cli/memory.h"
+#include "cli/stage.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -54,12 +55,6 @@ void stage_fail(struct stage *stage, uint32_t primitive, const char *property, c
 
 /* ---- Files ---- */
 
-static bool is_usd(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && strncmp(dot, ".usd", 4) == 0;
-}
-
 static bool open_usd(struct stage *stage, mxg_context *context, const char *path,
                      const char *purpose)
 {
@@ -68,6 +63,7 @@ static bool open_usd(struct stage *stage, mxg_context *context, const char *path
         report_list(stage->report, mxg_scene_diagnostics(stage->scene));
     if (!report_status(stage->report, status))
         return false;
+    stage->meters_per_unit = mxg_scene_meters_per_unit(stage->scene);
     stage_read_usd(stage);
     stage->is_z_up = mxg_scene_up_axis(stage->scene) == 'Z';
     return !stage->has_fault;
@@ -77,12 +73,22 @@ bool stage_open(struct stage *stage, mxg_context *context, struct report *report
                 const char *purpose)
 {
     *stage = (struct stage){.report = report};
-    if (!(is_usd(path) ? open_usd(stage, context, path, purpose)
-                       : stage_import(stage, context, path)))
+    if (!(stage_kind(path) == STAGE_USD ? open_usd(stage, context, path, purpose)
+                                        : stage_import(stage, context, path)))
         return false;
     if (!stage->num_objects)
         report_error(report, "empty-mesh", "the stage '%s' has no visible geometry", path);
     return stage->num_objects != 0;
+}
+
+void stage_list(const struct stage *stage)
+{
+    uint32_t num = mxg_scene_num_primitives(stage->scene);
+    for (uint32_t i = 0; i < num; ++i) {
+        char *path = stage_path(stage->scene, i);
+        puts(path);
+        free(path);
+    }
 }
 
 void stage_close(struct stage *stage)

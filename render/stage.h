@@ -27,6 +27,7 @@ struct stage {
     uint32_t num_objects, capacity;
     struct stage_camera *cameras;
     uint32_t num_cameras;
+    double meters_per_unit; /* 0: unknown */
     bool is_z_up;
     bool has_fault; /* an error was reported */
 };
@@ -38,6 +39,8 @@ struct stage {
 bool stage_open(struct stage *stage, mxg_context *context, struct report *report, const char *path,
                 const char *purpose);
 void stage_close(struct stage *stage);
+/* Prints the paths of the primitives, one in each line. */
+void stage_list(const struct stage *stage);
 
 /*
  * Places the camera, light and environment of the studio around the stage. `camera` is the path of

@@ -11,13 +11,14 @@
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct importer {
     struct stage *stage;
     const struct aiScene *scene;
-    bool good;
+    bool is_gltf, good;
 };
 
 /* A node to visit, with the path and the matrix of its parent. */
@@ -124,7 +125,42 @@ static void add_node(struct importer *in, const struct aiNode *node, const char 
     }
 }
 
-/* Visits the nodes below the root, which is the scene itself unless it has meshes. */
+/* ---- Cameras ---- */
+
+static void add_camera(struct importer *in, const struct aiNode *node, const char *path,
+                       struct matrix world)
+{
+    for (unsigned i = 0; i < in->scene->mNumCameras; ++i) {
+        const struct aiCamera *camera = in->scene->mCameras[i];
+        if (strcmp(camera->mName.data, node->mName.data) != 0 || camera->mHorizontalFOV <= 0.0f)
+            continue;
+        double width = tan((double)camera->mHorizontalFOV / 2), aspect = (double)camera->mAspect;
+        struct stage *stage = in->stage;
+        /* Assimp 5 multiplies the angle of glTF, which is vertical, by the aspect */
+        if (in->is_gltf && aspect > 0)
+            width = aspect * tan((double)camera->mHorizontalFOV / aspect / 2);
+        stage->cameras =
+            memory_resize(stage->cameras, (stage->num_cameras + 1) * sizeof *stage->cameras);
+        stage->cameras[stage->num_cameras++] =
+            (struct stage_camera){.world = world,
+                                  .width = width,
+                                  .height = aspect > 0 ? width / aspect : 0,
+                                  .path = cli_format("%s", path)};
+    }
+}
+
+/* ---- The walk ---- */
+
+/*
+ * True if the root is the scene itself, and no node of the file. glTF has several roots; if there
+ * is just one, Assimp makes no other.
+ */
+static bool is_made_root(const struct importer *in)
+{
+    const struct aiNode *root = in->scene->mRootNode;
+    return !root->mNumMeshes && (!in->is_gltf || strcmp(root->mName.data, "ROOT") == 0);
+}
+
 static void walk(struct importer *in)
 {
     size_t num = 1, capacity = 64;
@@ -132,11 +168,12 @@ static void walk(struct importer *in)
     visits[0] = (struct visit){in->scene->mRootNode, cli_format("%s", ""), matrix_identity()};
     while (num) {
         struct visit at = visits[--num];
-        bool is_root = at.node == in->scene->mRootNode && !at.node->mNumMeshes;
+        bool is_root = at.node == in->scene->mRootNode && is_made_root(in);
         struct matrix world = matrix_multiply(at.world, matrix_of(&at.node->mTransformation));
         char *path =
             is_root ? cli_format("%s", "") : add_primitive(in, at.parent, at.node->mName.data);
         add_node(in, at.node, path, world);
+        add_camera(in, at.node, path, world);
         if (num + at.node->mNumChildren > capacity) {
             capacity = 2 * (num + at.node->mNumChildren);
             visits = memory_resize(visits, capacity * sizeof *visits);
@@ -165,7 +202,10 @@ bool stage_import(struct stage *stage, mxg_context *context, const char *path)
         report_error(stage->report, fault.id, "cannot use the stage '%s': %s", path, fault.text);
         return false;
     }
-    struct importer in = {stage, scene, true};
+    const char *dot = strrchr(path, '.');
+    struct importer in = {.stage = stage, .scene = scene, .good = true};
+    in.is_gltf = dot && (strcmp(dot, ".gltf") == 0 || strcmp(dot, ".glb") == 0);
+    stage->meters_per_unit = in.is_gltf ? 1 : 0;
     walk(&in);
     aiReleaseImport(scene);
     return in.good;

@@ -414,30 +414,147 @@ static bool add_product(struct maker *m, elem_id material, const char *const *ou
     return false;
 }
 
+/* Makes the inputs of all nodes, which makes more nodes. */
+static void read_inputs(struct maker *m)
+{
+    const struct usda_property *properties = m->layer->properties.items;
+    for (uint32_t i = 0; i < m->nodes.len; i++) { /* grows while it is read */
+        struct made_node node = m->nodes.items[i];
+        for (uint32_t k = m->layer->prims.items[node.prim].first_property; k;
+             k = properties[k].next)
+            read_input(m, &node, &properties[k]);
+    }
+}
+
+static void begin(struct maker *m, usda_prim_id prim)
+{
+    m->material = prim;
+    m->graph = 0;
+    m->is_broken = false;
+    m->nodes.len = m->outputs.len = m->interface.len = 0;
+}
+
 static void add_material(struct maker *m, usda_prim_id prim)
 {
     static const char *const surfaces[] = {"outputs:mtlx:surface", "outputs:surface", NULL};
     static const char *const displacements[] = {"outputs:mtlx:displacement", "outputs:displacement",
                                                 NULL};
     const struct usda_prim *at = &m->layer->prims.items[prim];
-    m->material = prim;
-    m->graph = 0;
-    m->is_broken = false;
-    m->nodes.len = m->outputs.len = m->interface.len = 0;
+    begin(m, prim);
     elem_id material =
         add(m, m->doc->root, "surfacematerial", intern(m, at->name), at->line, at->column);
     set(m, material, "type", str_intern_z(m->doc->strings, "material"));
     doc_index_element(m->doc, material);
     add_product(m, material, surfaces, "surfaceshader");
     add_product(m, material, displacements, "displacementshader");
-    for (uint32_t i = 0; i < m->nodes.len; i++) { /* grows while it is read */
-        struct made_node node = m->nodes.items[i];
-        const struct usda_property *properties = m->layer->properties.items;
-        for (uint32_t k = m->layer->prims.items[node.prim].first_property; k;
-             k = properties[k].next)
-            read_input(m, &node, &properties[k]);
-    }
+    read_inputs(m);
 }
+
+/* ---- Overrides ---- */
+
+/* What a property says as an output: its name; len 0: it is no output, or a terminal. */
+static struct text_word override_name(const struct usda_property *property)
+{
+    static const char prefix[] = "outputs:", connect_end[] = ".connect";
+    static const char *const terminals[] = {"surface", "displacement", "volume"};
+    struct text_word name = property->name, none = {0};
+    size_t len = strlen(prefix), end = strlen(connect_end);
+    if (name.len <= len || memcmp(name.bytes, prefix, len) != 0)
+        return none;
+    name = (struct text_word){name.bytes + len, name.len - len};
+    if (name.len > end && memcmp(name.bytes + name.len - end, connect_end, end) == 0)
+        name.len -= end;
+    /* terminals may have a render context in front, "outputs:mtlx:surface" */
+    if (memchr(name.bytes, ':', name.len))
+        return none;
+    for (size_t i = 0; i < sizeof terminals / sizeof *terminals; i++)
+        if (usda_is(name, terminals[i]))
+            return none;
+    return name;
+}
+
+/* True if a Material is an override: it has outputs, and no terminal is among them. */
+static bool is_override(const struct maker *m, const struct usda_prim *prim)
+{
+    static const char prefix[] = "outputs:";
+    const struct usda_property *properties = m->layer->properties.items;
+    bool found = false;
+    for (uint32_t i = prim->first_property; i; i = properties[i].next) {
+        struct text_word name = properties[i].name;
+        bool is_output = name.len > strlen(prefix) && !memcmp(name.bytes, prefix, strlen(prefix));
+        if (is_output && !override_name(&properties[i]).len)
+            return false;
+        found = found || is_output;
+    }
+    return found;
+}
+
+/* The node of a value that an output has. */
+static str_id add_constant(struct maker *m, struct text_word output, str_id type,
+                           const struct usda_property *value)
+{
+    struct text text;
+    text_init(&text, m->scratch);
+    text_put(&text, output);
+    text_str(&text, "_value");
+    str_id name = str_intern(m->doc->strings, text.data, text.len);
+    elem_id node = add(m, m->graph, "constant", name, value->line, value->column);
+    elem_id input =
+        add(m, node, "input", str_intern_z(m->doc->strings, "value"), value->line, value->column);
+    set(m, node, "type", type);
+    set(m, input, "type", type);
+    set(m, input, "value", value_text(m, value));
+    if (value->color_space.len)
+        set(m, input, "colorspace", intern(m, value->color_space));
+    return name;
+}
+
+static void add_override_output(struct maker *m, const struct usda_property *property)
+{
+    struct text_word name = override_name(property);
+    const char *type_name = type_of(property->type);
+    if (!name.len || !type_name || doc_child(m->doc, m->graph, intern(m, name)))
+        return;
+    struct text_word own = {property->name.bytes, strlen("outputs:") + name.len};
+    const struct usda_property *connection = connection_of(m, m->material, own);
+    struct source from = connection ? follow(m, connection) : (struct source){.value = property};
+    if (!from.node && (!from.value || !usda_value(from.value).len))
+        return;
+    str_id type = str_intern_z(m->doc->strings, type_name);
+    str_id constant = from.node ? 0 : add_constant(m, name, type, from.value);
+    elem_id output = add(m, m->graph, "output", intern(m, name), property->line, property->column);
+    set(m, output, "type", type);
+    if (from.node)
+        connect(m, output, output, &from);
+    else
+        set(m, output, "nodename", constant);
+    doc_index_element(m->doc, output);
+}
+
+/* A Material without terminals, or a NodeGraph, as a nodegraph of its name. */
+static void add_override(struct maker *m, usda_prim_id prim)
+{
+    const struct usda_prim *at = &m->layer->prims.items[prim];
+    const struct usda_property *properties = m->layer->properties.items;
+    begin(m, prim);
+    m->graph = add(m, m->doc->root, "nodegraph", intern(m, at->name), at->line, at->column);
+    doc_index_element(m->doc, m->graph);
+    for (uint32_t i = at->first_property; i; i = properties[i].next)
+        add_override_output(m, &properties[i]);
+    read_inputs(m);
+}
+
+/* True if a binding of the scene has an override of this name. */
+static bool is_bound(const struct scene *scene, struct text_word name)
+{
+    for (uint32_t i = 0; i < scene->bindings.len; i++)
+        if (strstr(scene->bindings.items[i].name, "::")
+            && usda_is(name, scene->bindings.items[i].material))
+            return true;
+    return false;
+}
+
+/* ---- All prims ---- */
 
 void bind_add_materials(const struct scene *scene, struct library *lib, struct arena *scratch,
                         struct diag_list *diags)
@@ -446,12 +563,16 @@ void bind_add_materials(const struct scene *scene, struct library *lib, struct a
         .layer = &scene->layer, .lib = lib, .doc = &lib->doc, .scratch = scratch, .diags = diags};
     for (usda_prim_id prim = 1; prim < scene->layer.prims.len; prim++) {
         const struct usda_prim *at = &scene->layer.prims.items[prim];
-        if (!usda_is(at->type, "Material") || at->is_variant || at->is_inactive)
+        bool is_graph = usda_is(at->type, "NodeGraph") && is_bound(scene, at->name);
+        if ((!usda_is(at->type, "Material") && !is_graph) || at->is_variant || at->is_inactive)
             continue;
         if (doc_child(m.doc, m.doc->root, intern(&m, at->name)))
             continue;
         if (!m.file)
             m.file = doc_add_file(m.doc, str_intern_z(m.doc->strings, scene->layer.file));
-        add_material(&m, prim);
+        if (is_graph || is_override(&m, at))
+            add_override(&m, prim);
+        else
+            add_material(&m, prim);
     }
 }

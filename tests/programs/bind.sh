@@ -4,6 +4,7 @@
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 examples=$here/../../examples
+looks=$examples/slots/looks.mtlx receiver=$examples/slots/receiver.usda
 . "$here/common.sh"
 
 bind() { "$mxgen" bind look.mtlx --stage stage.txt "$@"; }
@@ -297,6 +298,89 @@ check 'an input of the document wins' eval 'sed "s|<look|<standard_surface name=
 check 'a shader without a definition' eval 'sed s/ND_mix_color3/ND_mxi_color3/ network.usda >odd.usda; "$mxgen" bind --stage odd.usda 2>err; grep -q "^odd.usda:.*\[usda-shader\]" err'
 check 'a document without a stage' exits 2 "$mxgen" bind like.mtlx
 
+# Overrides of the stage: a Material without terminals, and a NodeGraph.
+cat >drives.usda <<'USD'
+#usda 1.0
+def Xform "set"
+{
+    rel material:slotBinding:_000 = </Looks/Paint>
+    rel material:slotBinding:_000:_:_010 = </Looks/Red>
+    def Mesh "a"
+    {
+        rel material:slotBinding:_000:_:_020 = </Looks/Pattern>
+    }
+}
+def Scope "Looks"
+{
+    def Material "Paint"
+    {
+        token outputs:mtlx:surface.connect = </Looks/Paint/S.outputs:out>
+        def Shader "S"
+        {
+            uniform token info:id = "ND_surface_unlit"
+            color3f inputs:emission_color = (0, 0, 1)
+        }
+    }
+    def Material "Red"
+    {
+        color3f inputs:color = (1, 0, 0)
+        color3f outputs:emission_color.connect = </Looks/Red.inputs:color>
+        float outputs:opacity = 0.5
+        float outputs:nothing
+    }
+    def NodeGraph "Pattern"
+    {
+        float outputs:emission.connect = </Looks/Pattern/N.outputs:out>
+        def Shader "N"
+        {
+            uniform token info:id = "ND_noise3d_float"
+            float inputs:amplitude = 0.25
+        }
+    }
+    def NodeGraph "Unused"
+    {
+        float outputs:emission.connect = </Looks/Unused/N.outputs:out>
+        def Shader "N"
+        {
+            uniform token info:id = "ND_none"
+        }
+    }
+}
+USD
+echo '<materialx version="1.39"/>' >nothing.mtlx
+check 'overrides of a stage' exits 0 "$mxgen" bind --stage drives.usda
+check 'without a warning' test ! -s err
+check 'are layers' row '/set/a (000 Paint) (::010 Red) [::020 Pattern]'
+check 'the JSON' exits 0 "$mxgen" bind --stage drives.usda --json -
+check 'calls them graphs' json '[o["nodegraph"] for o in p["/set/a"]["layers"][0]["overrides"]] == ["Red", "Pattern"]'
+# main PATH: what the shader of a primitive does
+main() { sed -n '/^void main/,$p' "drives.d/$(python3 -c "import json; print({p['path']: p['stack'] for p in json.load(open('drives.d/bindings.json'))['primitives']}['$1'])").frag"; }
+check 'shaders of materials of the stage' exits 0 "$mxgen" nothing.mtlx --stage drives.usda --target vulkan --interface reduced -o drives.d
+check 'values drive inputs' eval 'main /set | grep -qF "out1 = vec4(0.5, 0.0, 0.0, 0.5)"'
+check 'and networks' eval 'main /set/a | grep -qF "mx_noise_float(vd.positionObject) * 0.25 * 0.5 * vec3(1.0, 0.0, 0.0)"'
+check 'a material with terminals overrides by its shaders' eval 'sed "s|float outputs:nothing|token outputs:surface.connect = </Looks/Paint/S.outputs:out>|" drives.usda >both.usda; exits 0 "$mxgen" bind --stage both.usda --json - && json "p[\"/set\"][\"layers\"][0][\"overrides\"][0][\"material\"] == \"Red\""'
+
+# Files of Assimp come through mxgen-render: the same primitives as in USD.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\ng left\nf 1 2 3\n' >one.obj
+sed 's|</materialx>|<look name="l"><materialassign material="Clay" geom="/left"/></look>&|' materials.mtlx >obj.mtlx
+if [ -x "$(dirname "$mxgen")/mxgen-render" ]; then
+    check 'a stage of glTF' exits 0 "$mxgen" bind "$looks" --stage "$examples/slots/receiver.gltf" --look finished --json gltf.json
+    check 'of USD' exits 0 "$mxgen" bind "$looks" --stage "$receiver" --look finished --json usda.json
+    check 'has the same bindings' diff gltf.json usda.json
+    check 'a stage of OBJ' exits 0 "$mxgen" bind obj.mtlx --stage one.obj
+    check 'has its groups' row '/left [000 Clay]'
+    check 'shaders for it' exits 0 "$mxgen" obj.mtlx --stage one.obj --look l -o obj.d
+    echo x >bad.gltf
+    check 'a file that it cannot read' exits 1 "$mxgen" bind obj.mtlx --stage bad.gltf
+    check 'says so once' test "$(grep -c '\[bad-mesh\]' err)" = 1
+else
+    skip 'without Assimp no glTF is read'
+fi
+mkdir alone
+cp "$mxgen" alone/mxgen
+check 'without the renderer' exits 1 env PATH=/nonexistent LD_LIBRARY_PATH="$(dirname "$mxgen")" alone/mxgen bind obj.mtlx --stage one.obj
+check 'an error says that it is missing' grep -qF '[no-renderer]' err
+
 # Looks as slot bindings of USD: reading them again gives the same stacks.
 cat >stacks.py <<'PY'
 import json, sys
@@ -306,25 +390,25 @@ PY
 # round_trip DOCUMENT STAGE OPTION...: the look of a document as USD, and back, with the document's materials alone.
 round_trip() {
     exits 0 "$mxgen" bind "$1" --stage "$2" --json before.json --usda round.usda "${@:3}" || return
-    python3 -c 'import re, sys; print(re.sub(r"<look .*?</look>|<look [^>]*/>", "", open(sys.argv[1]).read(), flags=re.S))' "$1" >without.mtlx
+    sed "s|href=\"\([^/]\)|href=\"$examples/slots/\1|" "$1" | python3 -c 'import re, sys; print(re.sub(r"<look [^>]*/>|<look .*?</look>", "", sys.stdin.read(), flags=re.S))' >without.mtlx
     exits 0 "$mxgen" bind without.mtlx --stage round.usda --json after.json && python3 stacks.py before.json after.json
 }
 check 'the bindings of a stage as USD' round_trip materials.mtlx stage.usda
-check 'a look as USD' round_trip "$examples/slots.mtlx" "$examples/slots.txt" --look finished
+check 'a look as USD' round_trip "$looks" "$receiver" --look finished
 check 'without a warning' test ! -s err
-check 'says on a primitive only what is new' eval '! grep -A4 "def \"shell\"" round.usda | grep -q _050'
+check 'says on a primitive only what is new' eval '! grep -A4 "def \"bar_1\"" round.usda | grep -q _050'
 check 'removes' grep -q 'material:slotBinding:_050 = None' round.usda
 check 'names overrides' grep -q 'rel material:slotBinding:_000:_:_020 = </Looks/red_color>' round.usda
 check 'names vertical layers' grep -q 'rel material:slotBinding:_000:over:_010 = </Looks/varnish>' round.usda
-sed 's|<look name="base">|<look name="base" slotorder="050, 000, 010, 020, 040">|' "$examples/slots.mtlx" >ordered.mtlx
-check 'a look with a slotorder' round_trip ordered.mtlx "$examples/slots.usda" --look finished
+sed "s|<look name=\"default\"/>|<look name=\"default\" slotorder=\"050, 000, 010, 020, 040\"/>|; s|href=\"|&$examples/slots/|" "$looks" >ordered.mtlx
+check 'a look with a slotorder' round_trip ordered.mtlx "$receiver" --look finished
 check 'which USD has, too' grep -q 'uniform token\[\] material:slotOrder = \["050", "000"' round.usda
 check 'variants have no place' exits 0 bind --usda lossy.usda
 check 'which a warning says' grep -qF '[usda-loss]' err
 check 'a folder that is missing' exits 1 bind --usda none/out.usda
 
 # The page: in a browser, if there is one.
-check 'a page' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished --html page.html
+check 'a page' exits 0 "$mxgen" bind "$looks" --stage "$receiver" --look finished --html page.html
 check 'needs no other file' eval '! grep -qE "(src|href)=" page.html'
 browser=$(command -v chromium chromium-browser google-chrome | head -n 1)
 # seen ADDRESS SCRIPT: the page of an address as the browser shows it, and Python on it: `rows` by name, `detail`.
@@ -345,15 +429,15 @@ assert eval(sys.argv[1]), (rows, detail, output)
 PY
 }
 if [ -n "$browser" ]; then
-    check 'a row for each primitive' seen '' 'body.count("<div class=\"row\"") == 38 and output.startswith("38 of 38 primitives")'
-    check 'what is set here' seen '' 'rows["case"][0] == ("layer", "000 steel") and rows["case"][1] == ("layer inherited", "050 dirt")'
-    check 'a search keeps what is above' seen 'filter=front' 'list(rows) == ["device", "case", "front_panel"] and output.startswith("1 of")'
-    check 'by layers, too' seen 'filter=varnish' '"handle" in rows and "shell" not in rows'
-    check 'a folded tree' seen 'fold=all' 'list(rows) == ["device"]'
-    check 'where a layer comes from' seen 'at=/device/case/shell&layer=2' '"/device/case/shell" in detail and "dirty/dirt" in detail and "slots.mtlx:" in detail'
-    check 'and every place where its slot is set' seen 'at=/device/case/shell&layer=0' '"set at" in detail and "paths" in detail and "/device/screen/glass" in detail and "glass" in detail'
+    check 'a row for each primitive' seen '' 'body.count("<div class=\"row\"") == 66 and output.startswith("66 of 66 primitives")'
+    check 'what is set here' seen '' 'rows["shell"][0] == ("layer", "000 ribbed_steel") and ("layer inherited", "050 dirt") in rows["shell"]'
+    check 'a search keeps what is above' seen 'filter=front' 'list(rows) == ["receiver", "case", "front_panel"] and output.startswith("1 of")'
+    check 'by layers, too' seen 'filter=varnish' '"keys" in rows and "shell" not in rows'
+    check 'a folded tree' seen 'fold=all' 'list(rows) == ["receiver", "camera"]'
+    check 'where a layer comes from' seen 'at=/receiver/case/shell&layer=3' '"/receiver/case/shell" in detail and "dirty/dirt" in detail and "looks.mtlx:" in detail'
+    check 'and every place where its slot is set' seen 'at=/receiver/case/shell&layer=0' '"set at" in detail and "paths" in detail and "/receiver/dial/window" in detail and "glass" in detail'
     seq 0 99999 | awk '{ printf "/set/g%d/h%d/p%d\n", $1 / 1000, $1 / 10, $1 }' >large.txt
-    check 'a page of 100,000 primitives' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage large.txt --look base --html large.html
+    check 'a page of 100,000 primitives' exits 0 "$mxgen" bind "$looks" --stage large.txt --look base --html large.html
     check 'has the rows in view only' env page=large.html height=800 bash -c "$(declare -f seen); work='$work' browser='$browser'; seen '' '10 < len(rows) < 60 and output.startswith(\"110101 of\")'"
     check 'and finds one far below' env page=large.html bash -c "$(declare -f seen); work='$work' browser='$browser'; seen 'filter=p99998' '\"p99998\" in rows and len(rows) == 4'"
 else
@@ -361,13 +445,13 @@ else
 fi
 
 # The example, as docs/slots.md shows it.
-check 'examples/slots.mtlx' exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished
+check 'examples/slots/looks.mtlx' exits 0 "$mxgen" bind "$looks" --stage "$receiver" --look finished
 check 'without a warning' test ! -s err
 while read -r row; do
     check "docs/slots.md: $row" eval 'sed "s/  */ /g" out | grep -qxF "$(sed "s/  */ /g" <<<"$row")"'
-done < <(grep -E '^    /device' "$here/../../docs/slots.md")
-for look in base metal replaced red dirty; do
-    check "its look $look" exits 0 "$mxgen" bind "$examples/slots.mtlx" --stage "$examples/slots.txt" --look "$look"
+done < <(grep -E '^    /receiver' "$here/../../docs/slots.md")
+for look in default base pattern metal replaced red dirty light clean sign sign_add sign_none; do
+    check "its look $look" exits 0 "$mxgen" bind "$looks" --stage "$receiver" --look "$look"
 done
 
 finish bind

@@ -235,12 +235,12 @@ check 'an output of another type' eval '[ "$(grep -c override-type err)" = 1 ] &
 check 'a uniform input that varies' eval '[ "$(grep -c override-varies err)" = 1 ] && grep -q "quarter/normal_mode" err'
 
 # The example in every target.
-for look in base metal replaced red dirty finished; do
-    check "examples/slots.mtlx, $look" exits 0 "$mxgen" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look "$look" --target osl -o osl.d
-    [ -z "$compile" ] || check "examples/slots.mtlx, $look, compiles" exits 0 "$compile" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look "$look"
+for look in default pattern metal replaced red light clean sign_add sign_none finished; do
+    check "examples/slots/looks.mtlx, $look" exits 0 "$mxgen" "$examples/slots/looks.mtlx" --stage "$examples/slots/receiver.usda" --look "$look" --target osl -o osl.d
+    [ -z "$compile" ] || check "examples/slots/looks.mtlx, $look, compiles" exits 0 "$compile" "$examples/slots/looks.mtlx" --stage "$examples/slots/receiver.usda" --look "$look"
 done
 if [ -n "$compile" ]; then
-    check 'in every other target' exits 0 "$compile" "$examples/slots.mtlx" --stage "$examples/slots.txt" --look finished \
+    check 'in every other target' exits 0 "$compile" "$examples/slots/looks.mtlx" --stage "$examples/slots/receiver.usda" --look finished \
         --targets hlsl,essl310 --interfaces reduced
 fi
 
