@@ -59,7 +59,7 @@ static void write_members(struct spell *spell, enum shader_block block)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_indent(spell, 1);
-        if (variable->flat && !spell->shader->scatters)
+        if (variable->flat && !shader_is_called(spell->shader))
             spell_text(spell, "flat ");
         spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
         spell_text(spell, ";\n");
@@ -154,7 +154,7 @@ static void write_vertex_data(struct spell *spell)
     const char *qualifier = spell->stage_id == STAGE_VERTEX ? "out " : "in ";
     if (!spell_uses_block(spell, BLOCK_VERTEX_DATA))
         return;
-    if (spell->shader->scatters) {
+    if (shader_is_called(spell->shader)) {
         spell_text(spell, "struct VertexData {\n");
         write_members(spell, BLOCK_VERTEX_DATA);
         spell_text(spell, "};\nVertexData vd;\n");
@@ -182,12 +182,17 @@ static void declare(struct spell *spell)
         write_attributes(spell, BLOCK_APP_DATA, "in ");
     write_vertex_data(spell);
     if (spell->stage_id == STAGE_PIXEL)
-        write_attributes(spell, BLOCK_OUTPUTS, spell->shader->scatters ? "" : "out ");
+        write_attributes(spell, BLOCK_OUTPUTS, shader_is_called(spell->shader) ? "" : "out ");
 }
 
 static void open_main(struct spell *spell)
 {
-    spell_text(spell, spell->shader->scatters ? "void scatter()\n{\n" : "void main()\n{\n");
+    const struct shader *shader = spell->shader;
+    SPELL(spell, "void ",
+          shader->scatters    ? "scatter"
+          : shader->is_stored ? "surface"
+                              : "main",
+          "()\n{\n");
 }
 
 const struct target_frame glsl_frame = {.declare = declare, .open = open_main};

@@ -105,7 +105,9 @@ static void set_build_options(struct generation *g)
         .texture_fault = stdio_texture_fault,
         .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
-        .vertex_stage = (caps & CAP_VERTEX_STAGE) && o[OPTION_integrator].number != 2,
+        .stored = g->stored != CLASS_EMPTY,
+        .marks_slabs = generation_stores(g),
+        .vertex_stage = (caps & CAP_VERTEX_STAGE) && o[OPTION_integrator].number != 2 && !g->stored,
         .codes = context->codes,
         .num_codes = context->num_codes,
         .cancel = context->cancel,
@@ -290,6 +292,7 @@ void generation_start_closures(struct generation *g)
         .flips_v = g->options[OPTION_texture_origin].number != 0,
         .encodes = g->options[OPTION_encode].number != 0,
     };
+    generation_defer(g);
     g->closure_host.keeps_color = g->lighting.transparency == TRANSPARENCY_OPAQUE
                                   || g->lighting.transparency == TRANSPARENCY_MASK;
 }
@@ -344,6 +347,8 @@ bool generation_emit(struct generation *g)
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
+    if (!generation_can_store(g))
+        return false;
     generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
@@ -461,7 +466,7 @@ static bool has_stage(const mxg_result *result, int stage)
 {
     const struct shader *shader = &result->shader;
     bool is_idle =
-        stage == STAGE_VERTEX && (shader->scatters || shader->stages[stage].statements.len == 0);
+        stage == STAGE_VERTEX && (shader_is_called(shader) || shader->stages[stage].statements.len == 0);
     return result->target->stage_suffix[stage] && !is_idle;
 }
 
@@ -568,7 +573,7 @@ static void drop_source(mxg_result *result)
         result->stages[stage] = (struct stage_source){0};
 }
 
-static void generate(struct generation *g)
+void generation_run_all(struct generation *g)
 {
     bool built = generation_start(g) && generation_build(g);
     if (g->result->network.arena)
@@ -590,7 +595,7 @@ mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
         *out_result = NULL;
     if (!generation_names_target(desc))
         return MXG_ERROR_ARGUMENT;
-    return generation_run(context, document, desc, generate, NULL, out_result);
+    return generation_run(context, document, desc, generation_run_all, NULL, out_result);
 }
 
 void mxg_result_destroy(mxg_result *result)

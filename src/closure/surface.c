@@ -443,6 +443,8 @@ static void flatten_surface(struct emitter *e, const struct closure_surface *s,
     host.way_in = view ? &view : NULL;
     host.context = SOURCE_INDIRECT;
     closure_flatten(e->shader, &host, s->bsdf, out);
+    if (host.above)
+        closure_put_under(e->shader, &host, host.above, out);
     e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
     e->lit.base = add(e, e->lit.base, emission_of(e, out));
 }
@@ -545,6 +547,12 @@ static void emit_surface(struct emitter *e, ir_ref root)
         struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
         closure_scatter_layer(scatter, &layer);
         closure_scatter_end(scatter, s.alpha);
+        return;
+    }
+    if (e->host->store) {
+        struct closure_list list;
+        flatten_surface(e, &s, &list);
+        e->host->store(e->shader, e->host, s.bsdf, &list, e->lit.base);
         return;
     }
     light_surface(e, &s);

@@ -274,12 +274,19 @@ struct shader {
     bool displaced;   /* the vertex stage moves the surface */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
+    bool is_stored; /* a function of the deferred pipeline, for a closure from storage */
     bool picks;                       /* one layer of a stack, by a random number */
     struct shader_layout_rules rules; /* of shader_finish */
 };
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
                  struct ir_graph *graph, struct lang_unit *unit);
+
+/* True for a function whose caller fills the vertex data; there is no vertex stage. */
+static inline bool shader_is_called(const struct shader *shader)
+{
+    return shader->scatters || shader->is_stored;
+}
 
 /* interface.c */
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The effects of a material pass:
+ *
+ *     stored = 0
+ *     for each slab, from the top down: stored = mx_store_closure(stored, values, weights)
+ *     stored = mx_finish_closures(stored)
+ *     out1 = vec4(emission, 1)
+ *
+ * The functions stand in passes/write.glsl, which goes into the shader as its own source.
+ */
+#include "deferred/deferred.h"
+
+#include "deferred/deferred_priv.h"
+#include "deferred/texts.h"
+#include "shader/source.h"
+
+#include <assert.h>
+
+static const char mark_family[] = "mx_slab_mark_bsdf";
+
+static bool is_mark(const struct shader *shader, ir_ref leaf)
+{
+    str_id name = shader->graph->callees.items[ir_get(shader->graph, leaf)->attr].name;
+    return strcmp(str_text(shader->strings, name), mark_family) == 0;
+}
+
+ir_ref deferred_misfit(const struct shader *shader, ir_ref root)
+{
+    const struct ir_graph *g = shader->graph;
+    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    for (ir_ref ref = 1; ref <= root; ref++)
+        if (needed[ref] && ir_get(g, ref)->op == IR_LEAF && ir_type_of(g, ref) == IR_TYPE_BSDF)
+            return ref;
+    return 0;
+}
+
+/* A call of a function of write.glsl: the number of closures that are stored after it. */
+static ir_ref call(struct shader *shader, const char *name, uint32_t source, const ir_ref *args,
+                   unsigned n)
+{
+    uint32_t first = shader->source_refs.len;
+    vec_push(shader->arena, &shader->source_refs, source);
+    struct shader_verbatim verbatim = {.first_source = first,
+                                       .num_sources = 1,
+                                       .function = str_intern_z(shader->strings, name)};
+    vec_push(shader->arena, &shader->verbatim, verbatim);
+    uint32_t callee = ir_add_callee(shader->graph,
+                                    (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                                       .index = shader->verbatim.len - 1,
+                                                       .name = verbatim.function});
+    return ir_build(shader->graph, IR_VERBATIM, IR_TYPE_INT, callee, args, n);
+}
+
+static void assign(struct shader *shader, enum effect_kind kind, uint32_t index, ir_ref value)
+{
+    shader_effect(shader, STAGE_PIXEL,
+                  (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+}
+
+static ir_ref times(struct ir_graph *g, ir_ref color, ir_ref scalar)
+{
+    ir_ref white = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    color = color ? ir_convert(g, IR_TYPE_VEC3, color) : white;
+    return ir_convert(g, IR_TYPE_VEC3, ir_op2(g, IR_MUL, color, scalar));
+}
+
+/* steady, color, decay of docs/slabs.md, and whether the light of mirrors is spread. */
+static void find_weights(struct shader *shader, const struct closure_leaf *leaf, bool spreads,
+                         ir_ref out[4])
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    out[0] = times(g, leaf->color, leaf->scalar);
+    out[1] = out[2] = black;
+    out[3] = ir_const_float(g, spreads ? 1.0f : 0.0f);
+    if (!leaf->decay)
+        return;
+    out[1] = out[0];
+    out[0] = leaf->steady ? times(g, leaf->steady, leaf->scalar) : black;
+    out[2] = ir_convert(g, IR_TYPE_VEC3, leaf->decay);
+}
+
+/* True if a scattering medium lies above the leaf: with spreading, it has no way left. */
+static bool is_spread(const struct closure_list *spread, const struct closure_leaf *leaf)
+{
+    for (uint32_t i = 0; leaf->decay && i < spread->leaves.len; i++)
+        if (spread->leaves.items[i].leaf == leaf->leaf)
+            return !spread->leaves.items[i].decay;
+    return false;
+}
+
+static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, bool spreads,
+                       uint32_t local, uint32_t source)
+{
+    enum { MAX_VALUES = 24 };
+    struct ir_graph *g = shader->graph;
+    ir_ref args[MAX_VALUES];
+    unsigned n = 0, num_values = ir_get(g, leaf->leaf)->num_args;
+    assert(num_values + 4 < MAX_VALUES);
+    args[n++] = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
+    for (unsigned i = 1; i < num_values; i++) /* the first one is the weight */
+        args[n++] = ir_arg(g, leaf->leaf, i);
+    find_weights(shader, leaf, spreads, args + n);
+    assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_store_closure", source, args, n + 4));
+    shader_add_closure(shader, leaf->leaf);
+}
+
+static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
+{
+    struct text text;
+    struct source_fault fault;
+    text_init(&text, shader->arena);
+    deferred_write_storage(layout, &text);
+    deferred_write_lines(deferred_write, &text);
+    uint32_t source =
+        shader_add_source(shader, str_intern(shader->strings, text.data, text.len), NULL, 0, &fault);
+    assert(source != UINT32_MAX);
+    return source;
+}
+
+static void write_color(struct shader *shader, ir_ref emission)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref parts[2] = {emission ? ir_convert(g, IR_TYPE_VEC3, emission)
+                                : ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
+                       ir_const_float(g, 1.0f)};
+    uint32_t out = shader_add_variable(
+        shader,
+        &(struct shader_variable){.name = STR_out1, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    assign(shader, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
+}
+
+void deferred_store(struct shader *shader, const struct closure_host *host, ir_ref bsdf,
+                    const struct closure_list *list, ir_ref emission)
+{
+    struct closure_list spread = {0};
+    struct closure_host spreading = *host;
+    uint32_t source = add_source(shader, host->store_data);
+    spreading.spreads = true;
+    closure_flatten(shader, &spreading, bsdf, &spread);
+    uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
+    assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
+    for (uint32_t i = list->leaves.len; i-- > 0;) {
+        const struct closure_leaf *leaf = &list->leaves.items[i];
+        if (is_mark(shader, leaf->leaf))
+            store_leaf(shader, leaf, is_spread(&spread, leaf), local, source);
+    }
+    ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
+    assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_finish_closures", source, &stored, 1));
+    write_color(shader, emission);
+}
