@@ -78,7 +78,7 @@ static void set_build_options(struct generation *g)
     uint32_t caps = g->result->target->caps;
     g->build_options = (struct build_options){
         .syntax = g->result->target->syntax,
-        .interface = (enum build_interface)o[OPTION_interface].number,
+        .interface = g->stored ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
         .uniform_globs = o[OPTION_uniform].list.items,
         .num_uniform_globs = o[OPTION_uniform].list.len,
         .constant_globs = o[OPTION_constant].list.items,
@@ -286,7 +286,8 @@ void generation_start_closures(struct generation *g)
         .environment = g->options[OPTION_environment].number != 0,
         .two_sided = g->options[OPTION_layering].number != 0,
         .transmits_alpha = g->options[OPTION_transmission].number != 0,
-        .transparency = (uint8_t)g->options[OPTION_transparency].number,
+        .transparency = g->stored ? TRANSPARENCY_OPAQUE
+                                  : (uint8_t)g->options[OPTION_transparency].number,
         .shadow = g->options[OPTION_shadow_map].number != 0,
         .occlusion = g->options[OPTION_occlusion_map].number != 0,
         .flips_v = g->options[OPTION_texture_origin].number != 0,

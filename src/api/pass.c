@@ -66,15 +66,16 @@ mxg_status mxg_generate_pass(mxg_context *context, uint32_t index, const mxg_gen
 {
     if (out_result)
         *out_result = NULL;
-    if (!context || index >= NUM_PASSES || !generation_names_target(desc) || desc->element
-        || desc->bindings)
+    mxg_generate_desc full;
+    if (!context || index >= NUM_PASSES || !generation_names_target(desc)
+        || !struct_read(&full, sizeof full, desc) || full.element || full.bindings)
         return MXG_ERROR_ARGUMENT;
     enum deferred_pass pass = (enum deferred_pass)index;
     mxg_document *document;
     mxg_status status = parse_closures(context, &document);
     if (status == MXG_OK) {
         enum deferred_class which = deferred_pass_class(pass);
-        mxg_generate_desc full = *desc;
+        full.size = sizeof full;
         full.element = deferred_element(which ? which : CLASS_SIMPLE);
         status = generation_run(context, document, &full, generate, &pass, out_result);
     }

@@ -90,8 +90,19 @@ static bool is_spread(const struct closure_list *spread, const struct closure_le
     return false;
 }
 
+/* Numbers of operands of a mark; the first one is its weight. */
+enum { MARK_ANISOTROPY = 5, MARK_TANGENT = 7 };
+
+/* A tangent that nobody reads needs no vertex attribute. Whole storage has the samples' frame. */
+static ir_ref value_of(struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
+{
+    bool is_unread =
+        operand == MARK_TANGENT && !is_whole && ir_const_is(g, ir_arg(g, mark, MARK_ANISOTROPY), 0.0f);
+    return is_unread ? ir_const_splat(g, IR_TYPE_VEC3, 0.0f) : ir_arg(g, mark, operand);
+}
+
 static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, bool spreads,
-                       uint32_t local, uint32_t source)
+                       uint32_t local, uint32_t source, bool is_whole)
 {
     enum { MAX_VALUES = 24 };
     struct ir_graph *g = shader->graph;
@@ -100,7 +111,7 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
     assert(num_values + 4 < MAX_VALUES);
     args[n++] = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     for (unsigned i = 1; i < num_values; i++) /* the first one is the weight */
-        args[n++] = ir_arg(g, leaf->leaf, i);
+        args[n++] = value_of(g, leaf->leaf, i, is_whole);
     find_weights(shader, leaf, spreads, args + n);
     assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_store_closure", source, args, n + 4));
     shader_add_closure(shader, leaf->leaf);
@@ -136,7 +147,8 @@ void deferred_store(struct shader *shader, const struct closure_host *host, ir_r
 {
     struct closure_list spread = {0};
     struct closure_host spreading = *host;
-    uint32_t source = add_source(shader, host->store_data);
+    const struct deferred_layout *layout = host->store_data;
+    uint32_t source = add_source(shader, layout);
     spreading.spreads = true;
     closure_flatten(shader, &spreading, bsdf, &spread);
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
@@ -144,7 +156,8 @@ void deferred_store(struct shader *shader, const struct closure_host *host, ir_r
     for (uint32_t i = list->leaves.len; i-- > 0;) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
         if (is_mark(shader, leaf->leaf))
-            store_leaf(shader, leaf, is_spread(&spread, leaf), local, source);
+            store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
+                       layout->storage == STORAGE_FLOAT);
     }
     ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_finish_closures", source, &stored, 1));

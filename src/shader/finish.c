@@ -115,7 +115,7 @@ static void name_neutrally(struct shader *shader)
 
 static void finish_vertex_stage(struct shader *shader)
 {
-    if (!shader->scatters) {
+    if (!shader_is_called(shader)) {
         complete_vertex_stage(shader);
         mark_outputs(shader, STAGE_VERTEX);
         shader_schedule(shader, STAGE_VERTEX);
