@@ -258,6 +258,32 @@ static bool make_parts(struct painting *painting, const struct subject *subjects
     return good;
 }
 
+/* Opens the passes over what the parts store, if any stores. */
+static bool open_passes(struct painting *painting, uint32_t width, uint32_t height)
+{
+    struct painter *painter = painting->painter;
+    struct passes_setup setup = {.context = painter->cli->context,
+                                 .options = painter->cli->options,
+                                 .scene = &painting->scene,
+                                 .gpu = &painter->gpu,
+                                 .canvas = painting->canvas,
+                                 .width = width,
+                                 .height = height,
+                                 .shown = painter->shown};
+    for (size_t i = 0; i < painting->num_parts; ++i) {
+        mxg_shader_info info = {sizeof info};
+        mxg_result_info(painting->parts[i].result, &info);
+        painting->parts[i].bind->draw.stores = info.stored_words > 0;
+        setup.words = info.stored_words > setup.words ? info.stored_words : setup.words;
+    }
+    if (!setup.words || !painting->canvas)
+        return true;
+    if (passes_open(&setup, &painting->passes))
+        return true;
+    report_error(&painter->cli->report, painting->passes.id, "%s", painting->passes.reason);
+    return false;
+}
+
 bool painting_open(struct painter *painter, const struct subject *subjects, size_t count,
                    struct painting *painting)
 {
@@ -270,6 +296,8 @@ bool painting_open(struct painter *painter, const struct subject *subjects, size
     if (!painting->samples)
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
     painting->canvas = draw_open_canvas(&painter->gpu, width, height);
+    if (!open_passes(painting, width, height))
+        return false;
     for (size_t i = 0; i < count; ++i) {
         struct part *part = &painting->parts[i];
         if (!render_open(&part->render, painting->canvas, &painter->gpu, part->bind))
@@ -337,8 +365,8 @@ bool painting_draw(struct painting *painting, struct image *out)
     struct render *renders = calloc(painting->num_parts + 1, sizeof *renders);
     for (size_t i = 0; renders && i < painting->num_parts; ++i)
         renders[i] = painting->parts[i].render;
-    bool drawn =
-        renders && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
+    bool drawn = renders && (!painting->passes.stored || passes_aim(&painting->passes))
+                 && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
     free(renders);
     if (!drawn) {
         const struct bind *bind = painting->parts[0].bind;
@@ -365,6 +393,7 @@ void painting_close(struct painting *painting)
         free(part->fine);
     }
     draw_close_canvas(painting->canvas);
+    passes_close(&painting->passes);
     free(painting->parts);
     free(painting->samples);
 }

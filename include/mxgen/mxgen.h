@@ -683,6 +683,11 @@ typedef struct mxg_shader_info {
     bool transparent, lit;
     bool displaced; /* the vertex stage moves the surface: draw it with small triangles */
     mxg_alpha alpha;
+    /*
+     * Words of 32 bits that it stores per pixel, at most, for the passes of the deferred pipeline
+     * (docs/deferred.md); 0: it lights itself.
+     */
+    uint32_t stored_words;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

@@ -258,6 +258,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .alpha = (mxg_alpha)shader->alpha,
         .displaced = shader->displaced,
         .lit = shader->lit,
+        .stored_words = shader->stored_words,
     };
     /* only the topology is expensive */
     if (out && out->size > offsetof(mxg_shader_info, topology)

@@ -90,30 +90,110 @@ static bool is_spread(const struct closure_list *spread, const struct closure_le
     return false;
 }
 
-/* Numbers of operands of a mark; the first one is its weight. */
-enum { MARK_ANISOTROPY = 5, MARK_TANGENT = 7 };
+/* Operands of a mark: its weight, then the inputs of slab_mark_bsdf. */
+enum mark_operand {
+    MARK_weight,
+    MARK_diffuse_albedo,
+    MARK_f0,
+    MARK_f90,
+    MARK_roughness,
+    MARK_anisotropy,
+    MARK_normal,
+    MARK_tangent,
+    MARK_second_roughness,
+    MARK_second_roughness_weight,
+    MARK_fuzz_amount,
+    MARK_fuzz_color,
+    MARK_fuzz_roughness,
+    MARK_free_path,
+    MARK_phase_anisotropy,
+    MARK_is_thick,
+    NUM_MARK_OPERANDS
+};
+
+/* ---- Sizes ---- */
+
+enum { WHOLE_WORDS = 39 }; /* of a closure in whole floats: as many as mx_put_whole writes */
+
+static bool is_black(const struct ir_graph *g, ir_ref mark, enum mark_operand operand)
+{
+    return ir_const_is(g, ir_arg(g, mark, operand), 0.0f);
+}
+
+/* True for a grey constant: the hue of a reflectance without one. */
+static bool is_grey(const struct ir_graph *g, ir_ref value)
+{
+    struct ir_value constant;
+    return ir_get_const(g, value, &constant) && constant.w[0].u == constant.w[1].u
+           && constant.w[0].u == constant.w[2].u;
+}
+
+static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
+{
+    return !leaf->decay && !leaf->color && ir_const_is(g, leaf->scalar, 1.0f);
+}
+
+/* True if no closure above it has the same normal. The first one is the top. */
+static bool has_own_normal(const struct ir_graph *g, const struct closure_list *marks, uint32_t i)
+{
+    ir_ref normal = ir_arg(g, marks->leaves.items[i].leaf, MARK_normal);
+    for (uint32_t k = 0; k < i; k++)
+        if (ir_arg(g, marks->leaves.items[k].leaf, MARK_normal) == normal)
+            return false;
+    return i > 0;
+}
+
+/* The most words of a closure: features that are known to be off take none. */
+static uint32_t most_words(const struct ir_graph *g, const struct closure_list *marks, uint32_t i)
+{
+    const struct closure_leaf *leaf = &marks->leaves.items[i];
+    ir_ref mark = leaf->leaf;
+    bool is_last = i + 1 == marks->leaves.len, is_clear = is_black(g, mark, MARK_diffuse_albedo);
+    bool is_smooth = i == 0 && !is_last && is_clear;
+    bool has_medium = !is_clear && !is_black(g, mark, MARK_free_path);
+    bool has_lobes = !is_black(g, mark, MARK_second_roughness_weight)
+                     || !is_grey(g, ir_arg(g, mark, MARK_f90));
+    unsigned words = is_smooth ? 1 : 2;
+    words += is_white(g, leaf) ? 0 : 2;
+    words += has_medium;
+    words += has_lobes;
+    words += !is_black(g, mark, MARK_fuzz_amount);
+    words += !is_black(g, mark, MARK_anisotropy);
+    return words + has_own_normal(g, marks, i);
+}
+
+static uint32_t count_words(const struct ir_graph *g, const struct closure_list *marks,
+                            enum deferred_storage storage)
+{
+    uint32_t words = storage == STORAGE_FLOAT ? 3 + WHOLE_WORDS * marks->leaves.len : 1;
+    for (uint32_t i = 0; storage != STORAGE_FLOAT && i < marks->leaves.len; i++)
+        words += most_words(g, marks, i);
+    return words > 3 ? words : 3;
+}
+
+/* ---- Effects ---- */
 
 /* A tangent that nobody reads needs no vertex attribute. Whole storage has the samples' frame. */
 static ir_ref value_of(struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
 {
     bool is_unread =
-        operand == MARK_TANGENT && !is_whole && ir_const_is(g, ir_arg(g, mark, MARK_ANISOTROPY), 0.0f);
+        operand == MARK_tangent && !is_whole && is_black(g, mark, MARK_anisotropy);
     return is_unread ? ir_const_splat(g, IR_TYPE_VEC3, 0.0f) : ir_arg(g, mark, operand);
 }
 
 static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, bool spreads,
                        uint32_t local, uint32_t source, bool is_whole)
 {
-    enum { MAX_VALUES = 24 };
+    enum { NUM_WEIGHTS = 4 };
     struct ir_graph *g = shader->graph;
-    ir_ref args[MAX_VALUES];
-    unsigned n = 0, num_values = ir_get(g, leaf->leaf)->num_args;
-    assert(num_values + 4 < MAX_VALUES);
+    ir_ref args[NUM_MARK_OPERANDS + NUM_WEIGHTS];
+    unsigned n = 0;
+    assert(ir_get(g, leaf->leaf)->num_args == NUM_MARK_OPERANDS);
     args[n++] = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
-    for (unsigned i = 1; i < num_values; i++) /* the first one is the weight */
+    for (unsigned i = MARK_weight + 1; i < NUM_MARK_OPERANDS; i++)
         args[n++] = value_of(g, leaf->leaf, i, is_whole);
     find_weights(shader, leaf, spreads, args + n);
-    assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_store_closure", source, args, n + 4));
+    assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_store_closure", source, args, n + NUM_WEIGHTS));
     shader_add_closure(shader, leaf->leaf);
 }
 
@@ -153,12 +233,16 @@ void deferred_store(struct shader *shader, const struct closure_host *host, ir_r
     closure_flatten(shader, &spreading, bsdf, &spread);
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
     assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
-    for (uint32_t i = list->leaves.len; i-- > 0;) {
-        const struct closure_leaf *leaf = &list->leaves.items[i];
-        if (is_mark(shader, leaf->leaf))
-            store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
-                       layout->storage == STORAGE_FLOAT);
+    struct closure_list marks = {0};
+    for (uint32_t i = list->leaves.len; i-- > 0;)
+        if (is_mark(shader, list->leaves.items[i].leaf))
+            vec_push(shader->arena, &marks.leaves, list->leaves.items[i]);
+    for (uint32_t i = 0; i < marks.leaves.len; i++) {
+        const struct closure_leaf *leaf = &marks.leaves.items[i];
+        store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
+                   layout->storage == STORAGE_FLOAT);
     }
+    shader->stored_words = count_words(shader->graph, &marks, layout->storage);
     ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_finish_closures", source, &stored, 1));
     write_color(shader, emission);

@@ -274,6 +274,8 @@ struct shader {
     bool displaced;   /* the vertex stage moves the surface */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
+    /* words that it stores per pixel, at most; 0: it lights itself. Deferred pipeline. */
+    uint32_t stored_words;
     bool is_stored; /* a function of the deferred pipeline, for a closure from storage */
     bool picks;                       /* one layer of a stack, by a random number */
     struct shader_layout_rules rules; /* of shader_finish */
