@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen pipeline: the passes of the deferred pipeline that belong to no material (docs/deferred.md). */
+/* mxgen pipeline: the passes of the deferred pipeline that belong to no material
+ * (docs/deferred.md). */
 #include "cli/cli.h"
 #include "cli/files.h"
 

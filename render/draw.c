@@ -31,7 +31,7 @@ struct draw_program {
     VkPipelineLayout layout;
     VkShaderModule modules[2];
     VkPipeline pipeline;
-    VkPipeline depth_pipeline; /* of a program that stores: it draws before */
+    VkPipeline depth_pipeline; /* draws before programs store; may be absent */
 };
 
 /* ---- Resources ---- */
@@ -49,7 +49,8 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
                              | VK_IMAGE_USAGE_STORAGE_BIT,
                          VK_IMAGE_ASPECT_COLOR_BIT, &canvas->color)
         && gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1,
-                            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                | VK_IMAGE_USAGE_SAMPLED_BIT,
                             VK_IMAGE_ASPECT_DEPTH_BIT, &canvas->depth)
         && gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
                              (size_t)width * height * 4 * sizeof(float), &canvas->readback))
@@ -101,7 +102,7 @@ static bool create_layout(struct draw_program *program, const struct draw_canvas
     VkDescriptorSetLayout layouts[DRAW_MAX_SETS + 1];
     uint32_t count = program->inputs.num_sets;
     memcpy(layouts, program->inputs.set_layouts, sizeof program->inputs.set_layouts);
-    if (program->draw->stores)
+    if (program->draw->role == DRAW_STORES)
         layouts[count++] = stored_set_layout(canvas->stored);
     const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                              .setLayoutCount = count,
@@ -182,6 +183,7 @@ static const VkPipelineMultisampleStateCreateInfo samples = {
 enum draw_way {
     WAY_LIT,    /* to a picture */
     WAY_DEPTH,  /* depth alone, before the program stores */
+    WAY_CUT,    /* the same with holes */
     WAY_STORED, /* to the images of stored.h, where it is in front */
     NUM_WAYS
 };
@@ -192,6 +194,7 @@ static const struct {
 } ways[NUM_WAYS] = {
     [WAY_LIT] = {1, 2, VK_COMPARE_OP_LESS, true},
     [WAY_DEPTH] = {0, 1, VK_COMPARE_OP_LESS, true},
+    [WAY_CUT] = {0, 2, VK_COMPARE_OP_LESS, true},
     [WAY_STORED] = {1 + STORED_TARGETS, 2, VK_COMPARE_OP_EQUAL, false},
 };
 
@@ -262,16 +265,21 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
 
 static bool create_pipelines(struct draw_program *program, const struct draw_canvas *canvas)
 {
-    if (!program->draw->stores)
+    const struct draw *draw = program->draw;
+    if (draw->role == DRAW_LIT)
         return create_pipeline(program, canvas, WAY_LIT, &program->pipeline);
-    return create_pipeline(program, canvas, WAY_DEPTH, &program->depth_pipeline)
-           && create_pipeline(program, canvas, WAY_STORED, &program->pipeline);
+    if (draw->role == DRAW_CUTS)
+        return create_pipeline(program, canvas, WAY_CUT, &program->depth_pipeline);
+    return create_pipeline(program, canvas, WAY_STORED, &program->pipeline)
+           && (draw->has_holes
+               || create_pipeline(program, canvas, WAY_DEPTH, &program->depth_pipeline));
 }
 
 /* ---- Drawing ---- */
 
 static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer commands,
-                            enum draw_way way, VkAttachmentLoadOp load, VkAttachmentLoadOp load_depth)
+                            enum draw_way way, VkAttachmentLoadOp load,
+                            VkAttachmentLoadOp load_depth)
 {
     VkRenderingAttachmentInfo targets[1 + STORED_TARGETS];
     for (unsigned i = 0; i < ways[way].num_targets; ++i)
@@ -342,7 +350,7 @@ static void record_call(const struct draw_canvas *canvas, const struct call *cal
     for (uint32_t i = 0; i < draw->num_attributes; ++i)
         vkCmdBindVertexBuffers(commands, i, 1, &buffers->attributes[i].buffer, &zero);
     vkCmdBindIndexBuffer(commands, buffers->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
-    if (draw->stores) {
+    if (draw->role == DRAW_STORES) {
         VkDescriptorSet set = stored_set(canvas->stored);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout,
                                 program->inputs.num_sets, 1, &set, 0, NULL);
@@ -352,12 +360,18 @@ static void record_call(const struct draw_canvas *canvas, const struct call *cal
     vkCmdDrawIndexed(commands, draw->objects[call->object].num_indices, 1, 0, 0, 0);
 }
 
-/* Draws the calls that store, or the others. */
+static bool takes_part(const struct draw_program *program, enum draw_way way)
+{
+    if (way == WAY_DEPTH)
+        return program->depth_pipeline != VK_NULL_HANDLE;
+    return program->draw->role == (way == WAY_LIT ? DRAW_LIT : DRAW_STORES);
+}
+
 static void record_calls(const struct draw_canvas *canvas, const struct call *calls, size_t count,
                          enum draw_way way, VkCommandBuffer commands)
 {
     for (size_t i = 0; i < count; ++i)
-        if (calls[i].program->draw->stores == (way != WAY_LIT))
+        if (takes_part(calls[i].program, way))
             record_call(canvas, &calls[i], way, commands);
     vkCmdEndRendering(commands);
 }
@@ -437,7 +451,8 @@ struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *dr
     program->gpu = gpu;
     program->draw = draw;
     if (create_buffers(program) && inputs_create(program->gpu, draw, &program->inputs)
-        && create_layout(program, canvas) && create_modules(program) && create_pipelines(program, canvas))
+        && create_layout(program, canvas) && create_modules(program)
+        && create_pipelines(program, canvas))
         return program;
     draw_close(program);
     return NULL;

@@ -41,6 +41,12 @@ struct draw_object {
     double distance;                        /* from the camera, where programs blend */
 };
 
+enum draw_role {
+    DRAW_LIT,    /* draws to the picture */
+    DRAW_STORES, /* writes to the images of stored.h */
+    DRAW_CUTS    /* draws the depth of a program that stores and has holes */
+};
+
 /* A program for several objects. */
 struct draw {
     const uint32_t *code[2]; /* SPIR-V of the vertex and pixel stage */
@@ -51,8 +57,9 @@ struct draw {
     uint32_t num_attributes, num_blocks, num_textures;
     struct draw_object *objects; /* malloc */
     uint32_t num_objects;
-    bool blend; /* colours are premultiplied, and triangles are sorted from far to near */
-    bool stores; /* the program writes to the images of stored.h */
+    bool has_holes; /* of DRAW_STORES: another program draws its depth */
+    bool blend;     /* colours are premultiplied, and triangles are sorted from far to near */
+    enum draw_role role;
 };
 
 struct stored;

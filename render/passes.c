@@ -21,8 +21,8 @@ static const struct {
     int which; /* -1: all tiles */
     bool lights, shows;
 } runs[] = {
-    {"classify", -1, true, false},    {"compose", 0, true, false},
-    {"light_simple", 1, true, false}, {"light_single", 2, true, false},
+    {"classify", -1, true, false},     {"compose", 0, true, false},
+    {"light_simple", 1, true, false},  {"light_single", 2, true, false},
     {"light_complex", 3, true, false}, {"show", -1, false, true},
 };
 
@@ -78,8 +78,9 @@ bool passes_open(const struct passes_setup *setup, struct passes *out)
                            .height = setup->height,
                            .shown = setup->shown};
     if (!setup->gpu->can_store)
-        return fail(out, "no-device",
-                    "the device cannot write images in pixel stages, as '--pipeline deferred' needs");
+        return fail(
+            out, "no-device",
+            "the device cannot write images in pixel stages, as '--pipeline deferred' needs");
     out->stored = draw_store(setup->canvas, setup->words);
     if (!out->stored)
         return fail(out, setup->gpu->id, setup->gpu->reason);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The passes of the deferred pipeline that belong to no material: made, bound, and run on a canvas. */
+/* The passes of the deferred pipeline that belong to no material: made, bound, and run on a canvas.
+ */
 #ifndef MXG_RENDER_PASSES_H
 #define MXG_RENDER_PASSES_H
 
@@ -36,7 +37,8 @@ struct passes_setup {
     uint32_t width, height, words, shown;
 };
 
-/* false: see passes->reason. Zeroes `out` first. Call passes_close in any case, after the canvas closed. */
+/* false: see passes->reason. Zeroes `out` first. Call passes_close in any case, after the canvas
+ * closed. */
 bool passes_open(const struct passes_setup *setup, struct passes *out);
 /* Updates what depends on the camera. */
 bool passes_aim(struct passes *passes);

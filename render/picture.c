@@ -241,20 +241,47 @@ static void tell_warning(struct painter *painter, const struct bind *bind,
         report_warning(&painter->cli->report, bind->id, "%s", bind->reason);
 }
 
+static bool make_part(struct painting *painting, const struct subject *subject, enum draw_role role)
+{
+    struct part *part = &painting->parts[painting->num_parts++];
+    part->subject = subject;
+    part->bind = calloc(1, sizeof *part->bind);
+    if (!part->bind)
+        return report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
+    if (!generate(painting->painter, subject, &part->result)
+        || !choose_mesh(painting, part, subject))
+        return false;
+    init_bind(painting, part, subject);
+    part->bind->draw.role = role;
+    return true;
+}
+
+/* Makes the program for the depth of what the last part stores, if it has holes. */
+static bool make_cuts(struct painting *painting)
+{
+    struct part *part = &painting->parts[painting->num_parts - 1];
+    mxg_options *options = painting->painter->cli->options;
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(part->result, &info);
+    if (!info.stored_words)
+        return true;
+    part->bind->draw.role = DRAW_STORES;
+    part->bind->draw.has_holes = info.alpha == MXG_ALPHA_MASK;
+    if (!part->bind->draw.has_holes)
+        return true;
+    mxg_options_set(options, "pipeline", "depth");
+    bool good = make_part(painting, part->subject, DRAW_CUTS);
+    mxg_options_set(options, "pipeline", "deferred");
+    return good;
+}
+
 /* Generates the shaders of the subjects, and chooses their meshes. */
 static bool make_parts(struct painting *painting, const struct subject *subjects, size_t count)
 {
-    painting->parts = calloc(count, sizeof *painting->parts);
+    painting->parts = calloc(2 * count, sizeof *painting->parts);
     bool good = painting->parts || report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
-    for (size_t i = 0; good && i < count; ++i, ++painting->num_parts) {
-        struct part *part = &painting->parts[i];
-        part->bind = calloc(1, sizeof *part->bind);
-        good = part->bind ? generate(painting->painter, &subjects[i], &part->result)
-                                && choose_mesh(painting, part, &subjects[i])
-                          : report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
-        if (good)
-            init_bind(painting, part, &subjects[i]);
-    }
+    for (size_t i = 0; good && i < count; ++i)
+        good = make_part(painting, &subjects[i], DRAW_LIT) && make_cuts(painting);
     return good;
 }
 
@@ -273,7 +300,6 @@ static bool open_passes(struct painting *painting, uint32_t width, uint32_t heig
     for (size_t i = 0; i < painting->num_parts; ++i) {
         mxg_shader_info info = {sizeof info};
         mxg_result_info(painting->parts[i].result, &info);
-        painting->parts[i].bind->draw.stores = info.stored_words > 0;
         setup.words = info.stored_words > setup.words ? info.stored_words : setup.words;
     }
     if (!setup.words || !painting->canvas)
@@ -298,11 +324,11 @@ bool painting_open(struct painter *painter, const struct subject *subjects, size
     painting->canvas = draw_open_canvas(&painter->gpu, width, height);
     if (!open_passes(painting, width, height))
         return false;
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < painting->num_parts; ++i) {
         struct part *part = &painting->parts[i];
         if (!render_open(&part->render, painting->canvas, &painter->gpu, part->bind))
-            return fail(painter, part, &subjects[i]);
-        tell_warning(painter, part->bind, &subjects[i]);
+            return fail(painter, part, part->subject);
+        tell_warning(painter, part->bind, part->subject);
     }
     return true;
 }

@@ -51,6 +51,7 @@ struct subject {
 
 /* A subject on the device. */
 struct part {
+    const struct subject *subject;
     mxg_result *result;
     struct bind *bind;
     struct render render;

@@ -5,18 +5,7 @@
 #include <string.h>
 
 /* The bindings of set 1, as the passes name them (src/deferred/passes.c). */
-enum {
-    STORED_IMAGE,
-    WORD_0,
-    WORD_1,
-    WORD_2,
-    DEPTH,
-    COLOR,
-    LIT,
-    TILES,
-    FRAME,
-    NUM_BINDINGS
-};
+enum { STORED_IMAGE, WORD_0, WORD_1, WORD_2, DEPTH, COLOR, LIT, TILES, FRAME, NUM_BINDINGS };
 
 static const VkDescriptorType types[NUM_BINDINGS] = {
     [STORED_IMAGE] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
@@ -220,16 +209,15 @@ void stored_close(struct stored *stored)
 static bool create_pipeline(struct stored *stored, struct pass *pass)
 {
     VkDevice device = stored->gpu->device;
-    const VkDescriptorSetLayout layouts[2] = {
-        pass->inputs.num_sets ? pass->inputs.set_layouts[0] : stored->empty_layout,
-        stored->set_layout};
+    const VkDescriptorSetLayout layouts[2] = {pass->inputs.num_sets ? pass->inputs.set_layouts[0]
+                                                                    : stored->empty_layout,
+                                              stored->set_layout};
     const VkPipelineLayoutCreateInfo layout = {.sType =
                                                    VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                                .setLayoutCount = 2,
                                                .pSetLayouts = layouts};
     const VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                             .codeSize =
-                                                 pass->source.code_words * sizeof(uint32_t),
+                                             .codeSize = pass->source.code_words * sizeof(uint32_t),
                                              .pCode = pass->source.code};
     if (!gpu_check(stored->gpu, vkCreatePipelineLayout(device, &layout, NULL, &pass->layout),
                    "making a pipeline layout")
@@ -252,8 +240,7 @@ bool stored_add_pass(struct stored *stored, const struct stored_pass *source)
 {
     struct pass *pass = &stored->passes[stored->num_passes++];
     *pass = (struct pass){.source = *source};
-    return inputs_create(stored->gpu, source->draw, &pass->inputs)
-           && create_pipeline(stored, pass);
+    return inputs_create(stored->gpu, source->draw, &pass->inputs) && create_pipeline(stored, pass);
 }
 
 VkDescriptorSetLayout stored_set_layout(const struct stored *stored)
@@ -313,10 +300,10 @@ void stored_begin(const struct stored *stored, VkCommandBuffer commands)
 
 void stored_barrier(VkCommandBuffer commands)
 {
-    const VkMemoryBarrier barrier = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-        .srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT,
-        .dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
+    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                     .srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT,
+                                     .dstAccessMask =
+                                         VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                          VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1, &barrier, 0, NULL, 0, NULL);
 }

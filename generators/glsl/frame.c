@@ -181,7 +181,7 @@ static void declare(struct spell *spell)
     if (spell->stage_id == STAGE_VERTEX)
         write_attributes(spell, BLOCK_APP_DATA, "in ");
     write_vertex_data(spell);
-    if (spell->stage_id == STAGE_VERTEX && spell->shader->stored_words)
+    if (spell->stage_id == STAGE_VERTEX && spell->shader->has_passes)
         spell_text(spell, "invariant gl_Position;\n"); /* two passes draw the same points */
     if (spell->stage_id == STAGE_PIXEL)
         write_attributes(spell, BLOCK_OUTPUTS, shader_is_called(spell->shader) ? "" : "out ");

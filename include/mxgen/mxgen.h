@@ -492,10 +492,10 @@ MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *docume
                                 const mxg_generate_desc *desc, mxg_result **out_result);
 
 /*
- * The passes of the deferred pipeline that belong to no material (docs/deferred.md), in their order.
- * Their texts depend on the options alone. A pass is a result with one source, of a compute stage,
- * in the place of the pixel stage; a lighting pass has variables, as a surface has.
- * `desc` names a target and options only.
+ * The passes of the deferred pipeline that belong to no material (docs/deferred.md), in their
+ * order. Their texts depend on the options alone. A pass is a result with one source, of a compute
+ * stage, in the place of the pixel stage; a lighting pass has variables, as a surface has. `desc`
+ * names a target and options only.
  */
 MXG_API uint32_t mxg_num_passes(void);
 MXG_API const char *mxg_pass_name(uint32_t index); /* NULL: there is no such pass */

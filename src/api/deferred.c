@@ -4,7 +4,7 @@
 
 bool generation_stores(const struct generation *g)
 {
-    return g->options[OPTION_pipeline].number != 0 && !g->stored;
+    return g->options[OPTION_pipeline].number == PIPELINE_DEFERRED && !g->stored;
 }
 
 struct deferred_layout generation_storage(const struct option_value *options,
@@ -25,6 +25,8 @@ void generation_defer(struct generation *g)
         g->above = deferred_above(&g->result->shader);
         g->closure_host.above = &g->above;
     }
+    g->result->shader.has_passes = g->options[OPTION_pipeline].number != PIPELINE_FORWARD;
+    g->closure_host.only_cuts = g->options[OPTION_pipeline].number == PIPELINE_DEPTH && !g->stored;
     if (generation_stores(g)) {
         g->closure_host.store = deferred_store;
         g->closure_host.store_data = &g->storage;
@@ -44,4 +46,16 @@ bool generation_can_store(struct generation *g)
              doc_place(doc, origin->element ? origin->element : g->element),
              str_text(shader->strings, origin->name));
     return false;
+}
+
+void generation_tell_forward(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    if (!generation_stores(g) || shader->stored_words)
+        return;
+    const struct document *doc = &g->document->layer.doc;
+    diag_add(&g->result->object.diagnostics.list, DIAG_ID_drawn_forward, doc_place(doc, g->element),
+             str_text(shader->strings, shader->name),
+             closure_is_surface(shader, g->root) ? "its opacity may be between 0 and 1"
+                                                 : "it is no surface");
 }

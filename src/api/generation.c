@@ -78,7 +78,8 @@ static void set_build_options(struct generation *g)
     uint32_t caps = g->result->target->caps;
     g->build_options = (struct build_options){
         .syntax = g->result->target->syntax,
-        .interface = g->stored ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
+        .interface =
+            g->stored ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
         .uniform_globs = o[OPTION_uniform].list.items,
         .num_uniform_globs = o[OPTION_uniform].list.len,
         .constant_globs = o[OPTION_constant].list.items,
@@ -286,8 +287,8 @@ void generation_start_closures(struct generation *g)
         .environment = g->options[OPTION_environment].number != 0,
         .two_sided = g->options[OPTION_layering].number != 0,
         .transmits_alpha = g->options[OPTION_transmission].number != 0,
-        .transparency = g->stored ? TRANSPARENCY_OPAQUE
-                                  : (uint8_t)g->options[OPTION_transparency].number,
+        .transparency =
+            g->stored ? TRANSPARENCY_OPAQUE : (uint8_t)g->options[OPTION_transparency].number,
         .shadow = g->options[OPTION_shadow_map].number != 0,
         .occlusion = g->options[OPTION_occlusion_map].number != 0,
         .flips_v = g->options[OPTION_texture_origin].number != 0,
@@ -357,6 +358,8 @@ bool generation_emit(struct generation *g)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
                                                 : gives_nothing);
+    if (is_emitted)
+        generation_tell_forward(g);
     return is_good(g) && generation_effects_are_defined(g, &g->result->shader, g->element);
 }
 
@@ -466,8 +469,8 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
 static bool has_stage(const mxg_result *result, int stage)
 {
     const struct shader *shader = &result->shader;
-    bool is_idle =
-        stage == STAGE_VERTEX && (shader_is_called(shader) || shader->stages[stage].statements.len == 0);
+    bool is_idle = stage == STAGE_VERTEX
+                   && (shader_is_called(shader) || shader->stages[stage].statements.len == 0);
     return result->target->stage_suffix[stage] && !is_idle;
 }
 

@@ -55,8 +55,8 @@ static mxg_status parse_closures(mxg_context *context, mxg_document **out)
     if (!text)
         return MXG_ERROR_MEMORY;
     deferred_copy_closures(text);
-    mxg_status status = mxg_document_parse(context, mxg_library_builtin(context), "closures.mtlx",
-                                           text, size, out);
+    mxg_status status =
+        mxg_document_parse(context, mxg_library_builtin(context), "closures.mtlx", text, size, out);
     mem->realloc(mem->user_data, text, size, 0);
     return status;
 }

@@ -39,7 +39,7 @@ struct closure_point {
 /* The weight of matter above a whole closure, for light on a way x: steady + color · decay^x. */
 struct closure_above {
     ir_ref steady, color, decay; /* vec3 */
-    ir_ref spreads;              /* float, 1: it spreads the light of mirrors, see `spreads` below */
+    ir_ref spreads; /* float, 1: it spreads the light of mirrors, see `spreads` below */
 };
 
 struct closure_list;
@@ -53,6 +53,7 @@ struct closure_host {
     void (*store)(struct shader *shader, const struct closure_host *host, ir_ref bsdf,
                   const struct closure_list *list, ir_ref emission);
     const void *store_data;
+    bool only_cuts; /* draws nothing of a surface but the holes that its opacity cuts */
     struct closure_point *point;
     /*
      * the question that throughputs answer, and the direction to the light for

@@ -406,12 +406,17 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
     return s->alpha ? ir_op2(g, IR_MUL, s->alpha, rest) : rest;
 }
 
+static bool draws_all(const struct emitter *e, ir_ref alpha)
+{
+    return e->lighting->transparency == TRANSPARENCY_OPAQUE
+           || (closure_is_opaque(e->graph, alpha)
+               && e->lighting->transparency != TRANSPARENCY_BLEND);
+}
+
 static void finish_surface(struct emitter *e, const struct closure_surface *s)
 {
     ir_ref alpha = output_alpha(e, s), one = ir_const_float(e->graph, 1.0f);
-    bool blends = e->lighting->transparency == TRANSPARENCY_BLEND;
-    if (e->lighting->transparency == TRANSPARENCY_OPAQUE
-        || (closure_is_opaque(e->graph, alpha) && !blends)) {
+    if (draws_all(e, alpha)) {
         write_output(e, final_color(e), one);
         return;
     }
@@ -529,6 +534,13 @@ static void emit_picked(struct emitter *e, ir_ref slots)
     finish_surface(e, &whole);
 }
 
+static bool is_cut(struct emitter *e, ir_ref alpha)
+{
+    return e->lighting->transparency == TRANSPARENCY_MASK
+           || (e->lighting->transparency == TRANSPARENCY_AUTO
+               && closure_alpha(e->shader, alpha) == ALPHA_MASK);
+}
+
 static void emit_surface(struct emitter *e, ir_ref root)
 {
     bool is_stack = root && ir_get(e->graph, root)->op == IR_SLOTS;
@@ -549,8 +561,14 @@ static void emit_surface(struct emitter *e, ir_ref root)
         closure_scatter_end(scatter, s.alpha);
         return;
     }
-    if (e->host->store) {
+    if (e->host->only_cuts) {
+        if (!draws_all(e, s.alpha))
+            alpha_test(e, s.alpha);
+        return;
+    }
+    if (e->host->store && (draws_all(e, s.alpha) || is_cut(e, s.alpha))) {
         struct closure_list list;
+        e->shader->alpha = draws_all(e, s.alpha) ? ALPHA_OPAQUE : ALPHA_MASK;
         flatten_surface(e, &s, &list);
         e->host->store(e->shader, e->host, s.bsdf, &list, e->lit.base);
         return;

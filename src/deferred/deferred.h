@@ -11,6 +11,9 @@
 
 #include "closure/closure.h"
 
+/* The option `pipeline`. */
+enum deferred_pipeline { PIPELINE_FORWARD, PIPELINE_DEFERRED, PIPELINE_DEPTH };
+
 /* The option `storage`. */
 enum deferred_storage { STORAGE_DITHER, STORAGE_ROUND, STORAGE_FLOAT };
 

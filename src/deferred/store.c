@@ -41,14 +41,13 @@ static ir_ref call(struct shader *shader, const char *name, uint32_t source, con
 {
     uint32_t first = shader->source_refs.len;
     vec_push(shader->arena, &shader->source_refs, source);
-    struct shader_verbatim verbatim = {.first_source = first,
-                                       .num_sources = 1,
-                                       .function = str_intern_z(shader->strings, name)};
+    struct shader_verbatim verbatim = {
+        .first_source = first, .num_sources = 1, .function = str_intern_z(shader->strings, name)};
     vec_push(shader->arena, &shader->verbatim, verbatim);
-    uint32_t callee = ir_add_callee(shader->graph,
-                                    (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
-                                                       .index = shader->verbatim.len - 1,
-                                                       .name = verbatim.function});
+    uint32_t callee =
+        ir_add_callee(shader->graph, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                                        .index = shader->verbatim.len - 1,
+                                                        .name = verbatim.function});
     return ir_build(shader->graph, IR_VERBATIM, IR_TYPE_INT, callee, args, n);
 }
 
@@ -151,8 +150,8 @@ static uint32_t most_words(const struct ir_graph *g, const struct closure_list *
     bool is_last = i + 1 == marks->leaves.len, is_clear = is_black(g, mark, MARK_diffuse_albedo);
     bool is_smooth = i == 0 && !is_last && is_clear;
     bool has_medium = !is_clear && !is_black(g, mark, MARK_free_path);
-    bool has_lobes = !is_black(g, mark, MARK_second_roughness_weight)
-                     || !is_grey(g, ir_arg(g, mark, MARK_f90));
+    bool has_lobes =
+        !is_black(g, mark, MARK_second_roughness_weight) || !is_grey(g, ir_arg(g, mark, MARK_f90));
     unsigned words = is_smooth ? 1 : 2;
     words += is_white(g, leaf) ? 0 : 2;
     words += has_medium;
@@ -176,8 +175,7 @@ static uint32_t count_words(const struct ir_graph *g, const struct closure_list 
 /* A tangent that nobody reads needs no vertex attribute. Whole storage has the samples' frame. */
 static ir_ref value_of(struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
 {
-    bool is_unread =
-        operand == MARK_tangent && !is_whole && is_black(g, mark, MARK_anisotropy);
+    bool is_unread = operand == MARK_tangent && !is_whole && is_black(g, mark, MARK_anisotropy);
     return is_unread ? ir_const_splat(g, IR_TYPE_VEC3, 0.0f) : ir_arg(g, mark, operand);
 }
 
@@ -193,7 +191,8 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
     for (unsigned i = MARK_weight + 1; i < NUM_MARK_OPERANDS; i++)
         args[n++] = value_of(g, leaf->leaf, i, is_whole);
     find_weights(shader, leaf, spreads, args + n);
-    assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_store_closure", source, args, n + NUM_WEIGHTS));
+    assign(shader, EFFECT_ASSIGN, local,
+           call(shader, "mx_store_closure", source, args, n + NUM_WEIGHTS));
     shader_add_closure(shader, leaf->leaf);
 }
 
@@ -204,8 +203,8 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
     deferred_write_lines(deferred_write, &text);
-    uint32_t source =
-        shader_add_source(shader, str_intern(shader->strings, text.data, text.len), NULL, 0, &fault);
+    uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),
+                                        NULL, 0, &fault);
     assert(source != UINT32_MAX);
     return source;
 }

@@ -276,8 +276,9 @@ struct shader {
     bool scatters;
     /* words that it stores per pixel, at most; 0: it lights itself. Deferred pipeline. */
     uint32_t stored_words;
-    bool is_stored; /* a function of the deferred pipeline, for a closure from storage */
-    bool picks;                       /* one layer of a stack, by a random number */
+    bool has_passes; /* several programs draw its surface: positions are equal to the bit */
+    bool is_stored;  /* a function of the deferred pipeline, for a closure from storage */
+    bool picks;      /* one layer of a stack, by a random number */
     struct shader_layout_rules rules; /* of shader_finish */
 };
 
