@@ -196,7 +196,7 @@ bool generation_start(struct generation *g)
     bool good = find_target(g);
     if (good) {
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena);
-        good = check_version(g);
+        good = check_version(g) && generation_check_pipeline(g);
     }
     g->element = g->desc.bindings ? element_of_stack(g)
                                   : document_find_element(g->document, g->desc.element, diags_of(g),

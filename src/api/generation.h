@@ -66,6 +66,7 @@ struct generation {
     struct file_source files; /* the files that the generation reads */
     struct lang_reader reader;
     bool cancelled;
+    bool is_pass;               /* a pass of the deferred pipeline that belongs to no material */
     enum deferred_class stored; /* a pass that lights stored closures; CLASS_EMPTY: a material */
     struct deferred_layout storage;
     struct closure_above above;
@@ -100,6 +101,8 @@ bool generation_spell(struct generation *g);  /* source */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* deferred.c: the deferred pipeline. */
+/* False, after diagnostics, if options have no meaning together. */
+bool generation_check_pipeline(struct generation *g);
 /* True for the material pass of a material. */
 bool generation_stores(const struct generation *g);
 struct deferred_layout generation_storage(const struct option_value *options,

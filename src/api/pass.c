@@ -36,6 +36,7 @@ static void write_pass(struct generation *g, enum deferred_pass pass)
 static void generate(struct generation *g)
 {
     const enum deferred_pass pass = *(const enum deferred_pass *)g->user_data;
+    g->is_pass = true;
     g->stored = deferred_pass_class(pass);
     if (g->stored)
         generation_run_all(g);
