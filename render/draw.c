@@ -2,6 +2,7 @@
 #include "render/draw.h"
 
 #include "render/inputs.h"
+#include "render/stored.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,7 @@ struct draw_canvas {
     uint32_t width, height;
     struct gpu_image color, depth;
     struct gpu_buffer readback;
+    struct stored *stored; /* NULL: no program stores */
 };
 
 /* The buffers of an object. */
@@ -29,6 +31,7 @@ struct draw_program {
     VkPipelineLayout layout;
     VkShaderModule modules[2];
     VkPipeline pipeline;
+    VkPipeline depth_pipeline; /* draws before programs store; may be absent */
 };
 
 /* ---- Resources ---- */
@@ -42,11 +45,13 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
     }
     *canvas = (struct draw_canvas){.gpu = gpu, .width = width, .height = height};
     if (gpu_create_image(gpu, COLOR_FORMAT, width, height, 0, 1,
-                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT
+                             | VK_IMAGE_USAGE_STORAGE_BIT,
                          VK_IMAGE_ASPECT_COLOR_BIT, &canvas->color)
         && gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1,
-                            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT,
-                            &canvas->depth)
+                            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                | VK_IMAGE_USAGE_SAMPLED_BIT,
+                            VK_IMAGE_ASPECT_DEPTH_BIT, &canvas->depth)
         && gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
                              (size_t)width * height * 4 * sizeof(float), &canvas->readback))
         return canvas;
@@ -54,10 +59,18 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
     return NULL;
 }
 
+struct stored *draw_store(struct draw_canvas *canvas, uint32_t words)
+{
+    canvas->stored = stored_open(canvas->gpu, canvas->width, canvas->height, words, &canvas->color,
+                                 &canvas->depth);
+    return canvas->stored;
+}
+
 void draw_close_canvas(struct draw_canvas *canvas)
 {
     if (!canvas)
         return;
+    stored_close(canvas->stored);
     gpu_destroy_buffer(canvas->gpu, &canvas->readback);
     gpu_destroy_image(canvas->gpu, &canvas->depth);
     gpu_destroy_image(canvas->gpu, &canvas->color);
@@ -84,11 +97,16 @@ static bool create_buffers(struct draw_program *program)
     return good;
 }
 
-static bool create_layout(struct draw_program *program)
+static bool create_layout(struct draw_program *program, const struct draw_canvas *canvas)
 {
+    VkDescriptorSetLayout layouts[DRAW_MAX_SETS + 1];
+    uint32_t count = program->inputs.num_sets;
+    memcpy(layouts, program->inputs.set_layouts, sizeof program->inputs.set_layouts);
+    if (program->draw->role == DRAW_STORES)
+        layouts[count++] = stored_set_layout(canvas->stored);
     const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                             .setLayoutCount = program->inputs.num_sets,
-                                             .pSetLayouts = program->inputs.set_layouts};
+                                             .setLayoutCount = count,
+                                             .pSetLayouts = layouts};
     return gpu_check(program->gpu,
                      vkCreatePipelineLayout(program->gpu->device, &info, NULL, &program->layout),
                      "making a pipeline layout");
@@ -160,15 +178,28 @@ static const VkPipelineMultisampleStateCreateInfo samples = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
     .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
 };
-static const VkFormat color_format = COLOR_FORMAT;
-static const VkPipelineRenderingCreateInfo rendering = {
-    .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-    .colorAttachmentCount = 1,
-    .pColorAttachmentFormats = &color_format,
-    .depthAttachmentFormat = DEPTH_FORMAT,
+
+/* The three ways in which a program draws. */
+enum draw_way {
+    WAY_LIT,    /* to a picture */
+    WAY_DEPTH,  /* depth alone, before the program stores */
+    WAY_CUT,    /* the same with holes */
+    WAY_STORED, /* to the images of stored.h, where it is in front */
+    NUM_WAYS
+};
+static const struct {
+    uint32_t num_targets, num_stages;
+    VkCompareOp compare;
+    bool writes_depth;
+} ways[NUM_WAYS] = {
+    [WAY_LIT] = {1, 2, VK_COMPARE_OP_LESS, true},
+    [WAY_DEPTH] = {0, 1, VK_COMPARE_OP_LESS, true},
+    [WAY_CUT] = {0, 2, VK_COMPARE_OP_LESS, true},
+    [WAY_STORED] = {1 + STORED_TARGETS, 2, VK_COMPARE_OP_EQUAL, false},
 };
 
-static bool create_pipeline(struct draw_program *program, const struct draw_canvas *canvas)
+static bool create_pipeline(struct draw_program *program, const struct draw_canvas *canvas,
+                            enum draw_way way, VkPipeline *out)
 {
     const struct draw *draw = program->draw;
     const VkPipelineShaderStageCreateInfo stages[2] = {
@@ -196,17 +227,28 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
     const VkPipelineDepthStencilStateCreateInfo depth = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
         .depthTestEnable = VK_TRUE,
-        .depthWriteEnable = !draw->blend,
-        .depthCompareOp = VK_COMPARE_OP_LESS};
-    const VkPipelineColorBlendAttachmentState blend = premultiplied_blending(draw->blend);
+        .depthWriteEnable = ways[way].writes_depth && !draw->blend,
+        .depthCompareOp = ways[way].compare};
+    VkPipelineColorBlendAttachmentState blends[1 + STORED_TARGETS];
+    VkFormat formats[1 + STORED_TARGETS];
+    for (unsigned i = 0; i < 1 + STORED_TARGETS; ++i) {
+        blends[i] = premultiplied_blending(draw->blend);
+        formats[i] = stored_target_format(i);
+    }
+    const VkPipelineRenderingCreateInfo rendering = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+        .colorAttachmentCount = ways[way].num_targets,
+        .pColorAttachmentFormats = formats,
+        .depthAttachmentFormat = DEPTH_FORMAT,
+    };
     const VkPipelineColorBlendStateCreateInfo blending = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = 1,
-        .pAttachments = &blend};
+        .attachmentCount = ways[way].num_targets,
+        .pAttachments = blends};
     const VkGraphicsPipelineCreateInfo info = {.sType =
                                                    VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                                .pNext = &rendering,
-                                               .stageCount = 2,
+                                               .stageCount = ways[way].num_stages,
                                                .pStages = stages,
                                                .pVertexInputState = &input,
                                                .pInputAssemblyState = &assembly,
@@ -216,37 +258,48 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
                                                .pDepthStencilState = &depth,
                                                .pColorBlendState = &blending,
                                                .layout = program->layout};
-    VkResult result = vkCreateGraphicsPipelines(program->gpu->device, VK_NULL_HANDLE, 1, &info,
-                                                NULL, &program->pipeline);
+    VkResult result =
+        vkCreateGraphicsPipelines(program->gpu->device, VK_NULL_HANDLE, 1, &info, NULL, out);
     return gpu_check(program->gpu, result, "compiling the shader");
+}
+
+static bool create_pipelines(struct draw_program *program, const struct draw_canvas *canvas)
+{
+    const struct draw *draw = program->draw;
+    if (draw->role == DRAW_LIT)
+        return create_pipeline(program, canvas, WAY_LIT, &program->pipeline);
+    if (draw->role == DRAW_CUTS)
+        return create_pipeline(program, canvas, WAY_CUT, &program->depth_pipeline);
+    return create_pipeline(program, canvas, WAY_STORED, &program->pipeline)
+           && (draw->has_holes
+               || create_pipeline(program, canvas, WAY_DEPTH, &program->depth_pipeline));
 }
 
 /* ---- Drawing ---- */
 
-static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer commands)
+static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer commands,
+                            enum draw_way way, VkAttachmentLoadOp load,
+                            VkAttachmentLoadOp load_depth)
 {
-    gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
-                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    gpu_image_barrier(commands, canvas->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1,
-                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-    const VkRenderingAttachmentInfo color = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                             .imageView = canvas->color.view,
-                                             .imageLayout =
-                                                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                             .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                             .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    VkRenderingAttachmentInfo targets[1 + STORED_TARGETS];
+    for (unsigned i = 0; i < ways[way].num_targets; ++i)
+        targets[i] = (VkRenderingAttachmentInfo){
+            .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+            .imageView = way == WAY_LIT ? canvas->color.view : stored_target(canvas->stored, i),
+            .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
+            .loadOp = load,
+            .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     const VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                              .imageView = canvas->depth.view,
-                                             .imageLayout =
-                                                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                                             .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                             .storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+                                             .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
+                                             .loadOp = load_depth,
+                                             .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
                                              .clearValue = {.depthStencil = {.depth = 1.0f}}};
     const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
                                   .renderArea = {{0, 0}, {canvas->width, canvas->height}},
                                   .layerCount = 1,
-                                  .colorAttachmentCount = 1,
-                                  .pColorAttachments = &color,
+                                  .colorAttachmentCount = ways[way].num_targets,
+                                  .pColorAttachments = targets,
                                   .pDepthAttachment = &depth};
     vkCmdBeginRendering(commands, &info);
 }
@@ -285,7 +338,8 @@ static struct call *sort_calls(struct draw_program *const *programs, size_t coun
     return calls;
 }
 
-static void record_call(const struct call *call, VkCommandBuffer commands)
+static void record_call(const struct draw_canvas *canvas, const struct call *call,
+                        enum draw_way way, VkCommandBuffer commands)
 {
     const struct draw_program *program = call->program;
     const struct draw *draw = program->draw;
@@ -296,20 +350,61 @@ static void record_call(const struct call *call, VkCommandBuffer commands)
     for (uint32_t i = 0; i < draw->num_attributes; ++i)
         vkCmdBindVertexBuffers(commands, i, 1, &buffers->attributes[i].buffer, &zero);
     vkCmdBindIndexBuffer(commands, buffers->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->pipeline);
+    if (draw->role == DRAW_STORES) {
+        VkDescriptorSet set = stored_set(canvas->stored);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout,
+                                program->inputs.num_sets, 1, &set, 0, NULL);
+    }
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                      way == WAY_DEPTH ? program->depth_pipeline : program->pipeline);
     vkCmdDrawIndexed(commands, draw->objects[call->object].num_indices, 1, 0, 0, 0);
+}
+
+static bool takes_part(const struct draw_program *program, enum draw_way way)
+{
+    if (way == WAY_DEPTH)
+        return program->depth_pipeline != VK_NULL_HANDLE;
+    return program->draw->role == (way == WAY_LIT ? DRAW_LIT : DRAW_STORES);
+}
+
+static void record_calls(const struct draw_canvas *canvas, const struct call *calls, size_t count,
+                         enum draw_way way, VkCommandBuffer commands)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (takes_part(calls[i].program, way))
+            record_call(canvas, &calls[i], way, commands);
+    vkCmdEndRendering(commands);
+}
+
+static void record_stored(const struct draw_canvas *canvas, const struct call *calls, size_t count,
+                          VkCommandBuffer commands)
+{
+    const VkAttachmentLoadOp clear = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    begin_rendering(canvas, commands, WAY_DEPTH, clear, clear);
+    record_calls(canvas, calls, count, WAY_DEPTH, commands);
+    stored_barrier(commands);
+    begin_rendering(canvas, commands, WAY_STORED, clear, VK_ATTACHMENT_LOAD_OP_LOAD);
+    record_calls(canvas, calls, count, WAY_STORED, commands);
+    stored_run(canvas->stored, commands);
 }
 
 static void record(const struct draw_canvas *canvas, const struct call *calls, size_t count,
                    VkCommandBuffer commands)
 {
-    begin_rendering(canvas, commands);
-    for (size_t i = 0; i < count; ++i)
-        record_call(&calls[i], commands);
-    vkCmdEndRendering(commands);
+    VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_CLEAR;
     gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
-                      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    gpu_image_barrier(commands, canvas->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1,
+                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    if (canvas->stored) {
+        stored_begin(canvas->stored, commands);
+        record_stored(canvas, calls, count, commands);
+        load = VK_ATTACHMENT_LOAD_OP_LOAD;
+    }
+    begin_rendering(canvas, commands, WAY_LIT, load, load);
+    record_calls(canvas, calls, count, WAY_LIT, commands);
+    gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+                      VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {canvas->width, canvas->height, 1}};
     vkCmdCopyImageToBuffer(commands, canvas->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
@@ -356,7 +451,8 @@ struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *dr
     program->gpu = gpu;
     program->draw = draw;
     if (create_buffers(program) && inputs_create(program->gpu, draw, &program->inputs)
-        && create_layout(program) && create_modules(program) && create_pipeline(program, canvas))
+        && create_layout(program, canvas) && create_modules(program)
+        && create_pipelines(program, canvas))
         return program;
     draw_close(program);
     return NULL;
@@ -368,6 +464,7 @@ void draw_close(struct draw_program *program)
         return;
     struct gpu *gpu = program->gpu;
     vkDestroyPipeline(gpu->device, program->pipeline, NULL);
+    vkDestroyPipeline(gpu->device, program->depth_pipeline, NULL);
     for (int i = 0; i < 2; ++i)
         vkDestroyShaderModule(gpu->device, program->modules[i], NULL);
     vkDestroyPipelineLayout(gpu->device, program->layout, NULL);

@@ -41,6 +41,12 @@ struct draw_object {
     double distance;                        /* from the camera, where programs blend */
 };
 
+enum draw_role {
+    DRAW_LIT,    /* draws to the picture */
+    DRAW_STORES, /* writes to the images of stored.h */
+    DRAW_CUTS    /* draws the depth of a program that stores and has holes */
+};
+
 /* A program for several objects. */
 struct draw {
     const uint32_t *code[2]; /* SPIR-V of the vertex and pixel stage */
@@ -51,14 +57,20 @@ struct draw {
     uint32_t num_attributes, num_blocks, num_textures;
     struct draw_object *objects; /* malloc */
     uint32_t num_objects;
-    bool blend; /* colours are premultiplied, and triangles are sorted from far to near */
+    bool has_holes; /* of DRAW_STORES: another program draws its depth */
+    bool blend;     /* colours are premultiplied, and triangles are sorted from far to near */
+    enum draw_role role;
 };
+
+struct stored;
 
 struct draw_canvas;
 struct draw_program;
 
 /* A picture of this size on the device; NULL: see gpu->reason. */
 struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t height);
+/* Images for programs that store so many words per pixel. NULL: see gpu->reason. */
+struct stored *draw_store(struct draw_canvas *canvas, uint32_t words);
 void draw_close_canvas(struct draw_canvas *canvas);
 
 /* Compiles the program and uploads its inputs; NULL: see gpu->reason. `draw` must outlive it. */
@@ -66,8 +78,8 @@ struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *dr
 
 /*
  * Draws all objects of the programs with the current blocks and indices to RGBA floats, top row
- * first, cleared to 0: opaque programs, then the objects of the others from far to near. false: see
- * gpu->reason.
+ * first, cleared to 0: programs that store, with the passes over what they stored; opaque programs;
+ * then the objects of the others from far to near. false: see gpu->reason.
  */
 bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs, size_t count,
                 float *out_pixels);

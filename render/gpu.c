@@ -111,8 +111,15 @@ static bool create_device(struct gpu *gpu)
     VkPhysicalDeviceVulkan13Features wanted = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
         .dynamicRendering = VK_TRUE};
+    VkPhysicalDeviceFeatures has, features = {0};
+    vkGetPhysicalDeviceFeatures(gpu->physical, &has);
+    gpu->can_store = has.fragmentStoresAndAtomics && has.shaderStorageImageWriteWithoutFormat;
+    if (gpu->can_store)
+        features = (VkPhysicalDeviceFeatures){.fragmentStoresAndAtomics = VK_TRUE,
+                                              .shaderStorageImageWriteWithoutFormat = VK_TRUE};
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .pNext = &wanted,
+                                     .pEnabledFeatures = &features,
                                      .queueCreateInfoCount = 1,
                                      .pQueueCreateInfos = &queue};
     if (!gpu_check(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device),

@@ -17,6 +17,7 @@ struct gpu {
     VkQueue queue;
     VkCommandPool pool;
     VkPhysicalDeviceMemoryProperties memory;
+    bool can_store;    /* pixel stages may write images: stored.h */
     uint32_t max_size; /* of pictures and textures, in pixels */
     const char *id;    /* id of the first failure: "device-lost"… */
     char reason[256];  /* "" without a failure */

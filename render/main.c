@@ -134,6 +134,17 @@ static bool names_camera(const struct job *job)
     return job->options.stage && job->options.camera && *job->options.camera == '/';
 }
 
+/* The number of the debug view; false: there is none of this name. */
+static bool parse_view(struct job *job)
+{
+    job->painter.shown = UINT32_MAX;
+    if (!job->options.shown)
+        return true;
+    job->painter.shown = (uint32_t)find_word("show", job->options.shown, pass_views);
+    job->painter.exposure = 1;
+    return pass_views[job->painter.shown];
+}
+
 static bool parse(struct job *job)
 {
     const char *scene_names[NUM_SCENES + 1] = {0};
@@ -162,6 +173,8 @@ static bool parse(struct job *job)
                 job->options.camera);
         return false;
     }
+    if (!parse_view(job))
+        return false;
     /* the device's samplers have neither arbitrary border colours nor cubic filters */
     if (!args_is_given(&job->cli.parser, "texture-modes"))
         mxg_options_set(job->cli.options, "texture-modes", "shared");

@@ -241,21 +241,73 @@ static void tell_warning(struct painter *painter, const struct bind *bind,
         report_warning(&painter->cli->report, bind->id, "%s", bind->reason);
 }
 
+static bool make_part(struct painting *painting, const struct subject *subject, enum draw_role role)
+{
+    struct part *part = &painting->parts[painting->num_parts++];
+    part->subject = subject;
+    part->bind = calloc(1, sizeof *part->bind);
+    if (!part->bind)
+        return report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
+    if (!generate(painting->painter, subject, &part->result)
+        || !choose_mesh(painting, part, subject))
+        return false;
+    init_bind(painting, part, subject);
+    part->bind->draw.role = role;
+    return true;
+}
+
+/* Makes the program for the depth of what the last part stores, if it has holes. */
+static bool make_cuts(struct painting *painting)
+{
+    struct part *part = &painting->parts[painting->num_parts - 1];
+    mxg_options *options = painting->painter->cli->options;
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(part->result, &info);
+    if (!info.stored_words)
+        return true;
+    part->bind->draw.role = DRAW_STORES;
+    part->bind->draw.has_holes = info.alpha == MXG_ALPHA_MASK;
+    if (!part->bind->draw.has_holes)
+        return true;
+    mxg_options_set(options, "pipeline", "depth");
+    bool good = make_part(painting, part->subject, DRAW_CUTS);
+    mxg_options_set(options, "pipeline", "deferred");
+    return good;
+}
+
 /* Generates the shaders of the subjects, and chooses their meshes. */
 static bool make_parts(struct painting *painting, const struct subject *subjects, size_t count)
 {
-    painting->parts = calloc(count, sizeof *painting->parts);
+    painting->parts = calloc(2 * count, sizeof *painting->parts);
     bool good = painting->parts || report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
-    for (size_t i = 0; good && i < count; ++i, ++painting->num_parts) {
-        struct part *part = &painting->parts[i];
-        part->bind = calloc(1, sizeof *part->bind);
-        good = part->bind ? generate(painting->painter, &subjects[i], &part->result)
-                                && choose_mesh(painting, part, &subjects[i])
-                          : report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
-        if (good)
-            init_bind(painting, part, &subjects[i]);
-    }
+    for (size_t i = 0; good && i < count; ++i)
+        good = make_part(painting, &subjects[i], DRAW_LIT) && make_cuts(painting);
     return good;
+}
+
+/* Opens the passes over what the parts store, if any stores. */
+static bool open_passes(struct painting *painting, uint32_t width, uint32_t height)
+{
+    struct painter *painter = painting->painter;
+    struct passes_setup setup = {.context = painter->cli->context,
+                                 .options = painter->cli->options,
+                                 .scene = &painting->scene,
+                                 .gpu = &painter->gpu,
+                                 .canvas = painting->canvas,
+                                 .width = width,
+                                 .height = height,
+                                 .shown = painter->shown};
+    for (size_t i = 0; i < painting->num_parts; ++i) {
+        mxg_shader_info info = {sizeof info};
+        mxg_result_info(painting->parts[i].result, &info);
+        setup.words = info.stored_words > setup.words ? info.stored_words : setup.words;
+    }
+    if (!setup.words || !painting->canvas)
+        return true;
+    if (passes_open(&setup, &painting->passes))
+        return true;
+    report_error(&painter->cli->report, painting->passes.id, "%s", painting->passes.reason);
+    return false;
 }
 
 bool painting_open(struct painter *painter, const struct subject *subjects, size_t count,
@@ -270,11 +322,13 @@ bool painting_open(struct painter *painter, const struct subject *subjects, size
     if (!painting->samples)
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
     painting->canvas = draw_open_canvas(&painter->gpu, width, height);
-    for (size_t i = 0; i < count; ++i) {
+    if (!open_passes(painting, width, height))
+        return false;
+    for (size_t i = 0; i < painting->num_parts; ++i) {
         struct part *part = &painting->parts[i];
         if (!render_open(&part->render, painting->canvas, &painter->gpu, part->bind))
-            return fail(painter, part, &subjects[i]);
-        tell_warning(painter, part->bind, &subjects[i]);
+            return fail(painter, part, part->subject);
+        tell_warning(painter, part->bind, part->subject);
     }
     return true;
 }
@@ -337,8 +391,8 @@ bool painting_draw(struct painting *painting, struct image *out)
     struct render *renders = calloc(painting->num_parts + 1, sizeof *renders);
     for (size_t i = 0; renders && i < painting->num_parts; ++i)
         renders[i] = painting->parts[i].render;
-    bool drawn =
-        renders && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
+    bool drawn = renders && (!painting->passes.stored || passes_aim(&painting->passes))
+                 && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
     free(renders);
     if (!drawn) {
         const struct bind *bind = painting->parts[0].bind;
@@ -365,6 +419,7 @@ void painting_close(struct painting *painting)
         free(part->fine);
     }
     draw_close_canvas(painting->canvas);
+    passes_close(&painting->passes);
     free(painting->parts);
     free(painting->samples);
 }

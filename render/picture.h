@@ -9,6 +9,7 @@
 #include "cli/cli.h"
 #include "cli/names.h"
 #include "cli/outputs.h"
+#include "render/passes.h"
 #include "render/render.h"
 #include "render/studio.h"
 #include "render/trace.h"
@@ -34,6 +35,7 @@ struct painter {
     double exposure;
     uint32_t width, height;
     unsigned oversampling;      /* samples per pixel and axis */
+    uint32_t shown;             /* number of a debug view; UINT32_MAX: pictures are lit */
     struct trace_options trace; /* no paths: use the rasteriser */
 };
 
@@ -49,6 +51,7 @@ struct subject {
 
 /* A subject on the device. */
 struct part {
+    const struct subject *subject;
     mxg_result *result;
     struct bind *bind;
     struct render render;
@@ -63,6 +66,7 @@ struct painting {
     struct part *parts;
     size_t num_parts;
     struct draw_canvas *canvas;
+    struct passes passes;
     float *samples;
 };
 

@@ -11,9 +11,9 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent))
 from checks import check, finish
 
 ROOT = pathlib.Path(sys.argv[1])
-ROOMS = "base diag ir document xml usda tree parse lower specialise print shader closure slabs library bind build spell api".split()
+ROOMS = "base diag ir document xml usda tree parse lower specialise print shader closure slabs deferred library bind build spell api".split()
 FRONT = {"document", "xml", "usda", "parse", "library", "build", "bind"}
-BACK = {"ir", "lower", "specialise", "print", "closure", "slabs", "shader", "spell"}
+BACK = {"ir", "lower", "specialise", "print", "closure", "slabs", "deferred", "shader", "spell"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 

@@ -59,7 +59,7 @@ static void write_members(struct spell *spell, enum shader_block block)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_indent(spell, 1);
-        if (variable->flat && !spell->shader->scatters)
+        if (variable->flat && !shader_is_called(spell->shader))
             spell_text(spell, "flat ");
         spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
         spell_text(spell, ";\n");
@@ -160,10 +160,10 @@ static void write_vertex_data(struct spell *spell)
     if (!spell_uses_block(spell, BLOCK_VERTEX_DATA))
         return;
     if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
-        write_attributes(spell, BLOCK_VERTEX_DATA, spell->shader->scatters ? "" : qualifier);
+        write_attributes(spell, BLOCK_VERTEX_DATA, shader_is_called(spell->shader) ? "" : qualifier);
         return;
     }
-    if (spell->shader->scatters) { /* the caller sets it */
+    if (shader_is_called(spell->shader)) { /* the caller sets it */
         SPELL(spell, "struct ", type, " {\n");
         write_members(spell, BLOCK_VERTEX_DATA);
         SPELL(spell, "};\n", type, " ", spell_frame_name(spell, "vd"), ";\n");
@@ -194,13 +194,19 @@ static void declare(struct spell *spell)
     if (spell->stage_id == STAGE_VERTEX)
         write_attributes(spell, BLOCK_APP_DATA, "in ");
     write_vertex_data(spell);
+    if (spell->stage_id == STAGE_VERTEX && spell->shader->has_passes)
+        spell_text(spell, "invariant gl_Position;\n"); /* two passes draw the same points */
     if (spell->stage_id == STAGE_PIXEL)
-        write_attributes(spell, BLOCK_OUTPUTS, spell->shader->scatters ? "" : "out ");
+        write_attributes(spell, BLOCK_OUTPUTS, shader_is_called(spell->shader) ? "" : "out ");
 }
 
 static void open_main(struct spell *spell)
 {
-    SPELL(spell, "void ", spell->shader->scatters ? spell_frame_name(spell, "scatter") : "main",
+    const struct shader *shader = spell->shader;
+    SPELL(spell, "void ",
+          shader->scatters    ? spell_frame_name(spell, "scatter")
+          : shader->is_stored ? spell_frame_name(spell, "surface")
+                              : "main",
           "()\n{\n");
 }
 

@@ -491,6 +491,17 @@ typedef struct mxg_generate_desc {
  */
 MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
                                 const mxg_generate_desc *desc, mxg_result **out_result);
+
+/*
+ * The passes of the deferred pipeline that belong to no material (docs/deferred.md), in their
+ * order. Their texts depend on the options alone. A pass is a result with one source, of a compute
+ * stage, in the place of the pixel stage; a lighting pass has variables, as a surface has. `desc`
+ * names a target and options only.
+ */
+MXG_API uint32_t mxg_num_passes(void);
+MXG_API const char *mxg_pass_name(uint32_t index); /* NULL: there is no such pass */
+MXG_API mxg_status mxg_generate_pass(mxg_context *context, uint32_t index,
+                                     const mxg_generate_desc *desc, mxg_result **out_result);
 MXG_API void mxg_result_destroy(mxg_result *result);
 
 /*
@@ -679,6 +690,11 @@ typedef struct mxg_shader_info {
      * MXG_BLOCK_OUTPUTS, both in order. "": a program
      */
     const char *function, *function_type;
+    /*
+     * Words of 32 bits that it stores per pixel, at most, for the passes of the deferred pipeline
+     * (docs/deferred.md); 0: it lights itself.
+     */
+    uint32_t stored_words;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lobes of a slab that pbrlib lacks: its medium, and light of its own. See docs/slabs.md.
 
+#include "../pbrlib/shaders/diffuse.glsl"
 #include "../pbrlib/shaders/ggx_sampling.glsl"
 
 // ---- diffuse reflection of an opaque medium --------------------------------------------------------------------------
@@ -188,8 +189,6 @@ float mx_slab_medium_bsdf_pdf(vec3 color, float roughness, vec3 mean_free_path, 
 vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                      vec3 N, vec3 V, int sample_index)
 {
-    if (mx_is_black(color))
-        return vec3(0.0);
     if (option_integrator == 1 && option_environment == 2)
     {
         vec3 L, weight;
@@ -273,4 +272,29 @@ vec3 mx_slab_emission_bsdf_emission(vec3 color, vec3 V)
 vec3 mx_slab_emission_bsdf_throughput(vec3 color, vec3 V)
 {
     return vec3(1.0);
+}
+
+// ---- slab_mark_bsdf --------------------------------------------------------------------------------------------------
+// Lies on a slab and changes nothing: its weight is that of the slab. The deferred pipeline stores its inputs (docs/deferred.md).
+
+vec3 mx_slab_mark_bsdf_throughput(vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughness, float anisotropy, vec3 normal, vec3 tangent,
+                                  float second_roughness, float second_roughness_weight, float fuzz_amount, vec3 fuzz_color,
+                                  float fuzz_roughness, vec3 free_path, float phase_anisotropy, float is_thick)
+{
+    return vec3(1.0);
+}
+
+float mx_slab_mark_bsdf_way(vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughness, float anisotropy, vec3 normal, vec3 tangent,
+                            float second_roughness, float second_roughness_weight, float fuzz_amount, vec3 fuzz_color,
+                            float fuzz_roughness, vec3 free_path, float phase_anisotropy, float is_thick)
+{
+    return MX_MEAN_WAY;
+}
+
+// The mean free path over the thickness. Of a body: the radius of its scattered light over the radius of the surface.
+vec3 mx_slab_free_path(vec3 mean_free_path, float thickness, float is_thick, vec3 N, vec3 P)
+{
+    if (is_thick > 0.0)
+        return mx_curvature(N, P) * max(mean_free_path, 0.1);
+    return mean_free_path / max(thickness, 1e-6);
 }

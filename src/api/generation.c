@@ -78,7 +78,8 @@ static void set_build_options(struct generation *g)
     uint32_t caps = g->result->target->caps;
     g->build_options = (struct build_options){
         .syntax = g->result->target->syntax,
-        .interface = (enum build_interface)o[OPTION_interface].number,
+        .interface =
+            g->stored ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
         .publish_all = o[OPTION_publish].number != 0,
         .uniform_globs = o[OPTION_uniform].list.items,
         .num_uniform_globs = o[OPTION_uniform].list.len,
@@ -106,7 +107,10 @@ static void set_build_options(struct generation *g)
         .texture_fault = stdio_texture_fault,
         .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
-        .vertex_stage = (caps & CAP_VERTEX_STAGE) && !shader_is_called(&g->result->shader),
+        .stored = g->stored != CLASS_EMPTY,
+        .marks_slabs = generation_stores(g),
+        .vertex_stage =
+            (caps & CAP_VERTEX_STAGE) && !shader_is_called(&g->result->shader) && !g->stored,
         .codes = context->codes,
         .num_codes = context->num_codes,
         .cancel = context->cancel,
@@ -211,7 +215,7 @@ bool generation_start(struct generation *g)
     bool good = find_target(g);
     if (good) {
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena);
-        good = check_version(g) && generation_check_options(g);
+        good = check_version(g) && generation_check_options(g) && generation_check_pipeline(g);
     }
     g->element = g->desc.bindings ? element_of_stack(g)
                                   : document_find_element(g->document, g->desc.element, diags_of(g),
@@ -313,12 +317,14 @@ void generation_start_closures(struct generation *g)
         .environment = g->options[OPTION_environment].number != 0,
         .two_sided = g->options[OPTION_layering].number != 0,
         .transmits_alpha = g->options[OPTION_transmission].number != 0,
-        .transparency = (uint8_t)g->options[OPTION_transparency].number,
+        .transparency =
+            g->stored ? TRANSPARENCY_OPAQUE : (uint8_t)g->options[OPTION_transparency].number,
         .shadow = g->options[OPTION_shadow_map].number != 0,
         .occlusion = g->options[OPTION_occlusion_map].number != 0,
         .flips_v = g->options[OPTION_texture_origin].number != 0,
         .encodes = g->options[OPTION_encode].number != 0,
     };
+    generation_defer(g);
     g->closure_host.keeps_color = g->lighting.transparency == TRANSPARENCY_OPAQUE
                                   || g->lighting.transparency == TRANSPARENCY_MASK;
 }
@@ -383,7 +389,7 @@ bool generation_emit(struct generation *g)
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
-    if (!generation_budget_slabs(g))
+    if (!generation_budget_slabs(g) || !generation_can_store(g))
         return false;
     generation_walk_slabs(g);
     bool is_emitted = emit(g);
@@ -394,6 +400,8 @@ bool generation_emit(struct generation *g)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
                                                 : gives_nothing);
+    if (is_emitted)
+        generation_tell_forward(g);
     return is_good(g) && generation_effects_are_defined(g, &g->result->shader, g->element);
 }
 
@@ -637,7 +645,7 @@ static void drop_source(mxg_result *result)
         result->stages[stage] = (struct stage_source){0};
 }
 
-static void generate(struct generation *g)
+void generation_run_all(struct generation *g)
 {
     bool built = generation_start(g) && generation_build(g);
     if (g->result->network.arena)
@@ -659,7 +667,7 @@ mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
         *out_result = NULL;
     if (!generation_names_target(desc))
         return MXG_ERROR_ARGUMENT;
-    return generation_run(context, document, desc, generate, NULL, out_result);
+    return generation_run(context, document, desc, generation_run_all, NULL, out_result);
 }
 
 void mxg_result_destroy(mxg_result *result)

@@ -8,6 +8,7 @@
 
 #include "api/api.h"
 #include "closure/closure.h"
+#include "deferred/deferred.h"
 #include "slabs/budget.h"
 
 #include <assert.h>
@@ -68,6 +69,10 @@ struct generation {
     struct file_source files; /* the files that the generation reads */
     struct lang_reader reader;
     bool cancelled;
+    bool is_pass;               /* a pass of the deferred pipeline that belongs to no material */
+    enum deferred_class stored; /* a pass that lights stored closures; CLASS_EMPTY: a material */
+    struct deferred_layout storage;
+    struct closure_above above;
     void *user_data; /* for the caller's `steps` */
 };
 
@@ -82,6 +87,8 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
                           const mxg_generate_desc *desc, void (*steps)(struct generation *),
                           void *user_data, mxg_result **out_result);
 
+/* All steps of mxg_generate. */
+void generation_run_all(struct generation *g);
 /* The steps in order; each returns false after a diagnostic. */
 bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
@@ -102,6 +109,20 @@ bool generation_finish(struct generation *g); /* scheduling and layout */
 bool generation_spell(struct generation *g);  /* source */
 /* replaces the last two steps */
 bool generation_make_network(struct generation *g); /* network.c */
+
+/* deferred.c: the deferred pipeline. */
+/* False, after diagnostics, if options have no meaning together. */
+bool generation_check_pipeline(struct generation *g);
+/* True for the material pass of a material. */
+bool generation_stores(const struct generation *g);
+struct deferred_layout generation_storage(const struct option_value *options,
+                                          const struct target *target);
+/* Sets the hooks of the closures' host. */
+void generation_defer(struct generation *g);
+/* Warns about a material whose shader lights itself. */
+void generation_tell_forward(struct generation *g);
+/* False, after a diagnostic, if a surface to store has closures that are no slabs. */
+bool generation_can_store(struct generation *g);
 
 /* generation.c: shared with network.c. */
 struct shader_layout_rules generation_layout_rules(const struct generation *g);

@@ -260,6 +260,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .function = shader->function,
         .function_type = shader->function_type,
         .lit = shader->lit,
+        .stored_words = shader->stored_words,
     };
     /* only the topology is expensive */
     if (out && out->size > offsetof(mxg_shader_info, topology)

@@ -59,6 +59,8 @@ struct build_options {
     const char *(*texture_fault)(void *user_data, const char *from, const char *file);
     void *texture_user_data;
     int integrator;
+    int stored;        /* closures come from storage: the lighting of the deferred pipeline */
+    bool marks_slabs;  /* a slab_mark_bsdf lies on each slab, for src/deferred */
     bool vertex_stage; /* the shader has one, which can compute values for the pixels */
     const struct mxg_node_code *codes; /* nodes in C: code.h */
     uint32_t num_codes;

@@ -2,11 +2,15 @@
 /* The lobes of a slab: the library's graph, applied to the inputs of the slab and its place. */
 #include "build/build_priv.h"
 
+static uint32_t definition(const struct builder *b, const char *name)
+{
+    str_id id = str_find(b->shader->strings, name, strlen(name));
+    return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
+}
+
 uint32_t build_slab_definition(const struct builder *b)
 {
-    static const char name[] = "ND_slab_lobes";
-    str_id id = str_find(b->shader->strings, name, sizeof name - 1);
-    return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
+    return definition(b, "ND_slab_lobes");
 }
 
 /* The value of an input of the graph; 0: neither the slab nor its place has it. */
@@ -25,9 +29,10 @@ static ir_ref value_of(str_id input, const ir_ref *inputs, const struct slab_pla
     }
 }
 
-ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place)
+/* The closure of a definition whose inputs are those of a slab and of its place. */
+static ir_ref apply(struct builder *b, uint32_t id, const ir_ref *inputs,
+                    const struct slab_place *place)
 {
-    uint32_t id = build_slab_definition(b);
     assert(id != LIBRARY_NONE);
     const struct nodedef *def = library_nodedef(b->lib, id);
     const struct port *ports = library_ports(b->lib, id, NULL);
@@ -39,4 +44,15 @@ ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct sl
     }
     build_apply(b, id, build_doc(b)->root, args, results);
     return results[0];
+}
+
+ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place)
+{
+    ir_ref lobes = apply(b, build_slab_definition(b), inputs, place);
+    if (!b->options->marks_slabs)
+        return lobes;
+    ir_ref args[2] = {apply(b, definition(b, "ND_slab_mark"), inputs, place), lobes};
+    if (!lobes)
+        return args[0];
+    return ir_build(b->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2);
 }

@@ -36,8 +36,24 @@ struct closure_point {
     ir_ref position, normal, view; /* unit normal, unit direction to the viewer */
 };
 
+/* The weight of matter above a whole closure, for light on a way x: steady + color · decay^x. */
+struct closure_above {
+    ir_ref steady, color, decay; /* vec3 */
+    ir_ref spreads; /* float, 1: it spreads the light of mirrors, see `spreads` below */
+};
+
+struct closure_list;
 struct closure_host {
     void *user_data;
+    const struct closure_above *above; /* NULL: nothing */
+    /*
+     * Takes a surface with its leaves and what it emits (vec3; 0: black), instead of lighting them.
+     * NULL: surfaces are lit.
+     */
+    void (*store)(struct shader *shader, const struct closure_host *host, ir_ref bsdf,
+                  const struct closure_list *list, ir_ref emission);
+    const void *store_data;
+    bool only_cuts; /* draws nothing of a surface but the holes that its opacity cuts */
     struct closure_point *point;
     /*
      * the question that throughputs answer, and the direction to the light for

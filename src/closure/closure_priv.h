@@ -73,6 +73,9 @@ void closure_fit_decays(struct shader *shader, struct closure_list *list,
 /* closure_fit_decays for one leaf; at[k] may be NULL: weight 0. */
 void closure_fit_decay(struct shader *shader, struct closure_leaf *leaf,
                        const struct closure_leaf *const at[2]);
+/* Puts all leaves of a list below other matter. No media lie above them yet. */
+void closure_put_under(struct shader *shader, const struct closure_host *host,
+                       const struct closure_above *above, struct closure_list *list);
 /* The way of the light that a leaf reflects from the environment. */
 ir_ref closure_environment_way(struct shader *shader, const struct closure_host *host, ir_ref leaf);
 /* value.c: the throughput of an operator whose operands let these fractions pass. */

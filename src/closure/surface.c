@@ -430,12 +430,17 @@ static void write_aovs(struct emitter *e, struct closure_aovs aovs, ir_ref alpha
     }
 }
 
+static bool draws_all(const struct emitter *e, ir_ref alpha)
+{
+    return e->lighting->transparency == TRANSPARENCY_OPAQUE
+           || (closure_is_opaque(e->graph, alpha)
+               && e->lighting->transparency != TRANSPARENCY_BLEND);
+}
+
 static void finish_surface(struct emitter *e, const struct closure_surface *s)
 {
     ir_ref alpha = output_alpha(e, s), one = ir_const_float(e->graph, 1.0f);
-    bool blends = e->lighting->transparency == TRANSPARENCY_BLEND;
-    if (e->lighting->transparency == TRANSPARENCY_OPAQUE
-        || (closure_is_opaque(e->graph, alpha) && !blends)) {
+    if (draws_all(e, alpha)) {
         write_surface(e, final_color(e), one);
         write_aovs(e, s->aovs, 0);
         return;
@@ -470,6 +475,8 @@ static void flatten_surface(struct emitter *e, const struct closure_surface *s,
     host.way_in = view ? &view : NULL;
     host.context = SOURCE_INDIRECT;
     closure_flatten(e->shader, &host, s->bsdf, out);
+    if (host.above)
+        closure_put_under(e->shader, &host, host.above, out);
     e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
     e->lit.base = add(e, e->lit.base, emission_of(e, out));
 }
@@ -640,6 +647,13 @@ static void emit_picked(struct emitter *e, ir_ref slots)
     finish_surface(e, &whole);
 }
 
+static bool is_cut(struct emitter *e, ir_ref alpha)
+{
+    return e->lighting->transparency == TRANSPARENCY_MASK
+           || (e->lighting->transparency == TRANSPARENCY_AUTO
+               && closure_alpha(e->shader, alpha) == ALPHA_MASK);
+}
+
 static void emit_surface(struct emitter *e, ir_ref root)
 {
     bool is_stack = root && ir_get(e->graph, root)->op == IR_SLOTS;
@@ -658,6 +672,18 @@ static void emit_surface(struct emitter *e, ir_ref root)
         struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
         closure_scatter_layer(scatter, &layer);
         closure_scatter_end(scatter, s.alpha);
+        return;
+    }
+    if (e->host->only_cuts) {
+        if (!draws_all(e, s.alpha))
+            alpha_test(e, s.alpha);
+        return;
+    }
+    if (e->host->store && (draws_all(e, s.alpha) || is_cut(e, s.alpha))) {
+        struct closure_list list;
+        e->shader->alpha = draws_all(e, s.alpha) ? ALPHA_OPAQUE : ALPHA_MASK;
+        flatten_surface(e, &s, &list);
+        e->host->store(e->shader, e->host, s.bsdf, &list, e->lit.base);
         return;
     }
     light_surface(e, &s);

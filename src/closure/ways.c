@@ -117,3 +117,22 @@ void closure_fit_decays(struct shader *shader, struct closure_list *list,
         ir_pop_origin(shader->graph);
     }
 }
+
+void closure_put_under(struct shader *shader, const struct closure_host *host,
+                       const struct closure_above *above, struct closure_list *list)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref nothing = ir_const_float(g, 0.0f), way = ir_const_float(g, CLOSURE_MEAN_WAY);
+    ir_ref spreads = ir_op2(g, IR_GT, above->spreads, nothing);
+    ir_ref ways = ir_construct(g, IR_TYPE_VEC3, &way, 1), one = ir_const_splat(g, IR_TYPE_VEC3, 1);
+    ir_ref mean = ir_op2(g, IR_MUL, above->color, ir_op2(g, IR_POW, above->decay, ways));
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        struct closure_leaf *leaf = &list->leaves.items[i];
+        assert(!leaf->decay && !leaf->steady);
+        bool mirrors = !closure_has(shader, host, leaf->leaf, LEAF_WAY);
+        ir_ref color = mirrors ? ir_op3(g, IR_SELECT, spreads, mean, above->color) : above->color;
+        leaf->decay = mirrors ? ir_op3(g, IR_SELECT, spreads, one, above->decay) : above->decay;
+        leaf->steady = closure_mul(g, leaf->color, above->steady);
+        leaf->color = closure_mul(g, leaf->color, color);
+    }
+}

@@ -285,6 +285,10 @@ struct shader {
     bool displaced;   /* the vertex stage moves the surface */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
+    /* words that it stores per pixel, at most; 0: it lights itself. Deferred pipeline. */
+    uint32_t stored_words;
+    bool has_passes; /* several programs draw its surface: positions are equal to the bit */
+    bool is_stored;  /* a function of the deferred pipeline, for a closure from storage */
     /* a function for rasters, without a vertex stage: the option `form` */
     bool is_function;
     const char *function, *function_type; /* their names in the source; "": a program */
@@ -298,10 +302,10 @@ struct shader {
 #define SHADER_FUNCTION "surface"
 #define SHADER_FUNCTION_RESULT "Surface"
 
-/* True if code of the host calls the shader, so that it has no vertex stage. */
+/* True if other code calls the shader and gives the vertex data, so that it has no vertex stage. */
 static inline bool shader_is_called(const struct shader *shader)
 {
-    return shader->scatters || shader->is_function;
+    return shader->scatters || shader->is_function || shader->is_stored;
 }
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,

@@ -298,7 +298,8 @@ static void init(struct spell *spell)
                                             .user_type = user_type_name,
                                             .maker = spell->target->maker,
                                             .form = spell->target->form};
-    bool has_neighbours = spell->stage_id == STAGE_PIXEL ? !shader->scatters : !shader->displaced;
+    bool has_neighbours =
+        spell->stage_id == STAGE_PIXEL ? !shader_is_called(shader) : !shader->displaced;
     spell->style =
         shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)

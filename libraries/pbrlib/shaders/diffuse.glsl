@@ -191,11 +191,17 @@ float mx_translucent_bsdf_pdf(vec3 color, vec3 N, vec3 V, vec3 L)
 // Burley's normalised diffusion profile (Christensen 2015) gathered around a circle of the local curvature
 // (after Penner 2011, "Pre-integrated skin shading").
 
-// Exponent of the profile where the chord is the diameter of the circle.
+float mx_curvature(vec3 n, vec3 P)
+{
+    return max(length(fwidth(n)) / length(fwidth(P)), 0.01);
+}
+
+// Exponent of the profile where the chord is the diameter of the circle. A stored radius is that over the circle's.
 vec3 mx_subsurface_falloff(vec3 radius, vec3 n, vec3 P)
 {
-    float curvature = max(length(fwidth(n)) / length(fwidth(P)), 0.01);
-    return -2.0 / (3.0 * curvature * max(radius, 0.1));
+    if (option_stored == 1)
+        return -2.0 / (3.0 * max(radius, 1e-6));
+    return -2.0 / (3.0 * mx_curvature(n, P) * max(radius, 0.1));
 }
 
 vec3 mx_subsurface_light(vec3 falloff, float cos_l)

@@ -4,6 +4,7 @@
 #include "frame.glsl"
 
 const int option_integrator = 0; // 0 raster, 1 path tracing
+const int option_stored = 0; // 1: closures come from the storage of the deferred pipeline
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(vec3 N, vec3 X)

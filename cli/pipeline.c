@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mxgen pipeline: the passes of the deferred pipeline that belong to no material
+ * (docs/deferred.md). */
+#include "cli/cli.h"
+#include "cli/files.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool write_file(struct report *report, const char *folder, const char *name,
+                       const char *suffix, const char *text, size_t size)
+{
+    char *path = cli_format("%s/%s.%s", folder, name, suffix);
+    const char *reason = files_write(path, text, size);
+    if (reason)
+        report_error(report, "output-failed", "cannot write '%s': %s", path, reason);
+    free(path);
+    return !reason;
+}
+
+static bool write_pass(struct cli *cli, uint32_t index, const char *target, const char *folder)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = target;
+    desc.options = cli->options;
+    mxg_result *result;
+    mxg_status status = mxg_generate_pass(cli->context, index, &desc, &result);
+    if (result)
+        report_list(&cli->report, mxg_result_diagnostics(result));
+    bool good = report_status(&cli->report, status);
+    if (good) {
+        size_t size = 0, json_size = 0;
+        const char *name = mxg_pass_name(index),
+                   *text = mxg_result_source(result, MXG_STAGE_PIXEL, &size),
+                   *json = mxg_result_reflection_json(result, &json_size);
+        good = write_file(&cli->report, folder, name, "comp", text, size)
+               && write_file(&cli->report, folder, name, "json", json, json_size);
+    }
+    mxg_result_destroy(result);
+    return good;
+}
+
+static bool write_passes(struct cli *cli, const char *target, const char *folder)
+{
+    const char *reason = files_make_folder(folder);
+    bool good = !reason;
+    if (reason)
+        report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", folder,
+                     reason);
+    for (uint32_t i = 0; good && i < mxg_num_passes(); ++i)
+        good = write_pass(cli, i, target, folder);
+    return good;
+}
+
+int command_pipeline(const struct command *command, int argc, char **argv)
+{
+    const char *name = "vulkan";
+    const struct arg args[] = {
+        {"target", 't', ARG_TEXT, "T", "target language: vulkan (default) or glsl", &name},
+    };
+    struct cli cli;
+    mxg_target target;
+    int code;
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES,
+                  argc, argv, &code)) {
+        bool is_usage = cli_find_target(name, strlen(name), &target)
+                        && cli_options_apply(&cli, &target.name, 1);
+        if (cli.parser.inputs.len != 1) {
+            fprintf(stderr, "mxgen: 'mxgen pipeline' takes one folder\n");
+            is_usage = false;
+        }
+        code = !is_usage                                                     ? EXIT_USAGE
+               : write_passes(&cli, target.name, cli.parser.inputs.items[0]) ? EXIT_DONE
+                                                                             : EXIT_FAULT;
+    }
+    cli_finish(&cli);
+    return code;
+}

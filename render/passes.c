@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/passes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const pass_views[] = {"classes",       "bytes",      "closures", "coverage",
+                                  "transmittance", "properties", NULL};
+
+static bool fail(struct passes *passes, const char *id, const char *reason)
+{
+    passes->id = id;
+    snprintf(passes->reason, sizeof passes->reason, "%s", reason);
+    return false;
+}
+
+/* How the passes run. Lighting and the debug view exclude each other. */
+static const struct {
+    const char *name;
+    int which; /* -1: all tiles */
+    bool lights, shows;
+} runs[] = {
+    {"classify", -1, true, false},     {"compose", 0, true, false},
+    {"light_simple", 1, true, false},  {"light_single", 2, true, false},
+    {"light_complex", 3, true, false}, {"show", -1, false, true},
+};
+
+static const mxg_diagnostics *generate(const struct passes_setup *setup, uint32_t index,
+                                       mxg_result **out)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "vulkan";
+    desc.options = setup->options;
+    mxg_status status = mxg_generate_pass(setup->context, index, &desc, out);
+    return status == MXG_OK ? NULL : mxg_result_diagnostics(*out);
+}
+
+/* Makes pass `index` of the library and adds it to the device. */
+static bool open_pass(struct passes *passes, const struct passes_setup *setup, uint32_t index,
+                      int which)
+{
+    struct pass_part *part = &passes->parts[passes->num_parts++];
+    const mxg_diagnostics *list = generate(setup, index, &part->result);
+    mxg_diagnostic first = {sizeof first};
+    if (list && mxg_diagnostics_get(list, 0, &first) == MXG_OK)
+        return fail(passes, first.id, first.message);
+    if (!part->result)
+        return fail(passes, "render-failed", "out of memory");
+    part->bind = (struct bind){.result = part->result, .scene = setup->scene, .is_opaque = true};
+    if (!compile_compute(mxg_result_source(part->result, MXG_STAGE_PIXEL, NULL), &part->compiled))
+        return fail(passes, "bad-shader",
+                    part->compiled.num_messages ? part->compiled.messages[0].text
+                                                : "out of memory");
+    if (!bind_shader(&part->bind))
+        return fail(passes, part->bind.id, part->bind.reason);
+    const struct compiled_stage *code = &part->compiled.stages[MXG_STAGE_PIXEL];
+    const struct stored_pass pass = {code->words, code->num_words, &part->bind.draw, which};
+    return stored_add_pass(passes->stored, &pass)
+           || fail(passes, setup->gpu->id, setup->gpu->reason);
+}
+
+static bool open_passes(struct passes *passes, const struct passes_setup *setup)
+{
+    bool shows = setup->shown != UINT32_MAX, good = true;
+    for (size_t r = 0; good && r < sizeof runs / sizeof *runs; ++r)
+        for (uint32_t i = 0; good && i < mxg_num_passes(); ++i)
+            if (strcmp(mxg_pass_name(i), runs[r].name) == 0
+                && (shows ? runs[r].shows : runs[r].lights))
+                good = open_pass(passes, setup, i, runs[r].which);
+    return good;
+}
+
+bool passes_open(const struct passes_setup *setup, struct passes *out)
+{
+    *out = (struct passes){.scene = setup->scene,
+                           .width = setup->width,
+                           .height = setup->height,
+                           .shown = setup->shown};
+    if (!setup->gpu->can_store)
+        return fail(
+            out, "no-device",
+            "the device cannot write images in pixel stages, as '--pipeline deferred' needs");
+    out->stored = draw_store(setup->canvas, setup->words);
+    if (!out->stored)
+        return fail(out, setup->gpu->id, setup->gpu->reason);
+    return open_passes(out, setup) && passes_aim(out);
+}
+
+/* From pixels to the world: the viewport turns the picture, so y grows downwards. */
+static void fill_frame(const struct passes *passes, struct stored_frame *out)
+{
+    const struct scene *scene = passes->scene;
+    struct matrix to_clip = matrix_multiply(scene->projection, scene->view);
+    struct matrix of_pixels = {{{2.0 / passes->width, 0, 0, 0},
+                                {0, -2.0 / passes->height, 0, 0},
+                                {0, 0, 1, 0},
+                                {-1, 1, 0, 1}}};
+    struct matrix to_world = matrix_multiply(matrix_inverse(to_clip), of_pixels);
+    for (size_t i = 0; i < 16; ++i)
+        out->to_world[i] = (float)to_world.m[i / 4][i % 4];
+    out->shown = passes->shown;
+}
+
+bool passes_aim(struct passes *passes)
+{
+    struct stored_frame frame;
+    for (uint32_t i = 0; i < passes->num_parts; ++i)
+        if (!bind_scene(&passes->parts[i].bind))
+            return fail(passes, passes->parts[i].bind.id, passes->parts[i].bind.reason);
+    fill_frame(passes, &frame);
+    stored_update(passes->stored, &frame);
+    return true;
+}
+
+void passes_close(struct passes *passes)
+{
+    for (uint32_t i = 0; i < passes->num_parts; ++i) {
+        bind_finish(&passes->parts[i].bind);
+        compiled_finish(&passes->parts[i].compiled);
+        mxg_result_destroy(passes->parts[i].result);
+    }
+}

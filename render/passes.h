@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The passes of the deferred pipeline that belong to no material: made, bound, and run on a canvas.
+ */
+#ifndef MXG_RENDER_PASSES_H
+#define MXG_RENDER_PASSES_H
+
+#include "render/render.h"
+#include "render/stored.h"
+
+/* The debug views of the pass "show", by number. */
+extern const char *const pass_views[]; /* NULL-terminated */
+
+struct pass_part {
+    mxg_result *result;
+    struct bind bind;
+    struct compiled compiled;
+};
+
+struct passes {
+    struct stored *stored; /* NULL: nothing is stored */
+    const struct scene *scene;
+    uint32_t width, height;
+    uint32_t shown; /* number of a view; UINT32_MAX: pictures are lit */
+    struct pass_part parts[STORED_MAX_PASSES];
+    uint32_t num_parts;
+    const char *id;
+    char reason[512];
+};
+
+/* What passes need to be made. */
+struct passes_setup {
+    mxg_context *context;
+    const mxg_options *options;
+    const struct scene *scene;
+    struct gpu *gpu;
+    struct draw_canvas *canvas;
+    uint32_t width, height, words, shown;
+};
+
+/* false: see passes->reason. Zeroes `out` first. Call passes_close in any case, after the canvas
+ * closed. */
+bool passes_open(const struct passes_setup *setup, struct passes *out);
+/* Updates what depends on the camera. */
+bool passes_aim(struct passes *passes);
+void passes_close(struct passes *passes);
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The images of the deferred pipeline on the device, and its compute passes over them
+ * (docs/deferred.md). Independent of MaterialX. All images stay in the layout GENERAL.
+ */
+#ifndef MXG_RENDER_STORED_H
+#define MXG_RENDER_STORED_H
+
+#include "render/draw.h"
+#include "render/inputs.h"
+
+enum { STORED_TARGETS = 3, STORED_CLASSES = 4, STORED_TILE = 8, STORED_MAX_PASSES = 8 };
+
+/* A compute pass. Its draw has no code. */
+struct stored_pass {
+    const uint32_t *code;
+    size_t code_words;
+    const struct draw *draw; /* blocks and textures; outlives the pass */
+    int which;               /* the class of its tiles; -1: it covers all tiles */
+};
+
+struct stored;
+
+/* The values that all passes share. */
+struct stored_frame {
+    float to_world[16]; /* from (x, y, depth, 1), in pixels, column by column */
+    uint32_t shown;     /* number of the debug view */
+};
+
+/*
+ * Images for pictures of this size, with so many words per pixel beside the targets. color and
+ * depth belong to the caller: passes write the former. NULL: see gpu->reason.
+ */
+struct stored *stored_open(struct gpu *gpu, uint32_t width, uint32_t height, uint32_t words,
+                           const struct gpu_image *color, const struct gpu_image *depth);
+void stored_close(struct stored *stored);
+bool stored_add_pass(struct stored *stored, const struct stored_pass *pass);
+
+/* Set 1 of the material passes and of the compute passes. */
+VkDescriptorSetLayout stored_set_layout(const struct stored *stored);
+VkDescriptorSet stored_set(const struct stored *stored);
+/* The targets of a material pass: the colour, then three words. Cleared to 0 by the pass. */
+VkImageView stored_target(const struct stored *stored, unsigned target);
+VkFormat stored_target_format(unsigned target);
+
+void stored_update(struct stored *stored, const struct stored_frame *frame);
+/* Makes the images ready to be written, except those of the caller. */
+void stored_begin(const struct stored *stored, VkCommandBuffer commands);
+/* Runs the passes in the order in which they were added. */
+void stored_run(const struct stored *stored, VkCommandBuffer commands);
+/* What is written before is read after. */
+void stored_barrier(VkCommandBuffer commands);
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The passes of the deferred pipeline that belong to no material, as results. A lighting pass is
+ * made from a document of its own, like any surface.
+ */
+#include "api/generation.h"
+
+#include <assert.h>
+
+uint32_t mxg_num_passes(void)
+{
+    return NUM_PASSES;
+}
+
+const char *mxg_pass_name(uint32_t index)
+{
+    return index < NUM_PASSES ? deferred_pass_name((enum deferred_pass)index) : NULL;
+}
+
+/* Replaces the source of the surface by the text of the pass. */
+static void write_pass(struct generation *g, enum deferred_pass pass)
+{
+    mxg_result *result = g->result;
+    struct stage_source *stage = &result->stages[STAGE_PIXEL];
+    struct text text;
+    const char *version = g->options[OPTION_version].text;
+    const struct deferred_layout layout = generation_storage(g->options, result->target);
+    text_init(&text, &result->object.arena);
+    deferred_write_pass(pass, &layout, *version ? version : result->target->versions[0],
+                        g->stored ? &result->shader : NULL, stage->text, &text);
+    stage->text = text_cstr(&text);
+    stage->size = text.len;
+    source_find_lines(stage, &result->object.arena);
+}
+
+static void generate(struct generation *g)
+{
+    const enum deferred_pass pass = *(const enum deferred_pass *)g->user_data;
+    g->is_pass = true;
+    g->stored = deferred_pass_class(pass);
+    if (g->stored)
+        generation_run_all(g);
+    else
+        g->result->has_shader = generation_start(g);
+    if (g->result->has_shader)
+        write_pass(g, pass);
+}
+
+/* The document of the lighting passes. */
+static mxg_status parse_closures(mxg_context *context, mxg_document **out)
+{
+    const struct mem *mem = &context->mem;
+    size_t size = deferred_closures_size();
+    char *text = mem->realloc(mem->user_data, NULL, 0, size);
+    *out = NULL;
+    if (!text)
+        return MXG_ERROR_MEMORY;
+    deferred_copy_closures(text);
+    mxg_status status =
+        mxg_document_parse(context, mxg_library_builtin(context), "closures.mtlx", text, size, out);
+    mem->realloc(mem->user_data, text, size, 0);
+    return status;
+}
+
+mxg_status mxg_generate_pass(mxg_context *context, uint32_t index, const mxg_generate_desc *desc,
+                             mxg_result **out_result)
+{
+    if (out_result)
+        *out_result = NULL;
+    mxg_generate_desc full;
+    if (!context || index >= NUM_PASSES || !generation_names_target(desc)
+        || !struct_read(&full, sizeof full, desc) || full.element || full.bindings)
+        return MXG_ERROR_ARGUMENT;
+    enum deferred_pass pass = (enum deferred_pass)index;
+    mxg_document *document;
+    mxg_status status = parse_closures(context, &document);
+    if (status == MXG_OK) {
+        enum deferred_class which = deferred_pass_class(pass);
+        full.size = sizeof full;
+        full.element = deferred_element(which ? which : CLASS_SIMPLE);
+        status = generation_run(context, document, &full, generate, &pass, out_result);
+    }
+    mxg_document_destroy(document);
+    return status;
+}

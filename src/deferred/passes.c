@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The texts of the passes that belong to no material, from the files of src/deferred/passes. */
+#include "deferred/deferred_priv.h"
+#include "deferred/texts.h"
+
+#include "base/hash.h"
+
+#include <assert.h>
+
+/* The resources of the passes. */
+static const struct {
+    const char *name;
+    unsigned binding;
+} places[] = {
+    {"MX_STORED_IMAGE", 0}, {"MX_WORD_0", 1}, {"MX_WORD_1", 2}, {"MX_WORD_2", 3}, {"MX_DEPTH", 4},
+    {"MX_COLOR", 5},        {"MX_LIT", 6},    {"MX_TILES", 7},  {"MX_FRAME", 8},
+};
+
+static const struct {
+    const char *name;
+    enum deferred_class which; /* of a lighting pass */
+    const char *const *text;
+} passes[NUM_PASSES] = {
+    [PASS_CLASSIFY] = {"classify", CLASS_EMPTY, deferred_classify},
+    [PASS_COMPOSE] = {"compose", CLASS_EMPTY, deferred_compose},
+    [PASS_SIMPLE] = {"light_simple", CLASS_SIMPLE, deferred_light},
+    [PASS_SINGLE] = {"light_single", CLASS_SINGLE, deferred_light},
+    [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, deferred_light},
+    [PASS_SHOW] = {"show", CLASS_EMPTY, deferred_show},
+};
+
+const char *deferred_pass_name(enum deferred_pass pass)
+{
+    assert(pass < NUM_PASSES);
+    return passes[pass].name;
+}
+
+enum deferred_class deferred_pass_class(enum deferred_pass pass)
+{
+    assert(pass < NUM_PASSES);
+    return passes[pass].which;
+}
+
+const char *deferred_element(enum deferred_class which)
+{
+    static const char *const elements[NUM_CLASSES] = {NULL, "simple", "single", "complex"};
+    assert(which > CLASS_EMPTY && which < NUM_CLASSES);
+    return elements[which];
+}
+
+void deferred_write_lines(const char *const *lines, struct text *out)
+{
+    for (; *lines; lines++)
+        text_str(out, *lines);
+}
+
+size_t deferred_closures_size(void)
+{
+    size_t size = 0;
+    for (const char *const *line = deferred_closures; *line; line++)
+        size += strlen(*line);
+    return size;
+}
+
+void deferred_copy_closures(char *out)
+{
+    for (const char *const *line = deferred_closures; *line; line++) {
+        size_t len = strlen(*line);
+        memcpy(out, *line, len);
+        out += len;
+    }
+}
+
+void deferred_write_storage(const struct deferred_layout *layout, struct text *out)
+{
+    text_fmt(out, "#define MX_STORAGE %u\n", (unsigned)layout->storage);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        text_fmt(out, "#define %s ", places[i].name);
+        if (layout->sets)
+            text_fmt(out, "set = %u, ", (unsigned)layout->set);
+        text_fmt(out, "binding = %u\n", places[i].binding);
+    }
+    deferred_write_lines(deferred_record, out);
+}
+
+uint32_t deferred_layout_number(const struct deferred_layout *layout)
+{
+    uint64_t h = HASH_STABLE_SEED;
+    uint32_t storage = (uint32_t)layout->storage;
+    for (const char *const *line = deferred_record; *line; line++)
+        h = hash_stable(h, *line, strlen(*line));
+    h = hash_stable(h, &storage, sizeof storage);
+    return (uint32_t)(h ^ h >> 32);
+}
+
+/* What a lighting pass gives a stream of its surface; NULL: the closure has it. */
+static const char *stream_value(const char *name)
+{
+    static const struct {
+        const char *name, *value;
+    } values[] = {{"positionWorld", "point"}, {"normalWorld", "top"}};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        if (strcmp(values[i].name, name) == 0)
+            return values[i].value;
+    return NULL;
+}
+
+/* mx_fill(): the values of the closure become those that surface() reads. */
+static void write_fill(const struct shader *surface, struct text *out)
+{
+    static const char prefix[] = "geomprop_";
+    text_str(out, "void mx_fill(MxClosure closure, vec3 point, vec3 top)\n{\n");
+    for (uint32_t i = surface->first_of_block[BLOCK_VERTEX_DATA];
+         i < surface->first_of_block[BLOCK_VERTEX_DATA + 1]; i++) {
+        const struct shader_variable *v = &surface->variables.items[surface->interface.items[i]];
+        const char *name = str_text(surface->strings, v->name), *value = stream_value(name);
+        assert(value || strncmp(name, prefix, sizeof prefix - 1) == 0);
+        text_fmt(out, "    vd.%s = %s%s;\n", name, value ? "" : "closure.",
+                 value ? value : name + sizeof prefix - 1);
+    }
+    text_str(out, "}\n\n");
+}
+
+void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *layout,
+                         const char *version, const struct shader *surface, const char *source,
+                         struct text *out)
+{
+    enum deferred_class which = deferred_pass_class(pass);
+    assert((which != CLASS_EMPTY) == (surface && source));
+    if (surface)
+        text_fmt(out, "%s\n#define MX_CLASS %u\n", source, (unsigned)which);
+    else
+        text_fmt(out, "#version %s\n", version);
+    /* only the pass that makes the lists writes them */
+    text_fmt(out, "#define MX_TILES_ACCESS %s\n", pass == PASS_CLASSIFY ? "" : "readonly");
+    deferred_write_storage(layout, out);
+    deferred_write_lines(deferred_read, out);
+    deferred_write_lines(deferred_frame, out);
+    if (surface)
+        write_fill(surface, out);
+    deferred_write_lines(passes[pass].text, out);
+}
+
+/* ---- lighting ---- */
+
+static ir_ref stored(struct shader *shader, const char *name, ir_type_id type)
+{
+    return shader_stream(shader, str_intern_z(shader->strings, name), type);
+}
+
+struct closure_above deferred_above(struct shader *shader)
+{
+    struct closure_above above;
+    above.steady = stored(shader, "geomprop_steady", IR_TYPE_VEC3);
+    above.color = stored(shader, "geomprop_color", IR_TYPE_VEC3);
+    above.decay = stored(shader, "geomprop_decay", IR_TYPE_VEC3);
+    above.spreads = stored(shader, "geomprop_spreads", IR_TYPE_FLOAT);
+    return above;
+}

@@ -1,0 +1,17 @@
+// One group per tile: adds it to the lists of all classes that it has.
+
+shared uint mx_classes;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (gl_LocalInvocationIndex == 0u)
+        mx_classes = 0u;
+    barrier();
+    if (!mx_is_outside(pixel))
+        atomicOr(mx_classes, 1u << (imageLoad(mx_word_0, pixel).x >> 28u & 3u));
+    barrier();
+    uint class_ = gl_LocalInvocationIndex;
+    if (class_ < 4u && (mx_classes >> class_ & 1u) != 0u)
+        mx_tile[class_ * mx_size.w + atomicAdd(mx_dispatch[class_].x, 1u)] = gl_WorkGroupID.y * mx_size.z + gl_WorkGroupID.x;
+}

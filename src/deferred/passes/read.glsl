@@ -1,0 +1,103 @@
+// The closures of a pixel, from the top down.
+
+layout(MX_WORD_0, r32ui) uniform readonly restrict uimage2D mx_word_0;
+layout(MX_WORD_1, r32ui) uniform readonly restrict uimage2D mx_word_1;
+layout(MX_WORD_2, r32ui) uniform readonly restrict uimage2D mx_word_2;
+layout(MX_STORED_IMAGE, r32ui) uniform readonly restrict uimage2DArray mx_words;
+
+struct MxReader
+{
+    ivec2 pixel;
+    uint class_, num_closures, next; // number of the closure that comes next
+    uint core, body, top;            // words 0 to 2
+    uint at;                         // words of the image that were read
+    vec3 normals[3];                 // of the top, and the last two with words of their own
+};
+
+uint mx_get(inout MxReader reader)
+{
+    return imageLoad(mx_words, ivec3(reader.pixel, int(reader.at++))).x;
+}
+
+float mx_get_float(inout MxReader reader)
+{
+    return uintBitsToFloat(mx_get(reader));
+}
+
+vec3 mx_get_vector(inout MxReader reader)
+{
+    float x = mx_get_float(reader), y = mx_get_float(reader);
+    return vec3(x, y, mx_get_float(reader));
+}
+
+MxReader mx_open(ivec2 pixel)
+{
+    MxReader reader;
+    reader.pixel = pixel;
+    reader.core = imageLoad(mx_word_0, pixel).x;
+    reader.body = imageLoad(mx_word_1, pixel).x;
+    reader.top = imageLoad(mx_word_2, pixel).x;
+    reader.class_ = reader.core >> 28u & 7u;
+    reader.num_closures = reader.class_ == MX_EMPTY ? 0u : (reader.body >> 28u) + 1u;
+    reader.next = 0u;
+    reader.at = 0u;
+    reader.normals = vec3[3](mx_top_normal(reader.top), vec3(0.0), vec3(0.0));
+    return reader;
+}
+
+// The next closure; there is one.
+MxClosure mx_next(inout MxReader reader)
+{
+#if MX_STORAGE == 2
+    MxClosure c;
+    c.diffuse_albedo = mx_get_vector(reader);
+    c.f0 = mx_get_vector(reader);
+    c.f90 = mx_get_vector(reader);
+    c.roughness = mx_get_float(reader);
+    c.anisotropy = mx_get_float(reader);
+    c.normal = mx_get_vector(reader);
+    c.tangent = mx_get_vector(reader);
+    c.second_roughness = mx_get_float(reader);
+    c.second_roughness_weight = mx_get_float(reader);
+    c.fuzz_amount = mx_get_float(reader);
+    c.fuzz_color = mx_get_vector(reader);
+    c.fuzz_roughness = mx_get_float(reader);
+    c.free_path = mx_get_vector(reader);
+    c.phase_anisotropy = mx_get_float(reader);
+    c.is_thick = mx_get_float(reader);
+    c.steady = mx_get_vector(reader);
+    c.color = mx_get_vector(reader);
+    c.decay = mx_get_vector(reader);
+    c.spreads = mx_get_float(reader);
+    if (reader.next++ == 0u)
+        reader.normals[0] = c.normal;
+    return c;
+#else
+    MxRecord r = MxRecord(reader.core, reader.body, uint[2](0u, 0u), 0u, 0u, 0u, 0u, 0u);
+    bool is_top = reader.next == 0u, is_last = ++reader.next == reader.num_closures;
+    if (!is_last) {
+        r.core = mx_get(reader);
+        r.body = (r.core >> 20u & MX_IS_SMOOTH) != 0u ? 0u : mx_get(reader);
+    }
+    uint has = r.core >> 20u;
+    if ((has & MX_HAS_WEIGHTS) != 0u) {
+        r.weights[0] = mx_get(reader);
+        r.weights[1] = mx_get(reader);
+    }
+    if ((has & MX_HAS_MEDIUM) != 0u)
+        r.medium = mx_get(reader);
+    if ((has & MX_HAS_LOBES) != 0u)
+        r.lobes = mx_get(reader);
+    if ((has & MX_HAS_FUZZ) != 0u)
+        r.fuzz = mx_get(reader);
+    if ((has & MX_HAS_ANISOTROPY) != 0u)
+        r.anisotropy = mx_get(reader);
+    uint number = has >> MX_NORMAL_SHIFT & 3u;
+    if (number == 1u) {
+        reader.normals[2] = reader.normals[1];
+        reader.normals[1] = mx_uncut_normal(mx_get(reader), 16u);
+    }
+    vec3 normal = reader.normals[number > 1u ? number - 1u : number];
+    return mx_unpack(r, normal, is_top ? mx_top_roughness(reader.top) : mx_uncut(r.body, 20u, 8u));
+#endif
+}

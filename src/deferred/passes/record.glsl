@@ -1,0 +1,230 @@
+// The storage of closures (docs/deferred.md): how values become bits, for those who write and those who read. MX_STORAGE: 0 rounds with
+// dither, 1 rounds, 2 keeps whole floats.
+
+// A slab, with what lies above it: light on a way x through media weighs steady + color * pow(decay, x).
+struct MxClosure
+{
+    vec3 diffuse_albedo, f0, f90;
+    float roughness, anisotropy;
+    vec3 normal, tangent;
+    float second_roughness, second_roughness_weight, fuzz_amount;
+    vec3 fuzz_color;
+    float fuzz_roughness;
+    vec3 free_path; // over the thickness of the medium, or over the radius of the surface of a body
+    float phase_anisotropy, is_thick;
+    vec3 steady, color, decay;
+    float spreads;
+};
+
+const uint MX_EMPTY = 0u, MX_SIMPLE = 1u, MX_SINGLE = 2u, MX_COMPLEX = 3u;
+
+// What a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
+const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FUZZ = 8u, MX_HAS_ANISOTROPY = 16u;
+const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
+const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its own, 2: the last such word, 3: the one before it
+
+// The words of a closure.
+struct MxRecord
+{
+    uint core, body, weights[2], medium, lobes, fuzz, anisotropy, normal;
+};
+
+// ---- numbers of few bits ---------------------------------------------------------------------------------------------
+
+// From 0 to below 1: what is added before a number is cut off.
+float mx_noise = 0.5;
+
+void mx_start_noise(vec2 pixel)
+{
+#if MX_STORAGE == 0
+    mx_noise = fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); // Jimenez 2014, interleaved gradient noise
+#endif
+}
+
+uint mx_cut(float value, uint bits, uint channel)
+{
+    float most = float((1u << bits) - 1u);
+#if MX_STORAGE == 0
+    float noise = fract(mx_noise + 0.618034 * float(channel));
+#else
+    float noise = 0.5;
+#endif
+    return uint(min(floor(clamp(value, 0.0, 1.0) * most + noise), most));
+}
+
+float mx_uncut(uint word, uint shift, uint bits)
+{
+    return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
+}
+
+// 7, 7 and 6 bits.
+uint mx_cut_color(vec3 color)
+{
+    return mx_cut(color.x, 7u, 0u) | mx_cut(color.y, 7u, 1u) << 7u | mx_cut(color.z, 6u, 2u) << 14u;
+}
+
+vec3 mx_uncut_color(uint word)
+{
+    return vec3(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
+}
+
+// A number from -1 to 1; 0 has no bit.
+uint mx_cut_signed(float value, uint bits)
+{
+    float most = float((1u << bits - 1u) - 1u);
+    return uint(int(round(clamp(value, -1.0, 1.0) * most))) & (1u << bits) - 1u;
+}
+
+float mx_uncut_signed(uint word, uint shift, uint bits)
+{
+    float most = float((1u << bits - 1u) - 1u);
+    return float(int(word << 32u - bits - shift) >> int(32u - bits)) / most;
+}
+
+// IEC 61966-2-1
+vec3 mx_srgb(vec3 linear)
+{
+    vec3 c = clamp(linear, 0.0, 1.0);
+    return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThan(c, vec3(0.0031308)));
+}
+
+vec3 mx_linear(vec3 srgb)
+{
+    return mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThan(srgb, vec3(0.04045)));
+}
+
+// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+vec2 mx_octahedral(vec3 n)
+{
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+    return (n.z < 0.0 ? folded : p) * 0.5 + 0.5;
+}
+
+vec3 mx_of_octahedral(vec2 square)
+{
+    vec2 p = square * 2.0 - 1.0;
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    float fold = max(-n.z, 0.0);
+    n.xy += vec2(n.x < 0.0 ? fold : -fold, n.y < 0.0 ? fold : -fold);
+    return normalize(n);
+}
+
+uint mx_cut_normal(vec3 normal, uint bits)
+{
+    uvec2 p = uvec2(round(mx_octahedral(normal) * float((1u << bits) - 1u)));
+    return p.x | p.y << bits;
+}
+
+vec3 mx_uncut_normal(uint word, uint bits)
+{
+    return mx_of_octahedral(vec2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
+}
+
+// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+void mx_across(vec3 n, out vec3 x, out vec3 y)
+{
+    float side = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (side + n.z), b = n.x * n.y * a;
+    x = vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+    y = vec3(b, side + n.y * n.y * a, -n.y);
+}
+
+// ---- words -----------------------------------------------------------------------------------------------------------
+
+uint mx_top(vec3 normal, float roughness)
+{
+    return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
+}
+
+vec3 mx_top_normal(uint word)
+{
+    return mx_uncut_normal(word & 0xffffffu, 12u);
+}
+
+float mx_top_roughness(uint word)
+{
+    return mx_uncut(word, 24u, 8u);
+}
+
+uint mx_medium_word(MxClosure c)
+{
+    if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0 || max(c.diffuse_albedo.x, max(c.diffuse_albedo.y, c.diffuse_albedo.z)) <= 0.0)
+        return 0u;
+    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | mx_cut_signed(c.phase_anisotropy, 6u) << 20u
+         | (c.is_thick > 0.0 ? 1u << 26u : 0u);
+}
+
+uint mx_lobes_word(MxClosure c)
+{
+    uint weight = mx_cut(c.second_roughness_weight, 6u, 4u);
+    uint roughness = weight == 0u ? 0u : mx_cut(c.second_roughness, 8u, 5u);
+    vec3 hue = max(c.f90, 0.0) / max(max(c.f90.x, max(c.f90.y, c.f90.z)), 1e-6);
+    return roughness | weight << 8u | mx_cut(1.0 - hue.x, 6u, 6u) << 14u | mx_cut(1.0 - hue.y, 6u, 7u) << 20u
+         | mx_cut(1.0 - hue.z, 6u, 8u) << 26u;
+}
+
+uint mx_fuzz_word(MxClosure c)
+{
+    uint amount = mx_cut(c.fuzz_amount, 6u, 9u);
+    return amount == 0u ? 0u : amount | mx_cut_color(mx_srgb(c.fuzz_color)) << 6u | mx_cut(c.fuzz_roughness, 6u, 10u) << 26u;
+}
+
+// The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
+uint mx_anisotropy_word(MxClosure c, vec3 normal)
+{
+    uint amount = mx_cut_signed(c.anisotropy, 8u);
+    vec3 x, y;
+    mx_across(normal, x, y);
+    float turn = atan(dot(c.tangent, y), dot(c.tangent, x)) / 3.14159265;
+    return amount == 0u ? 0u : uint(round(fract(turn) * 4096.0)) & 0xfffu | amount << 12u;
+}
+
+// All words of a closure but its normal, which the caller chooses. stored_normal: as it will be read.
+MxRecord mx_pack(MxClosure c, vec3 stored_normal)
+{
+    MxRecord r;
+    uint steady = mx_cut_color(1.0 - c.steady), color = mx_cut_color(c.color), decay = color == 0u ? 0u : mx_cut_color(c.decay);
+    r.weights[0] = steady | color << 20u;
+    r.weights[1] = color >> 12u | decay << 8u | (decay != 0u && c.spreads > 0.0 ? 1u << 28u : 0u);
+    r.medium = mx_medium_word(c);
+    r.lobes = mx_lobes_word(c);
+    r.fuzz = mx_fuzz_word(c);
+    r.anisotropy = mx_anisotropy_word(c, stored_normal);
+    r.normal = 0u;
+    uint has = ((r.weights[0] | r.weights[1]) != 0u ? MX_HAS_WEIGHTS : 0u) | (r.medium != 0u ? MX_HAS_MEDIUM : 0u)
+             | (r.lobes != 0u ? MX_HAS_LOBES : 0u) | (r.fuzz != 0u ? MX_HAS_FUZZ : 0u)
+             | (r.anisotropy != 0u ? MX_HAS_ANISOTROPY : 0u);
+    r.core = mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0))) | has << 20u;
+    r.body = mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
+    return r;
+}
+
+MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
+{
+    MxClosure c;
+    vec3 root = mx_uncut_color(r.core);
+    c.f0 = root * root;
+    c.diffuse_albedo = mx_linear(mx_uncut_color(r.body));
+    c.roughness = roughness;
+    c.normal = normal;
+    c.f90 = 1.0 - vec3(mx_uncut(r.lobes, 14u, 6u), mx_uncut(r.lobes, 20u, 6u), mx_uncut(r.lobes, 26u, 6u));
+    c.second_roughness = mx_uncut(r.lobes, 0u, 8u);
+    c.second_roughness_weight = mx_uncut(r.lobes, 8u, 6u);
+    c.fuzz_amount = mx_uncut(r.fuzz, 0u, 6u);
+    c.fuzz_color = mx_linear(mx_uncut_color(r.fuzz >> 6u));
+    c.fuzz_roughness = mx_uncut(r.fuzz, 26u, 6u);
+    vec3 part = mx_uncut_color(r.medium);
+    c.free_path = part / max(1.0 - part, 1e-6);
+    c.phase_anisotropy = mx_uncut_signed(r.medium, 20u, 6u);
+    c.is_thick = float(r.medium >> 26u & 1u);
+    c.anisotropy = mx_uncut_signed(r.anisotropy, 12u, 8u);
+    vec3 x, y;
+    mx_across(normal, x, y);
+    float turn = float(r.anisotropy & 0xfffu) / 4096.0 * 3.14159265;
+    c.tangent = cos(turn) * x + sin(turn) * y;
+    c.steady = 1.0 - mx_uncut_color(r.weights[0]);
+    c.color = mx_uncut_color(r.weights[0] >> 20u | r.weights[1] << 12u);
+    c.decay = mx_uncut_color(r.weights[1] >> 8u);
+    c.spreads = float(r.weights[1] >> 28u & 1u);
+    return c;
+}

@@ -1,0 +1,41 @@
+// Draws what is stored. mx_show.x: 0 classes, 1 bytes, 2 closures, 3 coverage, 4 transmittance, 5 properties.
+
+layout(MX_COLOR) uniform sampler2D mx_color;
+layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
+
+// From blue over green to red.
+vec3 mx_heat(float value)
+{
+    float x = clamp(value, 0.0, 1.0);
+    return clamp(vec3(2.0 * x - 1.0, 1.0 - abs(2.0 * x - 1.0), 1.0 - 2.0 * x), 0.0, 1.0);
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (mx_is_outside(pixel))
+        return;
+    MxReader reader = mx_open(pixel);
+    vec3 shown = vec3(0.0), covered = vec3(0.0), through = vec3(0.0), albedo = vec3(0.0);
+    while (reader.next < reader.num_closures) {
+        MxClosure c = mx_next(reader);
+        vec3 weight = c.steady + c.color; // of light along the normal, before media
+        covered += c.steady;
+        through += c.color * pow(c.decay, vec3(1.0));
+        albedo += weight * c.diffuse_albedo;
+    }
+    float words = reader.class_ == MX_EMPTY ? 0.0 : float(3u + reader.at);
+    if (mx_show.x == 0u)
+        shown = vec3[4](vec3(0.0), vec3(0.0, 0.6, 0.0), vec3(0.8, 0.6, 0.0), vec3(0.8, 0.0, 0.0))[reader.class_ & 3u];
+    else if (mx_show.x == 1u)
+        shown = vec3(4.0 * words / 255.0);
+    else if (mx_show.x == 2u)
+        shown = vec3(float(reader.num_closures) / 255.0);
+    else if (mx_show.x == 3u)
+        shown = covered;
+    else if (mx_show.x == 4u)
+        shown = through;
+    else
+        shown = albedo;
+    imageStore(mx_lit, pixel, vec4(shown, reader.class_ == MX_EMPTY ? 0.0 : 1.0));
+}

@@ -1,0 +1,147 @@
+// The end of a material pass: it writes the closures of a pixel, from the top down. Words 0 to 2 are outputs, the others layers of an image.
+
+layout(early_fragment_tests) in; // the depth pass ran before: one fragment of a pixel writes
+layout(location = 1) out uint mx_word_0;
+layout(location = 2) out uint mx_word_1;
+layout(location = 3) out uint mx_word_2;
+layout(MX_STORED_IMAGE, r32ui) uniform writeonly restrict uimage2DArray mx_words;
+
+MxRecord mx_pending;            // the last closure, which is written when the next one or the end comes
+vec3 mx_normals[3];             // of the top, and the last two with words of their own
+uint mx_num_closures = 0u, mx_num_words = 0u;
+#if MX_STORAGE == 2
+MxClosure mx_whole;
+#endif
+
+void mx_put(uint word)
+{
+    imageStore(mx_words, ivec3(ivec2(gl_FragCoord.xy), int(mx_num_words++)), uvec4(word));
+}
+
+void mx_put(float value)
+{
+    mx_put(floatBitsToUint(value));
+}
+
+void mx_put(vec3 value)
+{
+    mx_put(value.x);
+    mx_put(value.y);
+    mx_put(value.z);
+}
+
+// What follows the first two words of a closure.
+void mx_put_features(MxRecord r)
+{
+    uint has = r.core >> 20u;
+    if ((has & MX_HAS_WEIGHTS) != 0u) {
+        mx_put(r.weights[0]);
+        mx_put(r.weights[1]);
+    }
+    if ((has & MX_HAS_MEDIUM) != 0u)
+        mx_put(r.medium);
+    if ((has & MX_HAS_LOBES) != 0u)
+        mx_put(r.lobes);
+    if ((has & MX_HAS_FUZZ) != 0u)
+        mx_put(r.fuzz);
+    if ((has & MX_HAS_ANISOTROPY) != 0u)
+        mx_put(r.anisotropy);
+    if ((has >> MX_NORMAL_SHIFT & 3u) == 1u)
+        mx_put(r.normal);
+}
+
+#if MX_STORAGE == 2
+void mx_put_whole(MxClosure c)
+{
+    mx_put(c.diffuse_albedo);
+    mx_put(c.f0);
+    mx_put(c.f90);
+    mx_put(c.roughness);
+    mx_put(c.anisotropy);
+    mx_put(c.normal);
+    mx_put(c.tangent);
+    mx_put(c.second_roughness);
+    mx_put(c.second_roughness_weight);
+    mx_put(c.fuzz_amount);
+    mx_put(c.fuzz_color);
+    mx_put(c.fuzz_roughness);
+    mx_put(c.free_path);
+    mx_put(c.phase_anisotropy);
+    mx_put(c.is_thick);
+    mx_put(c.steady);
+    mx_put(c.color);
+    mx_put(c.decay);
+    mx_put(c.spreads);
+}
+#endif
+
+// Writes the pending closure, below which another one lies.
+void mx_flush()
+{
+#if MX_STORAGE == 2
+    mx_put_whole(mx_whole);
+#else
+    bool is_smooth = mx_num_closures == 1u && (mx_pending.body & 0xfffffu) == 0u;
+    mx_put(mx_pending.core | (is_smooth ? MX_IS_SMOOTH << 20u : 0u));
+    if (!is_smooth)
+        mx_put(mx_pending.body);
+    mx_put_features(mx_pending);
+#endif
+}
+
+// The number of a normal, and its word where it needs one.
+uint mx_number_normal(vec3 normal, inout uint word)
+{
+    for (uint i = 0u; i < 3u; ++i)
+        if (normal == mx_normals[i])
+            return i == 0u ? 0u : i + 1u;
+    mx_normals[2] = mx_normals[1];
+    mx_normals[1] = normal;
+    word = mx_cut_normal(normal, 16u);
+    return 1u;
+}
+
+// Adds the closure below the earlier ones. Returns how many there are.
+int mx_store_closure(int before, vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughness, float anisotropy, vec3 normal, vec3 tangent,
+                      float second_roughness, float second_roughness_weight, float fuzz_amount, vec3 fuzz_color, float fuzz_roughness,
+                      vec3 free_path, float phase_anisotropy, float is_thick, vec3 steady, vec3 color, vec3 decay, float spreads)
+{
+    vec3 light = steady + color;
+    if (max(light.x, max(light.y, light.z)) <= 0.0)
+        return before;
+    MxClosure c = MxClosure(diffuse_albedo, f0, f90, roughness, anisotropy, normal, tangent, second_roughness, second_roughness_weight,
+                            fuzz_amount, fuzz_color, fuzz_roughness, free_path, phase_anisotropy, is_thick, steady, color, decay, spreads);
+    if (mx_num_closures == 0u) {
+        mx_start_noise(gl_FragCoord.xy);
+        mx_normals = vec3[3](normal, vec3(0.0), vec3(0.0));
+        mx_word_2 = mx_top(normal, roughness);
+    } else {
+        mx_flush();
+    }
+    uint normal_word = 0u, number = mx_number_normal(normal, normal_word);
+    mx_pending = mx_pack(c, number == 0u ? mx_top_normal(mx_word_2) : mx_uncut_normal(mx_cut_normal(normal, 16u), 16u));
+    mx_pending.normal = normal_word;
+    mx_pending.core |= number << 20u + MX_NORMAL_SHIFT;
+#if MX_STORAGE == 2
+    mx_whole = c;
+#endif
+    return int(++mx_num_closures);
+}
+
+int mx_finish_closures(int stored)
+{
+    mx_word_0 = 0u;
+    mx_word_1 = 0u;
+    if (stored == 0)
+        return 0;
+    uint has = mx_pending.core >> 20u;
+    uint class_ = stored > 1 || (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
+#if MX_STORAGE == 2
+    mx_put_whole(mx_whole);
+#else
+    mx_put_features(mx_pending);
+#endif
+    mx_word_0 = mx_pending.core | class_ << 28u;
+    mx_word_1 = mx_pending.body | uint(stored - 1) << 28u;
+    return stored;
+}

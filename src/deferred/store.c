@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The effects of a material pass:
+ *
+ *     stored = 0
+ *     for each slab, from the top down: stored = mx_store_closure(stored, values, weights)
+ *     stored = mx_finish_closures(stored)
+ *     out1 = vec4(emission, 1)
+ *
+ * The functions stand in passes/write.glsl, which goes into the shader as its own source.
+ */
+#include "deferred/deferred.h"
+
+#include "deferred/deferred_priv.h"
+#include "deferred/texts.h"
+#include "shader/source.h"
+
+#include <assert.h>
+
+static const char mark_family[] = "mx_slab_mark_bsdf";
+
+static bool is_mark(const struct shader *shader, ir_ref leaf)
+{
+    str_id name = shader->graph->callees.items[ir_get(shader->graph, leaf)->attr].name;
+    return strcmp(str_text(shader->strings, name), mark_family) == 0;
+}
+
+ir_ref deferred_misfit(const struct shader *shader, ir_ref root)
+{
+    const struct ir_graph *g = shader->graph;
+    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    for (ir_ref ref = 1; ref <= root; ref++)
+        if (needed[ref] && ir_get(g, ref)->op == IR_LEAF && ir_type_of(g, ref) == IR_TYPE_BSDF)
+            return ref;
+    return 0;
+}
+
+/* A call of a function of write.glsl: the number of closures that are stored after it. */
+static ir_ref call(struct shader *shader, const char *name, uint32_t source, const ir_ref *args,
+                   unsigned n)
+{
+    uint32_t first = shader->source_refs.len;
+    vec_push(shader->arena, &shader->source_refs, source);
+    struct shader_verbatim verbatim = {
+        .first_source = first, .num_sources = 1, .function = str_intern_z(shader->strings, name)};
+    vec_push(shader->arena, &shader->verbatim, verbatim);
+    uint32_t callee =
+        ir_add_callee(shader->graph, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                                        .index = shader->verbatim.len - 1,
+                                                        .name = verbatim.function});
+    return ir_build(shader->graph, IR_VERBATIM, IR_TYPE_INT, callee, args, n);
+}
+
+static void assign(struct shader *shader, enum effect_kind kind, uint32_t index, ir_ref value)
+{
+    shader_effect(shader, STAGE_PIXEL,
+                  (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+}
+
+static ir_ref times(struct ir_graph *g, ir_ref color, ir_ref scalar)
+{
+    ir_ref white = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    color = color ? ir_convert(g, IR_TYPE_VEC3, color) : white;
+    return ir_convert(g, IR_TYPE_VEC3, ir_op2(g, IR_MUL, color, scalar));
+}
+
+/* steady, color, decay of docs/slabs.md, and whether the light of mirrors is spread. */
+static void find_weights(struct shader *shader, const struct closure_leaf *leaf, bool spreads,
+                         ir_ref out[4])
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    out[0] = times(g, leaf->color, leaf->scalar);
+    out[1] = out[2] = black;
+    out[3] = ir_const_float(g, spreads ? 1.0f : 0.0f);
+    if (!leaf->decay)
+        return;
+    out[1] = out[0];
+    out[0] = leaf->steady ? times(g, leaf->steady, leaf->scalar) : black;
+    out[2] = ir_convert(g, IR_TYPE_VEC3, leaf->decay);
+}
+
+/* True if a scattering medium lies above the leaf: with spreading, it has no way left. */
+static bool is_spread(const struct closure_list *spread, const struct closure_leaf *leaf)
+{
+    for (uint32_t i = 0; leaf->decay && i < spread->leaves.len; i++)
+        if (spread->leaves.items[i].leaf == leaf->leaf)
+            return !spread->leaves.items[i].decay;
+    return false;
+}
+
+/* Operands of a mark: its weight, then the inputs of slab_mark_bsdf. */
+enum mark_operand {
+    MARK_weight,
+    MARK_diffuse_albedo,
+    MARK_f0,
+    MARK_f90,
+    MARK_roughness,
+    MARK_anisotropy,
+    MARK_normal,
+    MARK_tangent,
+    MARK_second_roughness,
+    MARK_second_roughness_weight,
+    MARK_fuzz_amount,
+    MARK_fuzz_color,
+    MARK_fuzz_roughness,
+    MARK_free_path,
+    MARK_phase_anisotropy,
+    MARK_is_thick,
+    NUM_MARK_OPERANDS
+};
+
+/* ---- Sizes ---- */
+
+enum { WHOLE_WORDS = 39 }; /* of a closure in whole floats: as many as mx_put_whole writes */
+
+static bool is_black(const struct ir_graph *g, ir_ref mark, enum mark_operand operand)
+{
+    return ir_const_is(g, ir_arg(g, mark, operand), 0.0f);
+}
+
+/* True for a grey constant: the hue of a reflectance without one. */
+static bool is_grey(const struct ir_graph *g, ir_ref value)
+{
+    struct ir_value constant;
+    return ir_get_const(g, value, &constant) && constant.w[0].u == constant.w[1].u
+           && constant.w[0].u == constant.w[2].u;
+}
+
+static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
+{
+    return !leaf->decay && !leaf->color && ir_const_is(g, leaf->scalar, 1.0f);
+}
+
+/* True if no closure above it has the same normal. The first one is the top. */
+static bool has_own_normal(const struct ir_graph *g, const struct closure_list *marks, uint32_t i)
+{
+    ir_ref normal = ir_arg(g, marks->leaves.items[i].leaf, MARK_normal);
+    for (uint32_t k = 0; k < i; k++)
+        if (ir_arg(g, marks->leaves.items[k].leaf, MARK_normal) == normal)
+            return false;
+    return i > 0;
+}
+
+/* The most words of a closure: features that are known to be off take none. */
+static uint32_t most_words(const struct ir_graph *g, const struct closure_list *marks, uint32_t i)
+{
+    const struct closure_leaf *leaf = &marks->leaves.items[i];
+    ir_ref mark = leaf->leaf;
+    bool is_last = i + 1 == marks->leaves.len, is_clear = is_black(g, mark, MARK_diffuse_albedo);
+    bool is_smooth = i == 0 && !is_last && is_clear;
+    bool has_medium = !is_clear && !is_black(g, mark, MARK_free_path);
+    bool has_lobes =
+        !is_black(g, mark, MARK_second_roughness_weight) || !is_grey(g, ir_arg(g, mark, MARK_f90));
+    unsigned words = is_smooth ? 1 : 2;
+    words += is_white(g, leaf) ? 0 : 2;
+    words += has_medium;
+    words += has_lobes;
+    words += !is_black(g, mark, MARK_fuzz_amount);
+    words += !is_black(g, mark, MARK_anisotropy);
+    return words + has_own_normal(g, marks, i);
+}
+
+static uint32_t count_words(const struct ir_graph *g, const struct closure_list *marks,
+                            enum deferred_storage storage)
+{
+    uint32_t words = storage == STORAGE_FLOAT ? 3 + WHOLE_WORDS * marks->leaves.len : 1;
+    for (uint32_t i = 0; storage != STORAGE_FLOAT && i < marks->leaves.len; i++)
+        words += most_words(g, marks, i);
+    return words > 3 ? words : 3;
+}
+
+/* ---- Effects ---- */
+
+/* A tangent that nobody reads needs no vertex attribute. Whole storage has the samples' frame. */
+static ir_ref value_of(struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
+{
+    bool is_unread = operand == MARK_tangent && !is_whole && is_black(g, mark, MARK_anisotropy);
+    return is_unread ? ir_const_splat(g, IR_TYPE_VEC3, 0.0f) : ir_arg(g, mark, operand);
+}
+
+static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, bool spreads,
+                       uint32_t local, uint32_t source, bool is_whole)
+{
+    enum { NUM_WEIGHTS = 4 };
+    struct ir_graph *g = shader->graph;
+    ir_ref args[NUM_MARK_OPERANDS + NUM_WEIGHTS];
+    unsigned n = 0;
+    assert(ir_get(g, leaf->leaf)->num_args == NUM_MARK_OPERANDS);
+    args[n++] = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
+    for (unsigned i = MARK_weight + 1; i < NUM_MARK_OPERANDS; i++)
+        args[n++] = value_of(g, leaf->leaf, i, is_whole);
+    find_weights(shader, leaf, spreads, args + n);
+    assign(shader, EFFECT_ASSIGN, local,
+           call(shader, "mx_store_closure", source, args, n + NUM_WEIGHTS));
+    shader_add_closure(shader, leaf->leaf);
+}
+
+static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
+{
+    struct text text;
+    struct source_fault fault;
+    text_init(&text, shader->arena);
+    deferred_write_storage(layout, &text);
+    deferred_write_lines(deferred_write, &text);
+    uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),
+                                        NULL, 0, &fault);
+    assert(source != UINT32_MAX);
+    return source;
+}
+
+static void write_color(struct shader *shader, ir_ref emission)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref parts[2] = {emission ? ir_convert(g, IR_TYPE_VEC3, emission)
+                                : ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
+                       ir_const_float(g, 1.0f)};
+    uint32_t out = shader_add_variable(
+        shader,
+        &(struct shader_variable){.name = STR_out1, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    assign(shader, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
+}
+
+void deferred_store(struct shader *shader, const struct closure_host *host, ir_ref bsdf,
+                    const struct closure_list *list, ir_ref emission)
+{
+    struct closure_list spread = {0};
+    struct closure_host spreading = *host;
+    const struct deferred_layout *layout = host->store_data;
+    uint32_t source = add_source(shader, layout);
+    spreading.spreads = true;
+    closure_flatten(shader, &spreading, bsdf, &spread);
+    uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
+    assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
+    struct closure_list marks = {0};
+    for (uint32_t i = list->leaves.len; i-- > 0;)
+        if (is_mark(shader, list->leaves.items[i].leaf))
+            vec_push(shader->arena, &marks.leaves, list->leaves.items[i]);
+    for (uint32_t i = 0; i < marks.leaves.len; i++) {
+        const struct closure_leaf *leaf = &marks.leaves.items[i];
+        store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
+                   layout->storage == STORAGE_FLOAT);
+    }
+    shader->stored_words = count_words(shader->graph, &marks, layout->storage);
+    ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
+    assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_finish_closures", source, &stored, 1));
+    write_color(shader, emission);
+}
