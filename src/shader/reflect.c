@@ -308,6 +308,8 @@ static void put_shader(struct reflect *r)
     if (shader->displaced)
         json_put_bool(&r->json, "displaced", true);
     json_put_bool(&r->json, "lit", shader->lit);
+    if (r->options->more)
+        r->options->more(r->options->user_data, &r->json);
     json_key(&r->json, "blocks");
     json_open(&r->json, '[');
     for (int block = 0; block < NUM_BLOCKS; block++)
