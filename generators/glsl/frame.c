@@ -160,7 +160,8 @@ static void write_vertex_data(struct spell *spell)
     if (!spell_uses_block(spell, BLOCK_VERTEX_DATA))
         return;
     if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
-        write_attributes(spell, BLOCK_VERTEX_DATA, shader_is_called(spell->shader) ? "" : qualifier);
+        write_attributes(spell, BLOCK_VERTEX_DATA,
+                         shader_is_called(spell->shader) ? "" : qualifier);
         return;
     }
     if (shader_is_called(spell->shader)) { /* the caller sets it */

@@ -502,6 +502,20 @@ MXG_API uint32_t mxg_num_passes(void);
 MXG_API const char *mxg_pass_name(uint32_t index); /* NULL: there is no such pass */
 MXG_API mxg_status mxg_generate_pass(mxg_context *context, uint32_t index,
                                      const mxg_generate_desc *desc, mxg_result **out_result);
+
+/*
+ * A resource that the passes share, and material passes write, in descriptor set binding-set + 1 of
+ * the target vulkan. Its binding is its index.
+ */
+typedef struct mxg_pass_resource {
+    size_t size;       /* in */
+    const char *name;  /* "words" */
+    const char *kind;  /* "image2D", "image2DArray", "sampler2D", "buffer" or "uniform" */
+    const char *format; /* "r32ui", "std430"; "": any */
+    const char *doc;
+} mxg_pass_resource;
+MXG_API uint32_t mxg_num_pass_resources(void);
+MXG_API mxg_status mxg_get_pass_resource(uint32_t index, mxg_pass_resource *out);
 MXG_API void mxg_result_destroy(mxg_result *result);
 
 /*
@@ -695,6 +709,7 @@ typedef struct mxg_shader_info {
      * (docs/deferred.md); 0: it lights itself.
      */
     uint32_t stored_words;
+    uint32_t layout; /* of stored words: equal in all materials and passes that fit together */
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

@@ -80,7 +80,7 @@ struct deferred_layout generation_storage(const struct option_value *options,
 
 void generation_defer(struct generation *g)
 {
-    g->storage = generation_storage(g->options, g->result->target);
+    g->result->storage = generation_storage(g->options, g->result->target);
     g->result->shader.is_stored = g->stored != CLASS_EMPTY;
     if (g->stored == CLASS_COMPLEX) {
         g->above = deferred_above(&g->result->shader);
@@ -90,7 +90,7 @@ void generation_defer(struct generation *g)
     g->closure_host.only_cuts = g->options[OPTION_pipeline].number == PIPELINE_DEPTH && !g->is_pass;
     if (generation_stores(g)) {
         g->closure_host.store = deferred_store;
-        g->closure_host.store_data = &g->storage;
+        g->closure_host.store_data = &g->result->storage;
     }
 }
 

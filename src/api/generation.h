@@ -43,6 +43,9 @@ struct mxg_result {
     const char *
         *origin_paths;        /* paths by origin of the graph; filled on demand during generation */
     uint64_t options;         /* a hash of the options */
+    struct deferred_layout storage; /* of a material that stores, and of a pass */
+    bool is_pass;
+    enum deferred_pass pass;
     bool has_shader;          /* the generation succeeded */
     struct slab_report slabs; /* of the generation */
     const char *text;         /* the text of mxg_inspect, or NULL */
@@ -71,7 +74,6 @@ struct generation {
     bool cancelled;
     bool is_pass;               /* a pass of the deferred pipeline that belongs to no material */
     enum deferred_class stored; /* a pass that lights stored closures; CLASS_EMPTY: a material */
-    struct deferred_layout storage;
     struct closure_above above;
     void *user_data; /* for the caller's `steps` */
 };
@@ -149,6 +151,9 @@ static inline const struct shader_variable *result_variable(const mxg_result *re
 /* The texts that results write when they are needed. */
 enum { TEXT_REFLECTION, TEXT_TOPOLOGY, TEXT_COMPILED, NUM_RESULT_TEXTS };
 _Static_assert((int)NUM_RESULT_TEXTS <= OBJECT_MAX_TEXTS, "an object has room for them");
+
+/* pass.c: shader_reflect_options.more; user_data is the mxg_result. */
+void result_storage(void *user_data, struct json *json);
 
 /* reflect.c: the user interface data of a variable; user_data is the mxg_result. */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);

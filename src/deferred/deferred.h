@@ -57,6 +57,17 @@ const char *deferred_pass_name(enum deferred_pass pass);
 /* The class of a lighting pass; CLASS_EMPTY: it is none. */
 enum deferred_class deferred_pass_class(enum deferred_pass pass);
 
+/* A resource of the passes beside uniforms and textures of lights; its binding is its number. */
+struct deferred_resource {
+    const char *name, *kind; /* "image2D", "sampler2D", "buffer"… */
+    const char *format;      /* "" : any */
+    const char *doc;
+};
+bool deferred_resource(uint32_t index, struct deferred_resource *out); /* false: none */
+bool deferred_reads(enum deferred_pass pass, uint32_t resource);
+/* True if the buffer `tiles` has the command of its dispatch; false: a group per tile. */
+bool deferred_is_indirect(enum deferred_pass pass);
+
 /*
  * Writes the text of a pass. surface: of a lighting pass, the shader of its function, with the
  * source of its pixel stage; else NULL.
@@ -68,7 +79,7 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
 /* The document with the surfaces of the lighting passes. */
 size_t deferred_closures_size(void);
 void deferred_copy_closures(char *out); /* without a terminator */
-/* The element of a lighting pass in it. */
+/* The name of a class, and of its element in the document. */
 const char *deferred_element(enum deferred_class which);
 
 #endif

@@ -7,27 +7,63 @@
 
 #include <assert.h>
 
-/* The resources of the passes. */
+/* The resources, by binding. Materials write the first one. */
 static const struct {
-    const char *name;
-    unsigned binding;
-} places[] = {
-    {"MX_STORED_IMAGE", 0}, {"MX_WORD_0", 1}, {"MX_WORD_1", 2}, {"MX_WORD_2", 3}, {"MX_DEPTH", 4},
-    {"MX_COLOR", 5},        {"MX_LIT", 6},    {"MX_TILES", 7},  {"MX_FRAME", 8},
+    const char *macro; /* of its place, in the texts */
+    struct deferred_resource about;
+} resources[] = {
+    {"MX_STORED_IMAGE",
+     {"words", "image2DArray", "r32ui", "word 3 and the following ones, one per layer"}},
+    {"MX_WORD_0", {"word0", "image2D", "r32ui", "target 1 of material passes, cleared to 0"}},
+    {"MX_WORD_1", {"word1", "image2D", "r32ui", "target 2 of material passes"}},
+    {"MX_WORD_2", {"word2", "image2D", "r32ui", "target 3 of material passes"}},
+    {"MX_DEPTH", {"depth", "sampler2D", "", "depth of the material passes, as stored"}},
+    {"MX_COLOR", {"color", "sampler2D", "", "target 0 of material passes: light of surfaces"}},
+    {"MX_LIT", {"lit", "image2D", "", "the picture: any format of floats"}},
+    {"MX_TILES",
+     {"tiles", "buffer", "std430",
+      "four commands of dispatches, (0, 1, 1, 0) at first, by class; then room for the number of "
+      "every tile, four times"}},
+    {"MX_FRAME",
+     {"frame", "uniform", "std140",
+      "mat4 from (x, y, depth, 1) in pixels to the world; uvec4 width, height, tiles in a row, "
+      "tiles; uvec4 debug view, 0, 0, 0"}},
 };
+#define NUM_RESOURCES (sizeof resources / sizeof *resources)
 
 static const struct {
     const char *name;
-    enum deferred_class which; /* of a lighting pass */
+    enum deferred_class which; /* of its tiles; CLASS_EMPTY without indirect: all tiles */
+    bool is_indirect;
     const char *const *text;
+    uint32_t reads; /* bits of resources */
 } passes[NUM_PASSES] = {
-    [PASS_CLASSIFY] = {"classify", CLASS_EMPTY, deferred_classify},
-    [PASS_COMPOSE] = {"compose", CLASS_EMPTY, deferred_compose},
-    [PASS_SIMPLE] = {"light_simple", CLASS_SIMPLE, deferred_light},
-    [PASS_SINGLE] = {"light_single", CLASS_SINGLE, deferred_light},
-    [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, deferred_light},
-    [PASS_SHOW] = {"show", CLASS_EMPTY, deferred_show},
+    [PASS_CLASSIFY] = {"classify", CLASS_EMPTY, false, deferred_classify, 0x182},
+    [PASS_COMPOSE] = {"compose", CLASS_EMPTY, true, deferred_compose, 0x1e2},
+    [PASS_SIMPLE] = {"light_simple", CLASS_SIMPLE, true, deferred_light, 0x1ff},
+    [PASS_SINGLE] = {"light_single", CLASS_SINGLE, true, deferred_light, 0x1ff},
+    [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, true, deferred_light, 0x1ff},
+    [PASS_SHOW] = {"show", CLASS_EMPTY, false, deferred_show, 0x14f},
 };
+
+bool deferred_resource(uint32_t index, struct deferred_resource *out)
+{
+    if (index < NUM_RESOURCES)
+        *out = resources[index].about;
+    return index < NUM_RESOURCES;
+}
+
+bool deferred_reads(enum deferred_pass pass, uint32_t resource)
+{
+    assert(pass < NUM_PASSES && resource < NUM_RESOURCES);
+    return passes[pass].reads >> resource & 1;
+}
+
+bool deferred_is_indirect(enum deferred_pass pass)
+{
+    assert(pass < NUM_PASSES);
+    return passes[pass].is_indirect;
+}
 
 const char *deferred_pass_name(enum deferred_pass pass)
 {
@@ -43,8 +79,8 @@ enum deferred_class deferred_pass_class(enum deferred_pass pass)
 
 const char *deferred_element(enum deferred_class which)
 {
-    static const char *const elements[NUM_CLASSES] = {NULL, "simple", "single", "complex"};
-    assert(which > CLASS_EMPTY && which < NUM_CLASSES);
+    static const char *const elements[NUM_CLASSES] = {"empty", "simple", "single", "complex"};
+    assert(which < NUM_CLASSES);
     return elements[which];
 }
 
@@ -74,11 +110,11 @@ void deferred_copy_closures(char *out)
 void deferred_write_storage(const struct deferred_layout *layout, struct text *out)
 {
     text_fmt(out, "#define MX_STORAGE %u\n", (unsigned)layout->storage);
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        text_fmt(out, "#define %s ", places[i].name);
+    for (unsigned i = 0; i < NUM_RESOURCES; i++) {
+        text_fmt(out, "#define %s ", resources[i].macro);
         if (layout->sets)
             text_fmt(out, "set = %u, ", (unsigned)layout->set);
-        text_fmt(out, "binding = %u\n", places[i].binding);
+        text_fmt(out, "binding = %u\n", i);
     }
     deferred_write_lines(deferred_record, out);
 }

@@ -312,6 +312,8 @@ static void put_shader(struct reflect *r)
         json_put_text(&r->json, "function", shader->function);
         json_put_text(&r->json, "functionType", shader->function_type);
     }
+    if (r->options->more)
+        r->options->more(r->options->user_data, &r->json);
     json_key(&r->json, "blocks");
     json_open(&r->json, '[');
     for (int block = 0; block < NUM_BLOCKS; block++)

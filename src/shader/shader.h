@@ -459,6 +459,7 @@ struct shader_compiled_text {
     struct shader_ui ui;
 };
 struct reflect; /* reflect.h */
+struct json;
 struct network;
 struct shader_reflect_options {
     const char *target, *generator; /* "vulkan", "mxgen 0.1.0" */
@@ -467,6 +468,8 @@ struct shader_reflect_options {
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
     /* Describes an item of shader->compiled; NULL: nothing is compiled in. */
     void (*compiled)(void *user_data, uint32_t index, struct shader_compiled_text *out);
+    /* Adds items to the object of a shader; NULL: there are none. */
+    void (*more)(void *user_data, struct json *json);
     const struct network *network; /* described in the place of the shader; NULL: it is none */
     uint64_t network_topology;
     void (*reflect_network)(const struct network *network, struct reflect *r);
