@@ -150,6 +150,38 @@ float mx_slab_is_lit(vec3 emission)
     return mx_is_black(emission) ? 0.0 : 1.0;
 }
 
+// ---- helpers ---------------------------------------------------------------------------------------------------------
+
+float mx_slab_haze_alpha(float roughness, float extent)
+{
+    return clamp(roughness * roughness * (1.0 + extent), 0.0, 1.0);
+}
+
+// Barla, Pacanowski and Vangorp 2018, "A Composite BRDF Model for Hazy Gloss": the brightness of f0 with haze, and the share of the wide lobe.
+// The peak keeps the brightness of f0; p is the peak of the wide lobe over that of the other.
+vec2 mx_slab_haze(vec3 f0, float roughness, float haziness, float extent)
+{
+    float core = max(f0.x, max(f0.y, f0.z));
+    float ratio = roughness * roughness / max(mx_slab_haze_alpha(roughness, extent), MX_EPSILON);
+    float p = ratio * ratio;
+    float k = haziness * (core > p ? (1.0 - core) / max(1.0 - p, MX_EPSILON) : core / max(p, MX_EPSILON));
+    float whole = core + (1.0 - p) * k;
+    return vec2(whole, k / max(whole, MX_EPSILON));
+}
+
+vec3 mx_slab_haze_f0(vec3 f0, float roughness, float haziness, float extent)
+{
+    float core = max(f0.x, max(f0.y, f0.z));
+    return f0 * (mx_slab_haze(f0, roughness, haziness, extent).x / max(core, MX_EPSILON));
+}
+
+vec3 mx_slab_film_at(vec3 f0, float thickness, float ior, float cosine)
+{
+    float rise = mx_power5(1.0 - cosine);
+    vec3 reflected = mx_fresnel(cosine, "schlick", f0, vec3(0.0), vec3(1.0), 5.0, thickness, ior);
+    return clamp((reflected - rise) / max(1.0 - rise, 0.001), 0.0, 1.0);
+}
+
 // ---- slab_medium_bsdf ------------------------------------------------------------------------------------------------
 
 vec3 mx_slab_medium_bsdf_eval(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
@@ -189,8 +221,10 @@ float mx_slab_medium_bsdf_pdf(vec3 color, float roughness, vec3 mean_free_path, 
 vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                      vec3 N, vec3 V, int sample_index)
 {
-    if (option_integrator == 1 && option_environment == 2)
+    if (option_integrator == 1 && option_environment == 2) // only here `sample_index` matters: a raster adds the light once
     {
+        if (mx_is_black(color))
+            return vec3(0.0);
         vec3 L, weight;
         float pdf;
         mx_slab_medium_bsdf_sample(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V,

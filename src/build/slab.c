@@ -29,6 +29,30 @@ static ir_ref value_of(str_id input, const ir_ref *inputs, const struct slab_pla
     }
 }
 
+/* The name of a slab in its document, where it has one. */
+static str_id name_of_slab(const struct ir_graph *g)
+{
+    const struct ir_origin *origin = &g->origins.items[g->origin];
+    while (!origin->element && origin->parent)
+        origin = &g->origins.items[origin->parent];
+    return origin->name;
+}
+
+/* Names what the graph makes after the slab: "coat_reflection" instead of "reflection_2". */
+static void name_lobes(struct builder *b, uint32_t first_origin)
+{
+    str_id slab = name_of_slab(b->graph);
+    for (uint32_t i = first_origin; slab && i < b->graph->origins.len; i++) {
+        struct ir_origin *origin = &b->graph->origins.items[i];
+        if (origin->parent != b->graph->origin || !origin->name)
+            continue;
+        struct text name;
+        text_init(&name, b->arena);
+        text_fmt(&name, "%s_%s", build_text(b, slab), build_text(b, origin->name));
+        origin->name = str_intern(b->shader->strings, name.data, name.len);
+    }
+}
+
 /* The closure of a definition whose inputs are those of a slab and of its place. */
 static ir_ref apply(struct builder *b, uint32_t id, const ir_ref *inputs,
                     const struct slab_place *place)
@@ -42,7 +66,9 @@ static ir_ref apply(struct builder *b, uint32_t id, const ir_ref *inputs,
         ir_ref value = value_of(ports[i].name, inputs, place);
         args[i] = value ? value : build_default(b, &ports[i]);
     }
+    uint32_t first_origin = b->graph->origins.len;
     build_apply(b, id, build_doc(b)->root, args, results);
+    name_lobes(b, first_origin);
     return results[0];
 }
 

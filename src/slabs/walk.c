@@ -99,27 +99,91 @@ static bool visited(struct walk *w, ir_ref node, struct where where, ir_ref *out
 
 /* ---- Slabs ---- */
 
-/* What lobes reflect towards the viewer of even light from above. */
-static ir_ref albedo_of(struct walk *w, ir_ref lobes)
+/* What a leaf reflects, with its weight. */
+static ir_ref leaf_albedo(struct walk *w, ir_ref leaf)
 {
     struct ir_graph *g = w->graph;
     struct closure_list list;
+    ir_ref sum = ir_const_splat(g, IR_TYPE_VEC3, 0.0f), way = ir_const_float(g, CLOSURE_MEAN_WAY);
+    closure_flatten(w->shader, w->host->closures, leaf, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct closure_leaf *part = &list.leaves.items[i];
+        ir_ref albedo = closure_call(w->shader, w->host->closures, part->leaf, LEAF_ALBEDO, NULL);
+        if (!albedo)
+            continue;
+        albedo = ir_op2(g, IR_MUL, albedo, closure_weight(w->shader, part, way));
+        sum = ir_op2(g, IR_ADD, sum, ir_convert(g, IR_TYPE_VEC3, albedo));
+    }
+    return sum;
+}
+
+static ir_ref known_albedo(const struct walk *w, ir_ref lobes)
+{
     for (uint32_t i = 0; i < w->albedos.len; i += 2)
         if (w->albedos.items[i] == lobes)
             return w->albedos.items[i + 1];
-    ir_ref sum = ir_const_splat(g, IR_TYPE_VEC3, 0.0f), way = ir_const_float(g, CLOSURE_MEAN_WAY);
-    closure_flatten(w->shader, w->host->closures, lobes, &list);
-    for (uint32_t i = 0; i < list.leaves.len; i++) {
-        const struct closure_leaf *leaf = &list.leaves.items[i];
-        ir_ref albedo = closure_call(w->shader, w->host->closures, leaf->leaf, LEAF_ALBEDO, NULL);
-        if (!albedo)
-            continue;
-        albedo = ir_op2(g, IR_MUL, albedo, closure_weight(w->shader, leaf, way));
-        sum = ir_op2(g, IR_ADD, sum, ir_convert(g, IR_TYPE_VEC3, albedo));
+    return lobes && ir_type_of(w->graph, lobes) == IR_TYPE_BSDF
+               ? 0
+               : ir_const_splat(w->graph, IR_TYPE_VEC3, 0.0f);
+}
+
+/*
+ * An operator over the albedos of its operands: all light goes the mean way, so the throughput of a
+ * layer is exact. Each operator adds a few values, so a stack of layers takes linear code.
+ */
+static ir_ref operator_albedo(struct walk *w, ir_ref ref)
+{
+    struct ir_graph *g = w->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref a = known_albedo(w, ir_arg(g, ref, 0));
+    if (node.op == IR_CLOSURE_SCALE)
+        return ir_op2(g, IR_MUL, a, ir_arg(g, ref, 1));
+    ir_ref b = known_albedo(w, ir_arg(g, ref, 1));
+    if (node.op == IR_CLOSURE_MIX)
+        return ir_op3(g, IR_MIX, a, b, ir_arg(g, ref, 2));
+    if (node.op == IR_LAYER) {
+        ir_ref way = ir_const_float(g, CLOSURE_MEAN_WAY);
+        ir_ref through = closure_throughput(w->shader, w->host->closures, ir_arg(g, ref, 0), way);
+        b = ir_op2(g, IR_MUL, b, through);
     }
-    vec_push(w->shader->arena, &w->albedos, lobes);
-    vec_push(w->shader->arena, &w->albedos, sum);
-    return sum;
+    return ir_op2(g, IR_ADD, a, b);
+}
+
+static bool is_operator(const struct ir_node *node)
+{
+    return node->op == IR_LAYER || node->op == IR_CLOSURE_MIX || node->op == IR_CLOSURE_ADD
+           || node->op == IR_CLOSURE_SCALE;
+}
+
+/* The operand of an operator whose albedo is unknown; 0: there is none. */
+static ir_ref unknown_operand(const struct walk *w, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(w->graph, ref);
+    uint32_t num = is_operator(node) ? node->op == IR_CLOSURE_SCALE ? 1 : 2 : 0;
+    for (uint32_t i = 0; i < num; i++)
+        if (!known_albedo(w, ir_arg(w->graph, ref, i)))
+            return ir_arg(w->graph, ref, i);
+    return 0;
+}
+
+/* What lobes reflect towards the viewer of even light from above. */
+static ir_ref albedo_of(struct walk *w, ir_ref lobes)
+{
+    VEC(ir_ref) open = {0};
+    vec_push(w->shader->arena, &open, lobes);
+    while (open.len) {
+        ir_ref ref = vec_last(&open), operand = unknown_operand(w, ref);
+        if (operand) {
+            vec_push(w->shader->arena, &open, operand);
+            continue;
+        }
+        open.len--;
+        ir_ref albedo =
+            is_operator(ir_get(w->graph, ref)) ? operator_albedo(w, ref) : leaf_albedo(w, ref);
+        vec_push(w->shader->arena, &w->albedos, ref);
+        vec_push(w->shader->arena, &w->albedos, albedo);
+    }
+    return known_albedo(w, lobes);
 }
 
 /* False: all light that the medium stops is lost, or none goes through. */

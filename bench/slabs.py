@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Materials as slabs: the mean CIEDE2000 of a ball drawn as slabs, and with one closure, from the ball as it is.
+
+    bench/slabs.py build/mxgen FOLDER... [--size 64] [--jobs 2]
+
+Draws the first renderable of each document. Prints a row for each model of shading, then the worst documents."""
+
+import argparse
+import collections
+import concurrent.futures
+import math
+import pathlib
+import re
+import statistics
+import subprocess
+import tempfile
+
+VARIANTS = {"slabs": ["--slabs"], "one closure": ["--max-closures", "1"]}
+
+
+def lab(color):
+    """CIELAB of an sRGB colour, 0 to 255."""
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in (v / 255 for v in color)]
+    rows = ((0.4124564 / 0.95047, 0.3575761 / 0.95047, 0.1804375 / 0.95047), (0.2126729, 0.7151522, 0.0721750),
+            (0.0193339 / 1.08883, 0.1191920 / 1.08883, 0.9503041 / 1.08883))
+    x, y, z = (sum(a * b for a, b in zip(row, linear)) for row in rows)
+    x, y, z = (t ** (1 / 3) if t > 216 / 24389 else (24389 / 27 * t + 16) / 116 for t in (x, y, z))
+    return 116 * y - 16, 500 * (x - y), 200 * (y - z)
+
+
+def difference(p, q):
+    """CIEDE2000 as in Sharma, Wu and Dalal 2005."""
+    (l1, a1, b1), (l2, a2, b2) = p, q
+    mean = (math.hypot(a1, b1) + math.hypot(a2, b2)) / 2
+    more = 1 + 0.5 * (1 - math.sqrt(mean ** 7 / (mean ** 7 + 25 ** 7)))
+    c1, c2 = math.hypot(a1 * more, b1), math.hypot(a2 * more, b2)
+    h1, h2 = math.degrees(math.atan2(b1, a1 * more)) % 360, math.degrees(math.atan2(b2, a2 * more)) % 360
+    step = 0 if c1 * c2 == 0 else (h2 - h1 + 180) % 360 - 180
+    hue = h1 + h2 if c1 * c2 == 0 else (h1 + step / 2) % 360
+    light, chroma = (l1 + l2) / 2, (c1 + c2) / 2
+    t = (1 - 0.17 * math.cos(math.radians(hue - 30)) + 0.24 * math.cos(math.radians(2 * hue))
+         + 0.32 * math.cos(math.radians(3 * hue + 6)) - 0.20 * math.cos(math.radians(4 * hue - 63)))
+    turn = -math.sin(math.radians(60 * math.exp(-((hue - 275) / 25) ** 2))) * 2 * math.sqrt(chroma ** 7 / (chroma ** 7 + 25 ** 7))
+    dl = (l2 - l1) / (1 + 0.015 * (light - 50) ** 2 / math.sqrt(20 + (light - 50) ** 2))
+    dc = (c2 - c1) / (1 + 0.045 * chroma)
+    dh = 2 * math.sqrt(c1 * c2) * math.sin(math.radians(step / 2)) / (1 + 0.015 * chroma * t)
+    return math.sqrt(max(dl * dl + dc * dc + dh * dh + turn * dc * dh, 0))
+
+
+def read_ppm(path):
+    data = path.read_bytes()
+    head = re.match(rb"P6\s+(\d+)\s+(\d+)\s+255\s", data)
+    return int(head[1]), int(head[2]), data[head.end():]
+
+
+def compare(first, second):
+    """The mean over the pixels of the ball, which fills the middle of the picture."""
+    width, height, a = read_ppm(first)
+    b = read_ppm(second)[2]
+    total = count = 0
+    for y in range(height):
+        for x in range(width):
+            if math.hypot(x + 0.5 - width / 2, y + 0.5 - height / 2) < 0.36 * height:
+                at = 3 * (y * width + x)
+                p, q = a[at:at + 3], b[at:at + 3]
+                total += difference(lab(p), lab(q)) if p != q else 0
+                count += 1
+    return total / count
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
+
+
+def model_of(document):
+    text = document.read_text(errors="replace")
+    for name in ("open_pbr_surface", "standard_surface", "gltf_pbr", "UsdPreviewSurface", "disney_principled", "slab_surface"):
+        if f"<{name} " in text:
+            return name
+    return "Lama" if "<Lama" in text else "BSDF nodes"
+
+
+def measure(mxgen, document, size):
+    """The differences by variant; None for a document that mxgen does not draw."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        draw = [mxgen, "render", document, "--quiet", "--size", size, "--missing-texture", "checker", "--mesh", "sphere"]
+        if run(*draw, "-o", folder / "whole.ppm").returncode:
+            return None
+        result = {}
+        for name, options in VARIANTS.items():
+            picture = folder / (name.replace(" ", "-") + ".ppm")
+            failed = run(*draw, *options, "-o", picture).returncode
+            result[name] = None if failed else compare(folder / "whole.ppm", picture)
+        return result
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mxgen", type=pathlib.Path)
+    parser.add_argument("folders", type=pathlib.Path, nargs="+")
+    parser.add_argument("--size", type=int, default=64)
+    parser.add_argument("--jobs", type=int, default=2)
+    args = parser.parse_args()
+    documents = sorted({path for folder in args.folders for path in (folder.rglob("*.mtlx") if folder.is_dir() else [folder])})
+    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+        results = list(zip(documents, pool.map(lambda path: measure(args.mxgen, path, args.size), documents)))
+    models = collections.defaultdict(list)
+    for document, result in results:
+        if result:
+            models[model_of(document)].append((document, result))
+    print("| model | documents |", " | ".join(f"{name}: median | worst" for name in VARIANTS), "|")
+    print("| --- | --- |", " | ".join("--- | ---" for _ in VARIANTS), "|")
+    for model, rows in sorted(models.items()):
+        columns = []
+        for name in VARIANTS:
+            values = [result[name] for _, result in rows if result[name] is not None]
+            columns += [f"{statistics.median(values):.2f}", f"{max(values):.2f}"] if values else ["-", "-"]
+        print(f"| `{model}` | {len(rows)} |", " | ".join(columns), "|")
+    for name in VARIANTS:
+        rows = [(result[name], document) for document, result in results if result and result[name] is not None]
+        for value, document in sorted(rows, reverse=True)[:12]:
+            print(f"{name}: {value:.2f} {document}")
+        print(f"{name}: {sum(result[name] is None for _, result in results if result)} documents cannot be drawn so")
+
+
+if __name__ == "__main__":
+    main()
