@@ -15,6 +15,7 @@ struct bind {
     struct cli cli;
     const char *look, *stage, *json, *usda, *html, *geom, *purpose;
     struct arg_list solo, mute;
+    bool pictures;
 };
 
 static bool put(void *user_data, const char *data, size_t size)
@@ -43,12 +44,18 @@ static void write_file(struct bind *bind, const mxg_bindings *bindings, const ch
         report_error(&bind->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
 }
 
-static void write_page(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
+static void write_page(struct bind *bind, const mxg_document *document, const mxg_scene *scene,
+                       const mxg_bindings *bindings)
 {
+    const struct arg_list *inputs = &bind->cli.parser.inputs;
+    struct bind_substances substances = {.cli = &bind->cli,
+                                         .document = document,
+                                         .file = inputs->len ? inputs->items[0] : NULL,
+                                         .has_pictures = bind->pictures};
     struct files_stream stream;
     const char *reason = files_begin(&stream, bind->html);
     if (!reason) {
-        bind_page_write(stream.out, scene, bindings, bind->look ? bind->look : "");
+        bind_page_write(stream.out, scene, bindings, &substances, bind->look ? bind->look : "");
         reason = files_end(&stream, true);
     }
     if (reason)
@@ -87,14 +94,15 @@ static void explain(struct bind *bind, const mxg_scene *scene, const mxg_binding
         report_status(&bind->cli.report, mxg_bindings_explain(bindings, primitive, put, stdout));
 }
 
-static void write_bindings(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
+static void write_bindings(struct bind *bind, const mxg_document *document, const mxg_scene *scene,
+                           const mxg_bindings *bindings)
 {
     if (bind->json)
         write_file(bind, bindings, bind->json, MXG_BINDINGS_JSON);
     if (bind->usda)
         write_file(bind, bindings, bind->usda, MXG_BINDINGS_USDA);
     if (bind->html)
-        write_page(bind, scene, bindings);
+        write_page(bind, document, scene, bindings);
     if (bind->geom)
         explain(bind, scene, bindings);
     else if (!bind->json && !bind->usda && !bind->html)
@@ -118,7 +126,7 @@ static void bind_document(struct bind *bind, const mxg_document *document, mxg_s
     if (bindings)
         report_list(&bind->cli.report, mxg_bindings_diagnostics(bindings));
     if (report_status(&bind->cli.report, status))
-        write_bindings(bind, scene, bindings);
+        write_bindings(bind, document, scene, bindings);
     mxg_bindings_destroy(bindings);
 }
 
@@ -158,6 +166,8 @@ int command_bind(const struct command *command, int argc, char **argv)
         {"usda", 0, ARG_TEXT, "FILE", "writes the layers as slot bindings of USD; '-': prints them",
          &bind.usda},
         {"html", 0, ARG_TEXT, "FILE", "writes a page to look into the layers", &bind.html},
+        {"pictures", 0, ARG_FLAG, NULL,
+         "adds a picture of each material to the page, drawn by mxgen-render", &bind.pictures},
         {"geom", 0, ARG_TEXT, "PATH", "explains the layers of one primitive", &bind.geom},
         {"solo", 0, ARG_LIST, "SLOT", "shows only this slot, layer or override", &bind.solo},
         {"mute", 0, ARG_LIST, "SLOT", "leaves out this slot, layer or override", &bind.mute},
@@ -165,7 +175,7 @@ int command_bind(const struct command *command, int argc, char **argv)
     int code;
     if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {
         const struct arg_list *inputs = &bind.cli.parser.inputs;
-        if (!bind.stage || inputs->len > 1) {
+        if (!bind.stage || inputs->len > 1 || (bind.pictures && !bind.html)) {
             fprintf(stderr, "usage: mxgen %s\n", command->usage);
             code = EXIT_USAGE;
         } else {

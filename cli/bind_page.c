@@ -29,6 +29,7 @@ struct page_table {
 
 struct page {
     FILE *out;
+    struct bind_substances *substances;
     const mxg_scene *scene;
     const mxg_bindings *bindings;
     uint32_t *depths, *set_of, num;
@@ -201,6 +202,30 @@ static void put_rows(const struct page *page)
     fputs("],\n", page->out);
 }
 
+/* Graph and picture of each material and override, by the number of its name. */
+static void put_substances(const struct page *page)
+{
+    bool *is_told = memory_alloc(page->text_table.len * sizeof *is_told + 1);
+    const char *before = "";
+    for (size_t i = 0; i < page->num_layers; i++) {
+        uint32_t text = page->layers[i].material;
+        if (is_told[text])
+            continue;
+        is_told[text] = true;
+        char *graph = substance_graph(page->substances, page->texts[text]);
+        char *picture = substance_picture(page->substances, page->texts[text]);
+        fprintf(page->out, "%s\"%u\": {\"graph\": ", before, text);
+        put_text(page->out, graph, strlen(graph));
+        if (picture)
+            fprintf(page->out, ", \"picture\": \"data:image/png;base64,%s\"", picture);
+        putc('}', page->out);
+        before = ",\n";
+        free(graph);
+        free(picture);
+    }
+    free(is_told);
+}
+
 static void put_data(const struct page *page)
 {
     putc('{', page->out);
@@ -220,13 +245,15 @@ static void put_data(const struct page *page)
         fputs(i ? "," : "", page->out);
         put_text(page->out, page->texts[i], strlen(page->texts[i]));
     }
-    fputs("]}\n", page->out);
+    fputs("],\n\"substances\": {", page->out);
+    put_substances(page);
+    fputs("}}\n", page->out);
 }
 
 void bind_page_write(FILE *out, const mxg_scene *scene, const mxg_bindings *bindings,
-                     const char *title)
+                     struct bind_substances *substances, const char *title)
 {
-    struct page page = {.out = out, .scene = scene, .bindings = bindings};
+    struct page page = {.out = out, .substances = substances, .scene = scene, .bindings = bindings};
     read(&page);
     fputs("<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Layers</title>\n"
           "<style>\n",

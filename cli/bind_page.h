@@ -3,13 +3,12 @@
 #ifndef MXG_CLI_BIND_PAGE_H
 #define MXG_CLI_BIND_PAGE_H
 
-#include <mxgen/mxgen.h>
-#include <mxgen/scene.h>
+#include "cli/bind_substances.h"
 
 #include <stdio.h>
 
 /* `title` is the name of the look. */
 void bind_page_write(FILE *out, const mxg_scene *scene, const mxg_bindings *bindings,
-                     const char *title);
+                     struct bind_substances *substances, const char *title);
 
 #endif

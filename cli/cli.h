@@ -95,6 +95,12 @@ char *cli_file_name(const char *element_path);
 /* Another mxgen program: its path beside this one, else its name, for PATH. The caller frees it. */
 char *cli_program(const char *name);
 
+/*
+ * Starts a program, whose arguments end with NULL, and waits for its end. false after a message if
+ * it could not start.
+ */
+bool cli_run(struct report *report, char *const *arguments, int *out_status);
+
 /* Formats into new memory, which the caller frees; ends the program if memory is exhausted. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))

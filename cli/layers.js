@@ -131,7 +131,95 @@ function link(row) {
   return made;
 }
 
-// Where a layer comes from, and every place where its slot is set.
+// ---- Graphs: "path : node (definition)", then lines "    input = value or path" ----
+
+function readGraph(text) {
+  const nodes = new Map();
+  let node = null;
+  for (const line of text.split("\n")) {
+    const head = /^(\S+) : (\S+)/.exec(line), input = /^ {4}(\S+) = (.*)$/.exec(line);
+    if (head) {
+      node = nodes.get(head[1]) || {name: head[1], kind: head[2], inputs: new Map(), column: 0};
+      nodes.set(head[1], node);
+    } else if (input && node) {
+      node.inputs.set(input[1], input[2]);
+    }
+  }
+  return nodes;
+}
+
+// The node that an input is connected to, also by "node.output".
+const source = (nodes, value) => nodes.get(value) || nodes.get(value.replace(/\.[^./]*$/, ""));
+
+// Sources stand before the nodes that they feed, in the text and in the columns.
+function place(nodes) {
+  const heights = [];
+  for (const node of nodes.values()) {
+    for (const value of node.inputs.values()) {
+      const from = source(nodes, value);
+      if (from && from !== node)
+        node.column = Math.max(node.column, from.column + 1);
+    }
+    node.lines = [...node.inputs].filter(([, value]) => !source(nodes, value)).map(([input, value]) => `${input} = ${value}`);
+    node.height = 36 + 14 * node.lines.length;
+    node.y = heights[node.column] || 8;
+    heights[node.column] = node.y + node.height + 14;
+  }
+  return {width: 210 * heights.length, height: Math.max(...heights, 0) + 8};
+}
+
+function svg(tag, attributes, text) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [key, value] of Object.entries(attributes))
+    made.setAttribute(key, value);
+  made.textContent = text || "";
+  return made;
+}
+
+function drawGraph(text) {
+  const WIDTH = 170, nodes = readGraph(text), size = place(nodes);
+  const made = svg("svg", {class: "graph", width: size.width, height: size.height});
+  const x = node => 8 + 210 * node.column;
+  for (const node of nodes.values())
+    for (const [input, value] of node.inputs) {
+      const from = source(nodes, value);
+      if (!from)
+        continue;
+      const ax = x(from) + WIDTH, ay = from.y + 18, bx = x(node), by = node.y + 18, edge = svg("path", {d: `M${ax},${ay} C${ax + 20},${ay} ${bx - 20},${by} ${bx},${by}`});
+      edge.append(svg("title", {}, `${value} \u2192 ${input}`));
+      made.append(edge);
+    }
+  const cut = line => line.length > 26 ? line.slice(0, 25) + "\u2026" : line;
+  for (const node of nodes.values()) {
+    const group = svg("g", {transform: `translate(${x(node)},${node.y})`});
+    group.append(svg("rect", {width: WIDTH, height: node.height - 4, rx: 3}), svg("title", {}, [node.name + " : " + node.kind, ...node.lines].join("\n")),
+      svg("text", {x: 6, y: 14, class: "kind"}, cut(node.kind)), svg("text", {x: 6, y: 28}, cut(node.name.split("/").pop())));
+    node.lines.forEach((line, index) => group.append(svg("text", {x: 6, y: 42 + 14 * index, class: "value"}, cut(line))));
+    made.append(group);
+  }
+  return made;
+}
+
+// Picture and graph of a material or an override, and, of an override, the picture of what it drives.
+function showSubstance(row, layer) {
+  const made = [], substance = data.substances[layer[2]];
+  const slot = data.texts[layer[1]].replace(/::.*/, ""), base = set(row).find(other => other[0] !== PRODUCT && data.texts[other[1]] === slot);
+  const picture = (substance && substance.picture) || (base && data.substances[base[2]] && data.substances[base[2]].picture);
+  if (picture) {
+    const image = element("img", "picture", "");
+    image.src = picture;
+    image.alt = data.texts[substance && substance.picture ? layer[2] : base[2]];
+    made.push(image);
+  }
+  if (substance && substance.graph) {
+    const box = element("div", "graphs", "");
+    box.append(drawGraph(substance.graph));
+    made.push(element("h2", "", "graph"), box);
+  }
+  return made;
+}
+
+// Where a layer comes from, every place where its slot is set, and what it is.
 function tell(row, layer) {
   const MOST = 200, from = above(row, layer[3]), terms = document.createElement("dl"), places = element("ul", "places", "");
   const add = (term, value) => {
@@ -158,7 +246,7 @@ function tell(row, layer) {
         places.append(item);
       }
   keep({at: path(row), layer: set(row).indexOf(layer)});
-  detail.replaceChildren(element("h2", "", label(layer)), terms, element("h2", "", `set at ${number} path${number === 1 ? "" : "s"}`), places);
+  detail.replaceChildren(element("h2", "", label(layer)), terms, ...showSubstance(row, layer), element("h2", "", `set at ${number} path${number === 1 ? "" : "s"}`), places);
 }
 
 rows.addEventListener("click", event => {

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Finds the mxgen programs, which lie in one folder. */
+/* Finds the mxgen programs, which lie in one folder, and runs them. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 
+#include <errno.h>
+#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+extern char **environ;
 
 /* The folder of this program, with a '/' at the end; "" if the system does not provide it. */
 static const char *program_folder(char *buffer, size_t capacity)
@@ -26,4 +31,19 @@ char *cli_program(const char *name)
         return path;
     free(path);
     return cli_format("%s", name);
+}
+
+bool cli_run(struct report *report, char *const *arguments, int *out_status)
+{
+    pid_t process;
+    int reason = posix_spawnp(&process, arguments[0], NULL, NULL, arguments, environ);
+    if (reason) {
+        report_error(report, "no-renderer", "cannot start '%s': %s", arguments[0],
+                     strerror(reason));
+        return false;
+    }
+    while (waitpid(process, out_status, 0) < 0)
+        if (errno != EINTR)
+            return false;
+    return true;
 }

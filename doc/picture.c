@@ -8,12 +8,8 @@
 #include "cli/files.h"
 
 #include <errno.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-
-extern char **environ;
 
 #define PICTURE_SIZE "288" /* the page shows it at half the size */
 
@@ -246,22 +242,6 @@ static bool write_document(const struct manual *manual, struct cli *cli, const s
 
 /* ---- Drawing it ---- */
 
-/* Starts the program and waits for its end; false after a message if it could not start. */
-static bool run(struct cli *cli, char **argv, int *out_status)
-{
-    pid_t process;
-    int reason = posix_spawnp(&process, argv[0], NULL, NULL, argv, environ);
-    if (reason) {
-        report_error(&cli->report, "no-renderer", "cannot start '%s': %s", argv[0],
-                     strerror(reason));
-        return false;
-    }
-    while (waitpid(process, out_status, 0) < 0)
-        if (errno != EINTR)
-            return false;
-    return true;
-}
-
 /* The renderer's arguments, with the libraries of this run. The caller frees them. */
 static char **renderer_arguments(const struct cli *cli, char *program)
 {
@@ -297,7 +277,8 @@ static bool draw_node(struct manual *manual, struct cli *cli, struct manual_node
         (char *)(uintptr_t)manual_keep(manual, cli_format("%s/%s", folder, picture));
     argv[ARGUMENT_SCENE] = (char *)(uintptr_t)(shown.on_plane ? "plane" : "sphere");
     int status = 0;
-    if (!write_document(manual, cli, &shown, argv[ARGUMENT_DOCUMENT]) || !run(cli, argv, &status))
+    if (!write_document(manual, cli, &shown, argv[ARGUMENT_DOCUMENT])
+        || !cli_run(&cli->report, argv, &status))
         return false;
     if (status == 0)
         node->picture = picture;

@@ -67,19 +67,27 @@ static void name_value(struct builder *b, ir_ref value, const struct build_part 
 
 /* ---- Weights ---- */
 
-/* The opacity of slabs is that of their lobes. The layer keeps the slabs. */
-static ir_ref alpha_of(struct builder *b, ir_ref surface)
+/* A walk to slabs reads the whole graph, so layers walk only where there are any. */
+static bool has_slabs(const struct builder *b)
 {
-    ir_ref seen = b->without_slabs ? b->without_slabs(b, surface) : surface;
-    return closure_surface_alpha(b->shader, seen);
+    for (ir_ref ref = 1; b->without_slabs && ref < b->graph->nodes.len; ref++)
+        if (ir_get(b->graph, ref)->op == IR_SLAB_SURFACE || ir_get(b->graph, ref)->op == IR_SLAB)
+            return true;
+    return false;
+}
+
+/* The opacity of slabs is that of their lobes. The layer keeps the slabs. */
+static ir_ref alpha_of(struct builder *b, ir_ref surface, bool walks)
+{
+    return closure_surface_alpha(b->shader, walks ? b->without_slabs(b, surface) : surface);
 }
 
 /* How much of what is below a layer hides, and its share of displacement and normal. */
 static void find_presence(struct builder *b, struct build_part *part, const struct build_part *base,
-                          unsigned side)
+                          unsigned side, bool walks)
 {
     ir_ref surface = part->sides[side] ? part->sides[side] : part->sides[0];
-    ir_ref opacity = surface ? clamped(b, alpha_of(b, surface)) : 0;
+    ir_ref opacity = surface ? clamped(b, alpha_of(b, surface, walks)) : 0;
     ir_ref presence = times(b, part->mask, opacity);
     part->presence = presence ? presence : number(b, 1.0f);
     part->hides = surface ? part->presence : number(b, 0.0f);
@@ -91,8 +99,9 @@ static void find_presence(struct builder *b, struct build_part *part, const stru
 static void find_presences(struct builder *b, struct build_part *parts, uint32_t num, unsigned side)
 {
     const struct build_part *base = NULL;
+    bool walks = has_slabs(b);
     for (uint32_t i = 0; i < num; i++) {
-        find_presence(b, &parts[i], base, side);
+        find_presence(b, &parts[i], base, side, walks);
         base = parts[i].is_vertical ? base : &parts[i];
     }
 }

@@ -305,16 +305,16 @@ static void add_text(char **text, size_t *len, const char *format, unsigned a, u
     *len += (size_t)snprintf(*text + *len, MAX_PIECE, format, a, b, c);
 }
 
-/* A scene of depth 6 with so many leaves. */
+/* A scene of depth 12 with so many leaves. */
 static mxg_scene *make_large_scene(mxg_context *context, unsigned num_leaves)
 {
     mxg_scene *scene = NULL;
     mxg_scene_create(context, &scene);
     for (unsigned i = 0; i < num_leaves; i++) {
-        char path[96];
+        char path[128];
         const char *list = path;
-        snprintf(path, sizeof path, "/set_%u/a/row_%u/b/c_%u/leaf_%u", i / 10000, i / 100, i % 7,
-                 i);
+        snprintf(path, sizeof path, "/set_%u/a/row_%u/b/d/e/f/g/h/i/c_%u/leaf_%u", i / 10000,
+                 i / 100, i % 7, i);
         mxg_scene_add(scene, &list, 1);
     }
     return scene;
@@ -367,12 +367,12 @@ static double bytes_of_large_scene(unsigned num_leaves, uint32_t *out_stacks)
     return bytes;
 }
 
-static void test_many_primitives(void)
+static void test_many_primitives(unsigned num)
 {
     uint32_t few, many;
-    double small = bytes_of_large_scene(50000, &few), large = bytes_of_large_scene(200000, &many);
-    printf("bytes for each primitive with its name: %.0f of 50,000, %.0f of 200,000; %u stacks\n",
-           small, large, (unsigned)many);
+    double small = bytes_of_large_scene(num / 4, &few), large = bytes_of_large_scene(num, &many);
+    printf("bytes for each primitive with its name: %.0f of %u, %.0f of %u; %u stacks\n", small,
+           num / 4, large, num, (unsigned)many);
     REQUIRE(small < 100);
     REQUIRE(large < 100);
     REQUIRE(few > 10);
@@ -439,9 +439,14 @@ static void test_stacks(mxg_context *context)
     mxg_document_destroy(other);
 }
 
-int main(void)
+/* With a number: only a scene with so many leaves. */
+int main(int argc, char **argv)
 {
     mxg_context *context = NULL;
+    if (argc > 1) {
+        test_many_primitives((unsigned)strtoul(argv[1], NULL, 10));
+        return test_report("bind");
+    }
     REQUIRE(mxg_context_create(NULL, &context) == MXG_OK);
     test_names();
     test_scene(context);
@@ -453,7 +458,7 @@ int main(void)
     }
     test_many_layers(context);
     mxg_context_destroy(context);
-    test_many_primitives();
+    test_many_primitives(200000);
     test_memory();
     return test_report("bind");
 }

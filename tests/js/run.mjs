@@ -389,22 +389,23 @@ def Material "paint" {
 });
 
 test("the layers of primitives", () => {
-    const context = mxgen.createContext(), document = context.load(path.join(examples, "slots.mtlx"));
-    const scene = context.loadScene(path.join(examples, "slots.txt")), bindings = document.bind(scene, "finished");
-    const layers = bindings.layers("/device/case/handle");
+    const looks = path.join(examples, "slots/looks.mtlx"), receiver = path.join(examples, "slots/receiver.usda");
+    const context = mxgen.createContext(), document = context.load(looks);
+    const scene = context.loadScene(receiver), bindings = document.bind(scene, "finished");
+    const layers = bindings.layers("/receiver/keys");
     assert.deepEqual(layers.map(({ kind, slot, material }) => [kind, slot, material]),
-                     [["layer", "000", "steel"], ["layerVertical", "000|010", "varnish"], ["layer", "050", "dirt"],
-                      ["layerOverride", "050::020", "light_dirt"]]);
-    assert.deepEqual(layers.map(({ source }) => source?.path ?? null), ["/device/case", "/device/case/handle", null, "/device/case"]);
-    assert.deepEqual(document.bind(scene, "finished", { solo: ["050"] }).layers("/device/case/handle").map(({ slot }) => slot), ["050", "050::020"]);
-    assert.deepEqual(document.bind(scene, "finished", { mute: ["050"] }).layers("/device/case/handle").map(({ slot }) => slot), ["000", "000|010"]);
-    const table = spawnSync(program, ["bind", path.join(examples, "slots.mtlx"), "--look", "finished", "--stage", path.join(examples, "slots.txt")],
+                     [["layer", "000", "generic"], ["layerOverride", "000::010", "generic_pattern"], ["layerVertical", "000|010", "varnish"],
+                      ["layer", "050", "dirt"], ["layerOverride", "050::010", "dirt_pattern"]]);
+    assert.deepEqual(layers.map(({ source }) => source?.path ?? null), ["/receiver", "/receiver", "/receiver/keys", null, "/receiver"]);
+    assert.deepEqual(document.bind(scene, "finished", { solo: ["050"] }).layers("/receiver/keys").map(({ slot }) => slot), ["050", "050::010"]);
+    assert.deepEqual(document.bind(scene, "finished", { mute: ["050"] }).layers("/receiver/keys").map(({ slot }) => slot), ["000", "000::010", "000|010"]);
+    const table = spawnSync(program, ["bind", looks, "--look", "finished", "--stage", receiver],
                             { encoding: "utf8" });
     assert.equal(bindings.text(), table.stdout);
     assert.equal(JSON.parse(bindings.text("json")).stacks.length, bindings.stacks.length);
-    assert.match(bindings.explain("/device/case/handle"), /varnish/);
+    assert.match(bindings.explain("/receiver/keys"), /varnish/);
     inFolder(out => {
-        spawnSync(program, [path.join(examples, "slots.mtlx"), "--look", "finished", "--stage", path.join(examples, "slots.txt"), "-o", out]);
+        spawnSync(program, [looks, "--look", "finished", "--stage", receiver, "-o", out]);
         const written = fs.readdirSync(out).filter(name => name.endsWith(".frag"));
         for (const name of written) {
             const stack = bindings.stacks.find(made => `${made.name}.frag` === name);
@@ -420,7 +421,7 @@ test("the layers of primitives", () => {
     assert.throws(() => context.parse(GOLD).generate("glsl", { stack: bindings.stacks[0] }), ArgumentError);
     for (const use of [() => document.bind({}), () => document.withMaterials({}), () => context.sceneMaterials({}), () => scene.find(5), () => bindings.stack(5)])
         assert.throws(use, TypeError);
-    const { pixel } = document.generate("glsl", { stack: bindings.stack("/device/case/handle") });
+    const { pixel } = document.generate("glsl", { stack: bindings.stack("/receiver/keys") });
     scene.destroy();
     document.destroy();
     assert.throws(() => bindings.layers("/device"), /the scene was destroyed/);

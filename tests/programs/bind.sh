@@ -436,6 +436,20 @@ if [ -n "$browser" ]; then
     check 'a folded tree' seen 'fold=all' 'list(rows) == ["receiver", "camera"]'
     check 'where a layer comes from' seen 'at=/receiver/case/shell&layer=3' '"/receiver/case/shell" in detail and "dirty/dirt" in detail and "looks.mtlx:" in detail'
     check 'and every place where its slot is set' seen 'at=/receiver/case/shell&layer=0' '"set at" in detail and "paths" in detail and "/receiver/dial/window" in detail and "glass" in detail'
+    check 'the graph of a substance' seen 'at=/receiver/case/shell&layer=3' '"<svg" in body and all(word in detail for word in ("fractal3d", "octaves = 4", "NG_dirt/noise", "substance")) and detail.count("smoothstep") == 2'
+    check 'its connections' seen 'at=/receiver/case/shell&layer=3' '"NG_dirt/scaled \u2192 position" in detail and "NG_dirt/where \u2192 mask" in detail'
+    check 'the graph of an override, each node once' seen 'at=/receiver/case/shell&layer=2' 'body.count(">separate3<") == 1 and ">output<" in body and "no picture" not in detail and "<img" not in body'
+    if [ -x "$(dirname "$mxgen")/mxgen-render" ] && has_device "$(dirname "$mxgen")/mxgen-render"; then
+        sed 's|</materialx>|<look name="l"><materialassign material="Clay" geom="/a"/><materialassign slot="000::010" nodegraph="NG" geom="/a"/></look>&|; s|<surfacematerial name="Clay"|<nodegraph name="NG"><constant name="c" type="float"/><output name="base" type="float" nodename="c"/></nodegraph>&|' materials.mtlx >drawn.mtlx
+        echo /a >drawn.txt
+        check 'a page with pictures' exits 0 "$mxgen" bind drawn.mtlx --stage drawn.txt --html drawn.html --pictures
+        check 'shows the picture of the material' env page=drawn.html bash -c "$(declare -f seen); work='$work' browser='$browser'; seen 'at=/a&layer=0' 'body.count(\"data:image/png;base64,iVBOR\") == 1'"
+        check 'and beside its override' env page=drawn.html bash -c "$(declare -f seen); work='$work' browser='$browser'; seen 'at=/a&layer=1' 'body.count(\"<img\") == 1 and \"override\" in detail'"
+        check 'materials of the stage, too' exits 0 "$mxgen" bind --stage drives.usda --html stage.html --pictures
+        check 'one of three layers is a material' test "$(grep -o 'data:image/png' stage.html | wc -l)" = 1
+    else
+        skip 'no Vulkan device: the page has no pictures'
+    fi
     seq 0 99999 | awk '{ printf "/set/g%d/h%d/p%d\n", $1 / 1000, $1 / 10, $1 }' >large.txt
     check 'a page of 100,000 primitives' exits 0 "$mxgen" bind "$looks" --stage large.txt --look base --html large.html
     check 'has the rows in view only' env page=large.html height=800 bash -c "$(declare -f seen); work='$work' browser='$browser'; seen '' '10 < len(rows) < 60 and output.startswith(\"110101 of\")'"

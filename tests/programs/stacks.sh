@@ -200,19 +200,6 @@ check 'too many textures' exits 1 "$mxgen" look.mtlx --stage stage.txt --target 
 check 'name their slots' grep -q "reads 20 textures, .* at most 16 in essl; .*: '000', '050' \[texture-limit\]" err
 check 'another target has no such limit' exits 0 "$mxgen" look.mtlx --stage stage.txt --target vulkan --environment none -o out.d
 
-# Many layers: memory that grows with their square would not fit.
-python3 - <<'PY'
-lines, assigns = [], []
-for i in range(3000):
-    lines.append(f'<surface_unlit name="s{i}" type="surfaceshader"/><substance name="m{i}" type="material">'
-                 f'<input name="surfaceshader" type="surfaceshader" nodename="s{i}"/><input name="mask" type="float" value="0.5"/></substance>')
-    assigns.append(f'<materialassign slot="{i:05}" material="m{i}" geom="/"/>')
-open("look.mtlx", "w").write('<?xml version="1.0"?><materialx version="1.39">' + "\n".join(lines) + '<look name="L">' + "\n".join(assigns) + "</look></materialx>")
-PY
-for mode in blend stochastic; do
-    check "3,000 layers, $mode" exits 0 stacks --slots $mode --max-memory 150000000
-done
-
 # Looks without a scene.
 document '<look name="base"><materialassign slot="a b" material="red" geom="/"/><materialassign slot="050" nodegraph="NG_half" geom="/"/></look>
   <look name="day" inherit="base"><materialassign material="red" geom="/{a"/><materialassign material="nothing" geom="/"/></look><look name="night" inherit="base"/>'

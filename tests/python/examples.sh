@@ -20,8 +20,8 @@ check "shader.py without a document" exits 1 "$python" "$root/examples/shader.py
 check "shader.py reports errors" grep -q 'error: .*file-missing' err
 check "without a trace" exits 1 grep Traceback err
 mkdir stacks
-check "scene.py" exits 0 "$python" "$root/examples/scene.py" "$root/examples/slots.mtlx" finished "$root/examples/slots.txt" stacks
-check "scene.py lists the layers" grep -q '^/device/case/handle stack_[0-9a-f]* 000 steel, 000|010 varnish, ' out
+check "scene.py" exits 0 "$python" "$root/examples/scene.py" "$root/examples/slots/looks.mtlx" finished "$root/examples/slots/receiver.usda" stacks
+check "scene.py lists the layers" grep -q '^/receiver/keys stack_[0-9a-f]* 000 generic, 000::010 generic_pattern, 000|010 varnish, ' out
 check "scene.py writes a shader for each stack" test "$(grep -o 'stack_[0-9a-f]*' out | sort -u)" = "$(ls stacks | sed 's/.frag//')"
-check "scene.py without a look" exits 1 "$python" "$root/examples/scene.py" "$root/examples/slots.mtlx" none "$root/examples/slots.txt" stacks
+check "scene.py without a look" exits 1 "$python" "$root/examples/scene.py" "$root/examples/slots/looks.mtlx" none "$root/examples/slots/receiver.usda" stacks
 finish python-examples

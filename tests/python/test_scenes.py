@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes, and the layers of their primitives. examples/slots.mtlx has the looks; docs/slots.md has the rules."""
+"""Scenes, and the layers of their primitives. examples/slots/looks.mtlx has the looks; docs/slots.md has the rules."""
 import gc
 import json
 import pathlib
@@ -122,41 +122,43 @@ class Scenes(unittest.TestCase):
 class Bindings(unittest.TestCase):
     def setUp(self):
         self.context = mxgen.Context()
-        self.document = self.context.load(common.EXAMPLES / "slots.mtlx")
-        self.scene = self.context.load_scene(common.EXAMPLES / "slots.txt")
+        self.document = self.context.load(common.EXAMPLES / "slots/looks.mtlx")
+        self.scene = self.context.load_scene(common.EXAMPLES / "slots/receiver.usda")
 
     def test_layers(self):
         bindings = self.document.bind(self.scene, "finished")
         self.assertEqual(str(bindings.diagnostics), "")
-        layers = bindings.layers("/device/case/handle")
+        layers = bindings.layers("/receiver/keys")
         kinds = mxgen.LayerKind
         self.assertEqual([(layer.kind, layer.slot, layer.material) for layer in layers],
-                         [(kinds.LAYER, "000", "steel"), (kinds.VERTICAL, "000|010", "varnish"), (kinds.LAYER, "050", "dirt"),
-                          (kinds.OVERRIDE, "050::020", "light_dirt")])
+                         [(kinds.LAYER, "000", "generic"), (kinds.OVERRIDE, "000::010", "generic_pattern"),
+                          (kinds.VERTICAL, "000|010", "varnish"), (kinds.LAYER, "050", "dirt"),
+                          (kinds.OVERRIDE, "050::010", "dirt_pattern")])
         self.assertEqual([layer.source for layer in layers],
-                         [self.scene["/device/case"], self.scene["/device/case/handle"], None, self.scene["/device/case"]])
-        self.assertEqual((layers[1].assign, layers[1].look, layers[1].is_nodegraph, layers[3].is_nodegraph),
+                         [self.scene["/receiver"], self.scene["/receiver"], self.scene["/receiver/keys"], None, self.scene["/receiver"]])
+        self.assertEqual((layers[2].assign, layers[2].look, layers[2].is_nodegraph, layers[4].is_nodegraph),
                          ("varnish", "finished", False, True))
-        self.assertEqual(layers[0].file, str(common.EXAMPLES / "slots.mtlx"))
+        self.assertEqual(layers[0].file, str(common.EXAMPLES / "slots/looks.mtlx"))
         # The decisions of the paper: no dirt on the front panel.
-        self.assertEqual([layer.slot for layer in bindings.layers(self.scene["/device/case/front_panel"])], ["000"])
+        self.assertEqual([layer.slot for layer in bindings.layers(self.scene["/receiver/case/front_panel"])],
+                         ["000", "000::010", "000|010"])
 
     def test_solo_and_mute(self):
-        for words, slots in (({"solo": ["050"]}, ["050", "050::020"]), ({"mute": ["050"]}, ["000", "000|010"])):
+        for words, slots in (({"solo": ["050"]}, ["050", "050::010"]), ({"mute": ["050"]}, ["000", "000::010", "000|010"])):
             bindings = self.document.bind(self.scene, "finished", **words)
-            self.assertEqual([layer.slot for layer in bindings.layers("/device/case/handle")], slots)
+            self.assertEqual([layer.slot for layer in bindings.layers("/receiver/keys")], slots)
 
     def test_stacks(self):
         bindings = self.document.bind(self.scene, "finished")
-        one, other = (bindings.stack(f"/device/knobs/knob_{number}/cap") for number in (1, 3))
+        one, other = (bindings.stack(f"/receiver/knobs/{name}/cap") for name in ("tuning", "tone"))
         self.assertEqual((one.number, one.name), (other.number, other.name))
         self.assertRegex(one.name, "^stack_[0-9a-f]{16}$")
         self.assertEqual(len({stack.name for stack in bindings.stacks}), len(bindings.stacks))
         self.assertEqual(bindings.stacks[one.number].name, one.name)
         compared = 0
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([common.PROGRAM, common.EXAMPLES / "slots.mtlx", "--look", "finished", "--stage",
-                            common.EXAMPLES / "slots.txt", "-o", folder], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([common.PROGRAM, common.EXAMPLES / "slots/looks.mtlx", "--look", "finished", "--stage",
+                            common.EXAMPLES / "slots/receiver.usda", "-o", folder], check=True, stdout=subprocess.DEVNULL)
             written = json.loads((pathlib.Path(folder) / "bindings.json").read_text(encoding="utf-8"))
             self.assertEqual([stack["name"] for stack in written["stacks"]], [stack.name for stack in bindings.stacks])
             for stack in bindings.stacks:
@@ -168,26 +170,26 @@ class Bindings(unittest.TestCase):
 
     def test_texts(self):
         bindings = self.document.bind(self.scene, "finished")
-        table = subprocess.run([common.PROGRAM, "bind", common.EXAMPLES / "slots.mtlx", "--look", "finished", "--stage",
-                                common.EXAMPLES / "slots.txt"], check=True, stdout=subprocess.PIPE).stdout.decode()
+        table = subprocess.run([common.PROGRAM, "bind", common.EXAMPLES / "slots/looks.mtlx", "--look", "finished", "--stage",
+                                common.EXAMPLES / "slots/receiver.usda"], check=True, stdout=subprocess.PIPE).stdout.decode()
         self.assertEqual(bindings.text(), table)
         found = json.loads(bindings.text(mxgen.BindingsFormat.JSON))
         self.assertEqual(len(found["stacks"]), len(bindings.stacks))
-        self.assertIn("/device/case/handle", bindings.explain("/device/case/handle"))
+        self.assertIn("/receiver/keys", bindings.explain("/receiver/keys"))
         with self.assertRaises(mxgen.DocumentError):
             self.document.bind(self.scene, "no such look")
 
     def test_lifetime(self):
         """Bindings keep their scene and their document, whatever Python ends first."""
-        bindings = mxgen.Context().load(common.EXAMPLES / "slots.mtlx").bind(mxgen.Context().scene("/device/case/handle"), "finished")
+        bindings = mxgen.Context().load(common.EXAMPLES / "slots/looks.mtlx").bind(mxgen.Context().scene("/receiver/keys"), "finished")
         gc.collect()
-        self.assertEqual(bindings.layers("/device/case/handle")[0].material, "steel")
-        stack = bindings.stack("/device/case/handle")
-        other = self.context.load(common.EXAMPLES / "slots.mtlx")
+        self.assertEqual(bindings.layers("/receiver/keys")[0].material, "generic")
+        stack = bindings.stack("/receiver/keys")
+        other = self.context.load(common.EXAMPLES / "slots/looks.mtlx")
         with self.assertRaises(ValueError):
             other.generate("glsl", stack)
         with self.assertRaises(ValueError):
-            bindings.layers(self.scene["/device/case/handle"])
+            bindings.layers(self.scene["/receiver/keys"])
         for call in (lambda: bindings.layers(5), lambda: bindings.stack(5), lambda: other.bind(5), lambda: bindings.explain(5),
                      lambda: other.bind(self.scene, 5), lambda: other.bind(self.scene, solo="050")):
             with self.assertRaises(TypeError):
