@@ -117,8 +117,10 @@ MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_s
 /* ---- Edits ---- */
 
 /*
- * Makes a document from another one, or from nothing. Documents stay immutable: an edit works on a
- * copy, which mxg_edit_end turns into a document.
+ * Makes a document from another one, or from nothing. Documents stay immutable: mxg_edit_end makes
+ * the next one, which shares memory with the document that it comes from. An edit takes time and
+ * memory for its changes, however large the document; only a change of a definition, and every so
+ * often the sum of many edits, takes the time of an index of the whole.
  *
  *     mxg_edit *edit;
  *     mxg_edit_begin(ctx, lib, NULL, "gold", &edit);
@@ -137,8 +139,9 @@ typedef struct mxg_edit mxg_edit;
 
 /*
  * `from` NULL: an empty document of version 1.39, whose `name` appears in messages; files that it
- * names are relative to it (NULL: "<edit>"). Otherwise a copy of `from`, which keeps its name, and
- * whose library must be `library`. `from` may end before the edit.
+ * names are relative to it (NULL: "<edit>"). Otherwise the document `from` with its name, whose
+ * library must be `library`. `from` may end before the edit; its context must outlive the document
+ * that the edit makes.
  */
 MXG_API mxg_status mxg_edit_begin(mxg_context *context, mxg_library *library,
                                   const mxg_document *from, const char *name, mxg_edit **out_edit);

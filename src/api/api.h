@@ -124,6 +124,10 @@ struct mxg_document {
     VEC(const char *) files;
     VEC(elem_id) renderables;
     const char **renderable_paths;
+    /* the document whose elements and definitions this one shares; NULL: it has its own */
+    const struct mxg_document *origin;
+    bool has_own_renderables; /* although it shares the rest */
+    bool is_silent; /* its definitions have nothing to report, so that another may share them */
 };
 
 /* target.c: true if mxgen has the target of this MaterialX name. */
@@ -262,10 +266,18 @@ mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t
  */
 void document_finish(struct mxg_document *document, struct file_source *files);
 
+/*
+ * share.c: finishes an edited document that shares the definitions of its origin. false: the
+ * definitions may differ, or too much does; nothing is done then.
+ */
+bool edit_share(struct mxg_document *document, struct arena *scratch, struct diag_list *diags);
+
 /* ---- Elements: renderable.c, element.c ---- */
 
 /* Finds the renderables. */
 void document_find_renderables(struct mxg_document *document, struct arena *scratch);
+/* Takes those of the origin if the changes leave them as they are; false: find them. */
+bool document_share_renderables(struct mxg_document *document);
 
 /*
  * The node or <output> to generate for a path: the element, the only output of a nodegraph, or the

@@ -16,7 +16,10 @@ void document_finish(struct mxg_document *document, struct file_source *files)
 {
     struct library *layer = &document->layer;
     struct lang_reader reader = file_source_for_lang(files);
+    const struct diag_list *diags = &document->object.diagnostics.list;
+    uint32_t before = diags->items.len;
     library_index(layer, &reader, &document->object.diagnostics.list);
+    document->is_silent = diags->items.len == before;
     document_find_renderables(document, &files->scratch);
     document->files.items = files->names.items;
     document->files.len = files->names.len;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Edits: a copy of a document that changes until it becomes a document. */
+/* Edits: changes of a document until they become a document. */
 #include "api/scene.h"
 #include "bind/materials.h"
 
@@ -35,34 +35,54 @@ static void begin_empty(struct document *doc, const char *name)
     doc->is_global = doc->keeps_comments = true;
 }
 
+/* The document whose elements a document that begins with `from` shares. */
+static const mxg_document *origin_of(const mxg_document *from)
+{
+    return from && from->origin ? from->origin : from;
+}
+
+static void begin_from(mxg_document *document, const mxg_document *from)
+{
+    struct arena *arena = &document->object.arena;
+    struct library *layer = &document->layer;
+    document->origin = origin_of(from);
+    document->has_own_renderables = from->has_own_renderables;
+    library_init(layer, arena, from->layer.base);
+    strpool_init(&layer->strings, arena, &document->origin->layer.strings);
+    if (from != document->origin)
+        strpool_copy(&layer->strings, &from->layer.strings);
+    doc_begin_edit(&layer->doc, arena, &layer->strings, &from->layer.doc);
+    for (uint32_t i = 0; i < from->files.len; i++) {
+        const char *file = from->files.items[i];
+        vec_push(arena, &document->files, arena_strndup(arena, file, strlen(file)));
+    }
+}
+
 static void begin_document(void *arg)
 {
     struct begin_job *job = arg;
     mxg_document *document = job->edit->document;
     struct arena *arena = &document->object.arena;
     struct library *layer = &document->layer;
-    library_init(layer, arena, job->base);
-    layer->trust = document->object.context->trust;
-    layer->doc.max_elements = document->object.context->xml_limits.max_elements;
     if (job->from) {
-        layer->strings = (struct strpool){
-            .base = layer->strings.base, .first = layer->strings.first, .arena = arena};
-        strpool_copy(&layer->strings, &job->from->layer.strings);
-        doc_copy(&layer->doc, &job->from->layer.doc);
-        for (uint32_t i = 0; i < job->from->files.len; i++) {
-            const char *file = job->from->files.items[i];
-            vec_push(arena, &document->files, arena_strndup(arena, file, strlen(file)));
-        }
+        begin_from(document, job->from);
     } else {
         const char *name = job->name ? job->name : "<edit>";
+        library_init(layer, arena, job->base);
         begin_empty(&layer->doc, name);
         vec_push(arena, &document->files, arena_strndup(arena, name, strlen(name)));
     }
+    layer->trust = document->object.context->trust;
+    layer->doc.max_elements = document->object.context->xml_limits.max_elements;
 }
 
-static mxg_edit *new_edit(mxg_context *context, mxg_library *library)
+/* The document holds its origin, which holds the library. */
+static mxg_edit *new_edit(mxg_context *context, mxg_library *library, const mxg_document *from)
 {
-    mxg_document *document = object_new(context, sizeof *document, &library->object);
+    /* only its reference count changes */
+    struct object *origin = from ? (struct object *)(uintptr_t)&origin_of(from)->object : NULL;
+    mxg_document *document =
+        object_new(context, sizeof *document, origin ? origin : &library->object);
     if (!document)
         return NULL;
     mxg_edit *edit = object_new(context, sizeof *edit, &document->object);
@@ -82,7 +102,7 @@ mxg_status mxg_edit_begin(mxg_context *context, mxg_library *library, const mxg_
     if (!context || !library || !out_edit || object_status(&library->object) != MXG_OK
         || (from && from->layer.base != &library->layer))
         return MXG_ERROR_ARGUMENT;
-    struct begin_job job = {new_edit(context, library), &library->layer, from, name};
+    struct begin_job job = {new_edit(context, library, from), &library->layer, from, name};
     if (!job.edit)
         return MXG_ERROR_MEMORY;
     mxg_status status = object_run(&job.edit->document->object, begin_document, &job);
@@ -610,15 +630,46 @@ struct end_job {
     struct file_source files;
 };
 
+/* Leaves the origin: the document gets arrays and definitions of its own. */
+static void stand_alone(mxg_document *document)
+{
+    doc_leave_origin(&document->layer.doc);
+    strpool_leave_base(&document->layer.strings);
+    struct library own = document->layer;
+    library_init(&document->layer, &document->object.arena, own.base);
+    document->layer.doc = own.doc;
+    document->layer.strings = own.strings;
+    document->layer.doc.strings = &document->layer.strings;
+    document->layer.trust = own.trust;
+    document->origin = NULL;
+    document->has_own_renderables = false;
+}
+
 static void end_document(void *arg)
 {
     struct end_job *job = arg;
-    struct document *doc = &job->document->layer.doc;
-    for (uint32_t i = 0; i < job->document->files.len; i++)
-        file_source_remember(&job->files, job->document->files.items[i]);
+    mxg_document *document = job->document;
+    struct document *doc = &document->layer.doc;
+    struct diag_list *diags = &document->object.diagnostics.list;
+    if (document->origin && edit_share(document, &job->files.scratch, diags))
+        return;
+    for (uint32_t i = 0; i < document->files.len; i++)
+        file_source_remember(&job->files, document->files.items[i]);
+    if (document->origin)
+        stand_alone(document);
     doc_keep_paths(doc);
-    doc_complete(doc, &job->document->object.diagnostics.list);
-    document_finish(job->document, &job->files);
+    doc_complete(doc, diags);
+    document_finish(document, &job->files);
+}
+
+/* A document that stands alone holds the library in the place of its former origin. */
+static void hold_library(struct object *object, const mxg_document *origin)
+{
+    struct object *former = object->below;
+    assert(former == &origin->object);
+    object_ref(origin->object.below);
+    object->below = origin->object.below;
+    object_unref(former);
 }
 
 mxg_status mxg_edit_end(mxg_edit *edit, mxg_document **out_document)
@@ -631,10 +682,13 @@ mxg_status mxg_edit_end(mxg_edit *edit, mxg_document **out_document)
     }
     struct end_job job = {.document = edit->document};
     struct object *object = &edit->document->object;
+    const mxg_document *origin = edit->document->origin;
     file_source_init(&job.files, object);
     mxg_status status = object_run(object, end_document, &job);
     file_source_finish(&job.files);
     if (status == MXG_OK) {
+        if (origin && !edit->document->origin)
+            hold_library(object, origin);
         object_ref(object);
         *out_document = edit->document;
         status = object_status(object);

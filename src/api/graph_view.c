@@ -22,7 +22,7 @@ static const char *text_of(const struct graph_view *view, str_id id)
 
 static bool is_shown(const struct graph_view *view, elem_id element)
 {
-    assert(element - view->doc->first_element < view->doc->elements.len);
+    assert(element - view->doc->first_element < doc_num_elements(view->doc));
     const struct element *e = doc_element(view->doc, element);
     bool in_graph = e->parent == view->doc->root
                     || (e->parent && doc_element(view->doc, e->parent)->kind == KIND_NODEGRAPH);
@@ -122,7 +122,7 @@ static void write_edge(struct graph_view *view, elem_id to, const char *input,
                        const struct binding *binding)
 {
     assert(binding->kind != BIND_NODE
-           || binding->ref - view->doc->first_element < view->doc->elements.len);
+           || binding->ref - view->doc->first_element < doc_num_elements(view->doc));
     if (binding->kind == BIND_NODE)
         text_fmt(view->out, "    n%u -> n%u [label=\"%s\"]\n", (unsigned)binding->ref, (unsigned)to,
                  input);
@@ -158,11 +158,11 @@ static void mark_upstream(struct graph_view *view, elem_id root)
 {
     struct arena *scratch = &view->g->scratch;
     VEC(elem_id) open = {0};
-    view->wanted = ARENA_ARRAY(scratch, uint8_t, view->doc->elements.len);
+    view->wanted = ARENA_ARRAY(scratch, uint8_t, doc_num_elements(view->doc));
     vec_push(scratch, &open, root);
     while (open.len) {
         elem_id element = vec_pop(&open);
-        assert(element - view->doc->first_element < view->doc->elements.len);
+        assert(element - view->doc->first_element < doc_num_elements(view->doc));
         if (view->wanted[element - view->doc->first_element])
             continue;
         view->wanted[element - view->doc->first_element] = 1;

@@ -115,7 +115,7 @@ static void view_statistics(struct generation *g, struct text *out)
     const mxg_result *result = g->result;
     const struct shader *shader = &result->shader;
     const struct shader_stage *pixel = &shader->stages[STAGE_PIXEL];
-    write_counts(out, "elements", g->document->layer.doc.elements.len);
+    write_counts(out, "elements", doc_num_elements(&g->document->layer.doc));
     write_counts(out, "operations built", result->graph.nodes.len - 1);
     write_counts(out, "closures", shader->closures.len);
     write_counts(out, "variables", shader->interface.len);

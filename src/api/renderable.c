@@ -23,7 +23,7 @@ static void mark_connection(struct scan *scan, elem_id port)
         node ? doc_child(
             doc, e->kind == KIND_OUTPUT ? e->parent : doc_element(doc, e->parent)->parent, node)
              : 0;
-    assert(target < doc->first_element + doc->elements.len);
+    assert(target < doc->first_element + doc_num_elements(doc));
     if (target >= doc->first_element)
         scan->used[target - doc->first_element] = 1;
 }
@@ -31,8 +31,8 @@ static void mark_connection(struct scan *scan, elem_id port)
 static void mark_used(struct scan *scan)
 {
     const struct document *doc = scan->doc;
-    for (uint32_t i = 0; i < doc->elements.len; i++) {
-        const struct element *e = &doc->elements.items[i];
+    for (uint32_t i = 0; i < doc_num_elements(doc); i++) {
+        const struct element *e = doc_element(doc, doc->first_element + i);
         if (e->parent
             && (e->kind == KIND_OUTPUT
                 || (e->kind == KIND_INPUT && doc_element(doc, e->parent)->parent)))
@@ -42,7 +42,7 @@ static void mark_used(struct scan *scan)
 
 static bool is_used(const struct scan *scan, elem_id element)
 {
-    assert(element - scan->doc->first_element < scan->doc->elements.len);
+    assert(element - scan->doc->first_element < doc_num_elements(scan->doc));
     return scan->used[element - scan->doc->first_element];
 }
 
@@ -113,6 +113,84 @@ static void add_shaders_and_outputs(mxg_document *document, const struct scan *s
     }
 }
 
+/* ---- Those of an edited document ---- */
+
+static bool is_material_in(const struct document *doc, elem_id element)
+{
+    return element - doc->first_element < doc_num_elements(doc)
+           && doc_element(doc, element)->parent == doc->root && is_material(doc, element);
+}
+
+/* The element at the top level that is an element or its parent; 0: it is deeper, or removed. */
+static elem_id top_of(const struct document *doc, elem_id element)
+{
+    if (element - doc->first_element >= doc_num_elements(doc))
+        return 0;
+    elem_id parent = doc_element(doc, element)->parent;
+    return parent == doc->root                                       ? element
+           : parent && doc_element(doc, parent)->parent == doc->root ? parent
+                                                                     : 0;
+}
+
+/* True if an element at the top level is a material in both documents or in none, in its place. */
+static bool stays(const struct document *doc, elem_id top)
+{
+    bool now = top && is_material_in(doc, top), before = top && is_material_in(doc->origin, top);
+    return now == before
+           && (!now
+               || (doc_element(doc, top)->name == doc_element(doc->origin, top)->name
+                   && doc_link(doc, top)->previous == doc_link(doc->origin, top)->previous));
+}
+
+/* True if no connection of an input changes, and the element is nothing else. */
+static bool is_value(const struct document *doc, const struct doc_change *change)
+{
+    static const str_id attrs[] = {STR_type, STR_nodename, STR_nodegraph, STR_output};
+    elem_id element = doc->first_element + change->index;
+    bool is_new = change->index >= doc->origin->elements.len;
+    if (change->element.kind != KIND_INPUT
+        || (!is_new && change->element.parent != doc->origin->elements.items[change->index].parent))
+        return false;
+    for (size_t i = 0; i < sizeof attrs / sizeof *attrs; i++) {
+        str_id now = doc_attr_value(doc, element, attrs[i]);
+        if (is_new ? i > 0 && now : now != doc_attr_value(doc->origin, element, attrs[i]))
+            return false;
+    }
+    return true;
+}
+
+static bool has_materials(const mxg_document *document)
+{
+    return document->renderables.len
+           && is_material(&document->layer.doc, document->renderables.items[0]);
+}
+
+bool document_share_renderables(struct mxg_document *document)
+{
+    const struct document *doc = &document->layer.doc;
+    const mxg_document *origin = document->origin;
+    bool of_materials = has_materials(origin);
+    if (document->has_own_renderables)
+        return false;
+    document->has_own_renderables = true;
+    for (uint32_t i = 0; i < doc->changes.len; i++) {
+        const struct doc_change *change = doc->changes.items[i];
+        if (!change->is_fresh)
+            continue;
+        elem_id element = doc->first_element + change->index;
+        bool good = of_materials ? stays(doc, top_of(doc, element))
+                                       && stays(doc, top_of(doc->origin, element))
+                                 : doc_is_same(doc, change) || is_value(doc, change);
+        if (!good)
+            return false;
+    }
+    document->renderables.items = origin->renderables.items;
+    document->renderables.len = origin->renderables.len;
+    document->renderable_paths = origin->renderable_paths;
+    document->has_own_renderables = false;
+    return true;
+}
+
 void document_find_renderables(struct mxg_document *document, struct arena *scratch)
 {
     assert(document->renderables.len == 0);
@@ -120,7 +198,8 @@ void document_find_renderables(struct mxg_document *document, struct arena *scra
     struct arena *arena = &document->object.arena;
     add_materials(document);
     if (!document->renderables.len) {
-        struct scan scan = {.doc = doc, .used = ARENA_ARRAY(scratch, uint8_t, doc->elements.len)};
+        struct scan scan = {.doc = doc,
+                            .used = ARENA_ARRAY(scratch, uint8_t, doc_num_elements(doc))};
         mark_used(&scan);
         add_shaders_and_outputs(document, &scan);
     }

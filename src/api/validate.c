@@ -181,7 +181,7 @@ static void check_looks(struct generation *g)
     const struct document *doc = &g->document->layer.doc;
     const struct diag_list *diags = &g->result->object.diagnostics.list;
     elem_id begin = doc_element(doc, doc->root)->first_child, zero = doc->first_element;
-    uint8_t *states = ARENA_ARRAY(&g->scratch, uint8_t, doc->elements.len);
+    uint8_t *states = ARENA_ARRAY(&g->scratch, uint8_t, doc_num_elements(doc));
     struct told told = {.arena = &g->scratch};
     for (uint32_t i = 0; i < diags->items.len; i++)
         tell_place(&told, diags->items.items[i].place);

@@ -74,6 +74,18 @@ void strpool_copy(struct strpool *pool, const struct strpool *from)
     table_copy(&pool->table, pool->arena, &from->table);
 }
 
+void strpool_leave_base(struct strpool *pool)
+{
+    const struct strpool above = *pool, *base = above.base;
+    *pool = (struct strpool){.base = base->base, .first = base->first, .arena = above.arena};
+    strpool_copy(pool, base);
+    for (uint32_t i = 0; i < above.num; i++) {
+        const struct str_entry *e = &above.entries.items[i];
+        add(pool, e->text, e->len, hash_bytes(e->text, e->len));
+    }
+    assert(pool->first + pool->num == above.first + above.num);
+}
+
 void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base)
 {
     *pool = (struct strpool){.base = base, .arena = arena};

@@ -55,6 +55,12 @@ void strpool_init(struct strpool *pool, struct arena *arena, const struct strpoo
 void strpool_copy(struct strpool *pool, const struct strpool *from);
 
 /*
+ * Takes the texts of a growing pool below into the pool, which then stands above the base of that
+ * one. All ids stay.
+ */
+void strpool_leave_base(struct strpool *pool);
+
+/*
  * The id of a text; adds the text if no pool of the stack has it. Copies the bytes, which must not
  * contain NUL.
  */

@@ -451,7 +451,7 @@ void bind_check_drives(const struct bindings *b, const struct library *lib, stru
     struct drive_notes notes = {.arena = scratch,
                                 .diags = diags,
                                 .first_element = lib->doc.first_element,
-                                .seen = ARENA_ARRAY(scratch, uint8_t, lib->doc.elements.len)};
+                                .seen = ARENA_ARRAY(scratch, uint8_t, doc_num_elements(&lib->doc))};
     for (uint32_t i = 0; i < b->stacks.len; i++) {
         const struct bind_state *state = &b->states.items[b->stacks.items[i].state];
         const struct bind_item *items = b->items.items + state->first_item;

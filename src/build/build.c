@@ -113,8 +113,8 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->document->nodedef = LIBRARY_NONE;
     b->document->first = lib->doc.first_element;
     b->document->node = lib->doc.root;
-    b->document->num_slots = lib->doc.elements.len;
-    b->document->slots = ARENA_ARRAY(b->arena, uint32_t, lib->doc.elements.len);
+    b->document->num_slots = doc_num_elements(&lib->doc);
+    b->document->slots = ARENA_ARRAY(b->arena, uint32_t, doc_num_elements(&lib->doc));
     build_check_colorspace(b);
     build_check_distance_unit(b);
     code_find_all(b);

@@ -5,32 +5,70 @@
 
 #include <assert.h>
 
-static struct doc_link *link_of(struct document *doc, elem_id element)
+/* How many lists and comments stand in the origin; the others follow. */
+static uint32_t num_shared_lists(const struct document *doc)
 {
-    assert(element - doc->first_element < doc->links.len);
-    return &doc->links.items[element - doc->first_element];
+    return doc->origin ? doc->origin->comment_lists.len : 0;
 }
 
+static uint32_t num_shared(const struct document *doc)
+{
+    return doc->origin ? doc->origin->comments.len : 0;
+}
+
+const struct doc_comment *doc_comment_at(const struct document *doc, uint32_t comment)
+{
+    uint32_t shared = num_shared(doc);
+    assert(comment > 0 && comment <= shared + doc->comments.len);
+    return comment <= shared ? &doc->origin->comments.items[comment - 1]
+                             : &doc->comments.items[comment - 1 - shared];
+}
+
+static struct doc_comment *own_comment(struct document *doc, uint32_t comment)
+{
+    assert(comment > num_shared(doc));
+    return &doc->comments.items[comment - 1 - num_shared(doc)];
+}
+
+/* Appends a comment to a list of own comments. */
+static void push(struct document *doc, struct comment_lists *lists, unsigned place, str_id text)
+{
+    vec_push(doc->arena, &doc->comments, (struct doc_comment){.text = text});
+    uint32_t added = num_shared(doc) + doc->comments.len;
+    if (lists->last[place])
+        own_comment(doc, lists->last[place])->next = added;
+    else
+        lists->first[place] = added;
+    lists->last[place] = added;
+}
+
+/* A copy of lists of the origin. */
+static struct comment_lists copied(struct document *doc, const struct comment_lists *from)
+{
+    struct comment_lists copy = {0};
+    for (unsigned place = 0; place < NUM_COMMENT_PLACES; place++)
+        for (uint32_t i = from->first[place]; i; i = doc_comment_at(doc, i)->next)
+            push(doc, &copy, place, doc_comment_at(doc, i)->text);
+    return copy;
+}
+
+/* The lists of an element, to be changed. */
 static struct comment_lists *lists_of(struct document *doc, elem_id element)
 {
-    struct doc_link *link = link_of(doc, element);
-    if (!link->comments) {
-        vec_push(doc->arena, &doc->comment_lists, (struct comment_lists){0});
-        link->comments = doc->comment_lists.len;
+    struct doc_link *link = doc_own_link(doc, element);
+    uint32_t shared = num_shared_lists(doc), have = link->comments;
+    if (!have || have <= shared) {
+        struct comment_lists lists = have ? copied(doc, &doc->origin->comment_lists.items[have - 1])
+                                          : (struct comment_lists){0};
+        vec_push(doc->arena, &doc->comment_lists, lists);
+        link->comments = shared + doc->comment_lists.len;
     }
-    return &doc->comment_lists.items[link->comments - 1];
+    return &doc->comment_lists.items[link->comments - 1 - shared];
 }
 
 void doc_add_comment(struct document *doc, elem_id element, enum comment_place place, str_id text)
 {
-    struct comment_lists *lists = lists_of(doc, element);
-    vec_push(doc->arena, &doc->comments, (struct doc_comment){.text = text});
-    uint32_t added = doc->comments.len;
-    if (lists->last[place])
-        doc->comments.items[lists->last[place] - 1].next = added;
-    else
-        lists->first[place] = added;
-    lists->last[place] = added;
+    push(doc, lists_of(doc, element), place, text);
 }
 
 /* Puts list `from` behind list `to`, and empties it. */
@@ -39,7 +77,7 @@ static void append(struct document *doc, uint32_t *to_first, uint32_t *to_last,
 {
     assert(!*from_first == !*from_last && !*to_first == !*to_last);
     if (*to_last)
-        doc->comments.items[*to_last - 1].next = *from_first;
+        own_comment(doc, *to_last)->next = *from_first;
     else
         *to_first = *from_first;
     if (*from_last)
@@ -51,6 +89,7 @@ void doc_move_comments(struct document *doc, elem_id from, elem_id to, enum comm
 {
     assert(from != to && place != COMMENT_BEHIND);
     lists_of(doc, to); /* may move all lists */
+    lists_of(doc, from);
     struct comment_lists *source = lists_of(doc, from), *target = lists_of(doc, to), moved = {0};
     for (unsigned i = 0; i < NUM_COMMENT_PLACES; i++)
         append(doc, &moved.first[0], &moved.last[0], &source->first[i], &source->last[i]);
@@ -62,9 +101,12 @@ void doc_move_comments(struct document *doc, elem_id from, elem_id to, enum comm
 
 uint32_t doc_first_comment(const struct document *doc, elem_id element, enum comment_place place)
 {
-    if (element < doc->first_element || !doc->comments.len)
+    if (element < doc->first_element || num_shared(doc) + doc->comments.len == 0)
         return 0;
-    assert(element - doc->first_element < doc->links.len);
-    uint32_t lists = doc->links.items[element - doc->first_element].comments;
-    return lists ? doc->comment_lists.items[lists - 1].first[place] : 0;
+    const struct doc_link *link = doc_link(doc, element);
+    uint32_t lists = link ? link->comments : 0, shared = num_shared_lists(doc);
+    if (!lists)
+        return 0;
+    return lists <= shared ? doc->origin->comment_lists.items[lists - 1].first[place]
+                           : doc->comment_lists.items[lists - 1 - shared].first[place];
 }

@@ -19,23 +19,89 @@ enum element_kind doc_kind_of(str_id category)
 
 /* Layers */
 
+/* The index in `attrs` of the first attribute that the origin does not have. */
+static uint32_t num_shared_attrs(const struct document *doc)
+{
+    return doc->origin ? doc->origin->attrs.len : 0;
+}
+
+/* The attributes of an element of this layer from its first one. */
+static inline const struct attribute *attrs_of(const struct document *doc, const struct element *e)
+{
+    uint32_t at = e->first_attr - doc->first_attr, shared = num_shared_attrs(doc);
+    return at < shared ? doc->origin->attrs.items + at : doc->attrs.items + (at - shared);
+}
+
 const struct attribute *doc_attrs(const struct document *doc, elem_id element)
 {
     doc = doc_layer(doc, element);
-    const struct element *e = &doc->elements.items[element - doc->first_element];
-    return e->num_attrs ? &doc->attrs.items[e->first_attr - doc->first_attr] : NULL;
+    const struct element *e = doc_element(doc, element);
+    return e->num_attrs ? attrs_of(doc, e) : NULL;
+}
+
+struct doc_change *doc_find_change(const struct document *doc, uint32_t index)
+{
+    uint32_t hash = hash_pair(index, 0);
+    for (uint32_t at = hash, found; (found = table_next(&doc->changed, hash, &at));)
+        if (doc->changes.items[found - 1]->index == index)
+            return doc->changes.items[found - 1];
+    return NULL;
+}
+
+static struct doc_change *add_change(struct document *doc, uint32_t index)
+{
+    struct doc_change *change = ARENA_NEW(doc->arena, struct doc_change);
+    change->index = index;
+    change->is_fresh = true;
+    vec_push(doc->arena, &doc->changes, change);
+    table_add(&doc->changed, doc->arena, hash_pair(index, 0), doc->changes.len);
+    return change;
+}
+
+/* The element apart from its origin, to be changed. It stays where it is. */
+static struct doc_change *change_of(struct document *doc, elem_id element)
+{
+    uint32_t index = element - doc->first_element;
+    struct doc_change *change = doc_find_change(doc, index);
+    if (change) {
+        change->is_fresh = true;
+        return change;
+    }
+    assert(index < doc->origin->elements.len);
+    change = add_change(doc, index);
+    change->element = doc->origin->elements.items[index];
+    change->link = doc->origin->links.items[index];
+    return change;
 }
 
 static struct element *own(struct document *doc, elem_id element)
 {
-    assert(element >= doc->first_element && element - doc->first_element < doc->elements.len);
-    return &doc->elements.items[element - doc->first_element];
+    assert(element >= doc->first_element && element - doc->first_element < doc_num_elements(doc));
+    return doc->origin ? &change_of(doc, element)->element
+                       : &doc->elements.items[element - doc->first_element];
 }
 
 static struct doc_link *link_of(struct document *doc, elem_id element)
 {
-    assert(element - doc->first_element < doc->links.len);
-    return &doc->links.items[element - doc->first_element];
+    assert(element - doc->first_element < doc_num_elements(doc));
+    return doc->origin ? &change_of(doc, element)->link
+                       : &doc->links.items[element - doc->first_element];
+}
+
+struct doc_link *doc_own_link(struct document *doc, elem_id element)
+{
+    return link_of(doc, element);
+}
+
+const struct doc_link *doc_link(const struct document *doc, elem_id element)
+{
+    doc = doc_layer(doc, element);
+    uint32_t index = element - doc->first_element;
+    const struct doc_change *change = doc->origin ? doc_find_change(doc, index) : NULL;
+    if (change)
+        return &change->link;
+    const struct document *whole = doc->origin ? doc->origin : doc;
+    return index < whole->links.len ? &whole->links.items[index] : NULL;
 }
 
 void doc_init(struct document *doc, struct arena *arena, struct strpool *strings,
@@ -76,18 +142,23 @@ static void link_last(struct document *doc, elem_id parent, elem_id element)
 elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, str_id name,
                         uint16_t file, uint32_t line, uint16_t column)
 {
-    uint32_t index = doc->elements.len;
+    uint32_t index = doc_num_elements(doc);
     if (index >= UINT32_MAX - doc->first_element)
         mem_fail(doc->arena->mem);
-    vec_push(doc->arena, &doc->elements,
-             (struct element){.category = category,
-                              .name = name,
-                              .line = line,
-                              .column = column,
-                              .file = file,
-                              .first_attr = doc->first_attr + doc->attrs.len,
-                              .kind = (uint16_t)doc_kind_of(category)});
-    vec_push(doc->arena, &doc->links, (struct doc_link){0});
+    struct element added = {.category = category,
+                            .name = name,
+                            .line = line,
+                            .column = column,
+                            .file = file,
+                            .first_attr = doc->first_attr + num_shared_attrs(doc) + doc->attrs.len,
+                            .kind = (uint16_t)doc_kind_of(category)};
+    if (doc->origin) {
+        doc->num_added++;
+        add_change(doc, index)->element = added;
+    } else {
+        vec_push(doc->arena, &doc->elements, added);
+        vec_push(doc->arena, &doc->links, (struct doc_link){0});
+    }
     doc->has_templates |= category == STR_template;
     doc->has_attributedefs |= category == STR_attributedef;
     assert(doc->links.len == doc->elements.len && parent < doc->first_element + index);
@@ -107,31 +178,51 @@ elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_
 /*
  * The attributes of an element are contiguous: if others follow them, they first move to the end.
  */
-void doc_add_attr(struct document *doc, elem_id element, struct attribute attr)
+/* Moves the attributes of an element to the end, if others follow them or an origin has them. */
+static struct element *own_attrs_at_end(struct document *doc, elem_id element)
 {
     struct element *e = own(doc, element);
-    uint32_t at = e->first_attr - doc->first_attr;
-    assert(at + e->num_attrs <= doc->attrs.len || e->num_attrs == 0);
+    uint32_t first = doc->first_attr + num_shared_attrs(doc);
+    if (e->first_attr >= first && e->first_attr - first + e->num_attrs == doc->attrs.len)
+        return e;
+    struct attribute *moved = vec_extend(doc->arena, &doc->attrs, e->num_attrs);
+    if (e->num_attrs) /* where they were, which may have moved itself */
+        memcpy(moved, attrs_of(doc, e), e->num_attrs * sizeof *moved);
+    e->first_attr = first + doc->attrs.len - e->num_attrs;
+    return e;
+}
+
+void doc_add_attr(struct document *doc, elem_id element, struct attribute attr)
+{
+    struct element *e = own_attrs_at_end(doc, element);
     if (e->num_attrs == UINT16_MAX)
         mem_fail(doc->arena->mem);
-    if (at + e->num_attrs != doc->attrs.len) {
-        struct attribute *moved = vec_extend(doc->arena, &doc->attrs, e->num_attrs);
-        if (e->num_attrs)
-            memcpy(moved, doc->attrs.items + at, e->num_attrs * sizeof *moved);
-        e->first_attr = doc->first_attr + doc->attrs.len - e->num_attrs;
-    }
-    assert(e->first_attr + e->num_attrs == doc->first_attr + doc->attrs.len);
     vec_push(doc->arena, &doc->attrs, attr);
     e->num_attrs++;
+}
+
+/* The attributes of an element, to be changed. */
+static struct attribute *own_attrs(struct document *doc, elem_id element)
+{
+    uint32_t first = doc->first_attr + num_shared_attrs(doc);
+    struct element *e = own(doc, element);
+    if (e->first_attr < first)
+        e = own_attrs_at_end(doc, element);
+    assert(e->first_attr - first + e->num_attrs <= doc->attrs.len);
+    return doc->attrs.items + (e->first_attr - first);
 }
 
 void doc_set_attr(struct document *doc, elem_id element, str_id name, str_id value)
 {
     const struct attribute *attr = doc_attr(doc, element, name);
-    if (attr)
-        doc->attrs.items[attr - doc->attrs.items].value = value;
-    else
+    if (attr && attr->value == value)
+        return;
+    if (attr) {
+        size_t index = (size_t)(attr - doc_attrs(doc, element));
+        own_attrs(doc, element)[index].value = value;
+    } else {
         doc_add_attr(doc, element, (struct attribute){.name = name, .value = value});
+    }
 }
 
 void doc_remove_attr(struct document *doc, elem_id element, str_id name)
@@ -139,12 +230,11 @@ void doc_remove_attr(struct document *doc, elem_id element, str_id name)
     const struct attribute *found = doc_attr(doc, element, name);
     if (!found)
         return;
+    size_t index = (size_t)(found - doc_attrs(doc, element));
+    struct attribute *attrs = own_attrs(doc, element);
     struct element *e = own(doc, element);
-    struct attribute *attr = &doc->attrs.items[found - doc->attrs.items];
-    const struct attribute *end =
-        doc->attrs.items + (e->first_attr - doc->first_attr) + e->num_attrs;
-    assert(attr < end);
-    memmove(attr, attr + 1, (size_t)(end - attr - 1) * sizeof *attr);
+    assert(index < e->num_attrs);
+    memmove(attrs + index, attrs + index + 1, (e->num_attrs - index - 1) * sizeof *attrs);
     e->num_attrs--;
 }
 
@@ -286,11 +376,10 @@ static inline const struct attribute *find_attr(const struct document *doc, elem
                                                 str_id name)
 {
     doc = doc_layer(doc, element);
-    const struct element *e = &doc->elements.items[element - doc->first_element];
+    const struct element *e = doc_element(doc, element);
     if (!e->num_attrs)
         return NULL;
-    const struct attribute *attr = &doc->attrs.items[e->first_attr - doc->first_attr],
-                           *end = attr + e->num_attrs;
+    const struct attribute *attr = attrs_of(doc, e), *end = attr + e->num_attrs;
     while (attr < end && attr->name != name)
         attr++;
     return attr < end ? attr : NULL;
@@ -341,10 +430,9 @@ static uint32_t width_of(const struct document *doc, str_id text)
     return width;
 }
 
-/* NULL: the element has a line. */
-static const char *kept_path(const struct document *doc, elem_id element)
+/* The path of an element without a line; NULL: `doc` keeps none. */
+static const char *find_path(const struct document *doc, elem_id element)
 {
-    doc = doc_layer(doc, element);
     uint32_t first = 0, num = doc->paths.len;
     while (num) {
         uint32_t half = num / 2;
@@ -355,6 +443,13 @@ static const char *kept_path(const struct document *doc, elem_id element)
         num = at < element ? num - half - 1 : half;
     }
     return NULL;
+}
+
+static const char *kept_path(const struct document *doc, elem_id element)
+{
+    doc = doc_layer(doc, element);
+    const char *path = find_path(doc, element);
+    return path || !doc->origin ? path : find_path(doc->origin, element);
 }
 
 /* 0 for a column that saturates: a message then shows no place in the line. */
@@ -376,12 +471,11 @@ struct diag_place doc_place(const struct document *doc, elem_id element)
 struct diag_place doc_name_place(const struct document *doc, elem_id element)
 {
     struct diag_place place = doc_place(doc, element);
-    const struct document *layer = doc_layer(doc, element);
-    uint32_t own = element - layer->first_element;
-    if (own >= layer->links.len || !layer->links.items[own].name_column)
+    const struct doc_link *link = doc_link(doc, element);
+    if (!link || !link->name_column)
         return place;
-    place.line += layer->links.items[own].name_line;
-    place.column = known_column(layer->links.items[own].name_column);
+    place.line += link->name_line;
+    place.column = known_column(link->name_column);
     place.length = width_of(doc, doc_element(doc, element)->name);
     return place;
 }
@@ -420,19 +514,31 @@ static bool is_named_child(const struct document *doc, elem_id element)
 
 static bool is_child(const struct document *doc, elem_id element, elem_id parent, str_id name)
 {
-    assert(element - doc->first_element < doc->elements.len);
-    const struct element *e = &doc->elements.items[element - doc->first_element];
+    const struct element *e = doc_element(doc, element);
     return e->parent == parent && e->name == name;
 }
 
-/* The element of this name below a parent; 0: none. *at is its place in the table. */
-static elem_id find_name(const struct document *doc, elem_id parent, str_id name, uint32_t *at)
+/*
+ * The element of this name below a parent; 0: none. *at is its place in the table, which is that of
+ * the document or of its origin.
+ */
+static elem_id find_in_table(const struct document *doc, const struct table *names, elem_id parent,
+                             str_id name, uint32_t *at)
 {
     uint32_t hash = *at = hash_pair(parent, name);
     elem_id found;
-    while ((found = table_next(&doc->names, hash, at)) && !is_child(doc, found, parent, name))
+    while ((found = table_next(names, hash, at)) && !is_child(doc, found, parent, name))
         ;
     return found;
+}
+
+static elem_id find_name(const struct document *doc, elem_id parent, str_id name, uint32_t *at)
+{
+    elem_id found = find_in_table(doc, &doc->names, parent, name, at);
+    uint32_t at_origin;
+    return found || !doc->origin
+               ? found
+               : find_in_table(doc, &doc->origin->names, parent, name, &at_origin);
 }
 
 /* True if two elements have equal content, so that the second one is redundant. */
@@ -489,6 +595,7 @@ static void report_duplicate(struct document *doc, elem_id first, elem_id second
 elem_id doc_second_of_name(const struct document *doc, elem_id element)
 {
     doc = doc_layer(doc, element);
+    doc = doc->origin ? doc->origin : doc;
     uint32_t at = hash_pair(element, 0);
     for (uint32_t found;
          doc->doubles.len && (found = table_next(&doc->double_table, hash_pair(element, 0), &at));)
@@ -499,6 +606,7 @@ elem_id doc_second_of_name(const struct document *doc, elem_id element)
 
 void doc_index_names(struct document *doc, struct diag_list *diags)
 {
+    assert(!doc->origin);
     doc->names = (struct table){0};
     table_reserve(&doc->names, doc->arena, doc->elements.len / 3 * 2); /* three of four are used */
     for (uint32_t i = 0; i < doc->elements.len; i++) {
@@ -522,7 +630,7 @@ void doc_index_element(struct document *doc, elem_id element)
         return;
     const struct element *e = doc_element(doc, element);
     uint32_t at;
-    if (find_name(doc, e->parent, e->name, &at))
+    if (find_in_table(doc, &doc->names, e->parent, e->name, &at))
         table_replace(&doc->names, at, element);
     else
         table_add(&doc->names, doc->arena, hash_pair(e->parent, e->name), element);

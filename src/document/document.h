@@ -128,6 +128,14 @@ struct comment_lists {
     uint32_t first[NUM_COMMENT_PLACES], last[NUM_COMMENT_PLACES];
 };
 
+/* An element of an edited document that differs from its origin's, or is not in the origin. */
+struct doc_change {
+    uint32_t index; /* from first_element */
+    bool is_fresh;  /* of this edit, not of one before it */
+    struct element element;
+    struct doc_link link;
+};
+
 struct document {
     const struct document *base;                    /* the layer below, or NULL */
     struct strpool *strings;                        /* the pool of this layer */
@@ -142,6 +150,15 @@ struct document {
     bool keeps_comments;    /* the reader adds the comments of files */
     /* blanks surround some '=', so no place of an attribute's name is known */
     bool has_loose_attrs;
+    /*
+     * The document that an edit began with; NULL: all elements are in the arrays below. Otherwise
+     * `changes` has the elements that differ, and the arrays have only items behind those of the
+     * origin, which is in one piece and lives as long.
+     */
+    const struct document *origin;
+    VEC(struct doc_change *) changes;
+    struct table changed;         /* index of an element → position in `changes` + 1 */
+    uint32_t num_added;           /* elements that the origin does not have */
     VEC(struct element) elements; /* elements of this layer */
     VEC(struct attribute) attrs;
     VEC(str_id) files;          /* names from the user or from includes */
@@ -202,10 +219,6 @@ uint32_t doc_first_comment(const struct document *doc, elem_id element, enum com
 
 /* document.c */
 
-static inline bool doc_is_full(const struct document *doc)
-{
-    return doc->max_elements && doc->elements.len >= doc->max_elements;
-}
 /* The number of a file name; adds the name if this layer lacks it. 0: more than 65,535 files. */
 uint16_t doc_add_file(struct document *doc, str_id name);
 
@@ -245,19 +258,40 @@ void doc_index_element(struct document *doc, elem_id element);
  */
 void doc_complete(struct document *doc, struct diag_list *diags);
 
+/* The number of elements of this layer, removed ones included. */
+static inline uint32_t doc_num_elements(const struct document *doc)
+{
+    return doc->origin ? doc->origin->elements.len + doc->num_added : doc->elements.len;
+}
+static inline bool doc_is_full(const struct document *doc)
+{
+    return doc->max_elements && doc_num_elements(doc) >= doc->max_elements;
+}
+/* The change of an element by its index; NULL: it is as in the origin. */
+struct doc_change *doc_find_change(const struct document *doc, uint32_t index);
+
 /* The layer of an element. */
 static inline const struct document *doc_layer(const struct document *doc, elem_id element)
 {
     while (element < doc->first_element)
         doc = doc->base;
-    assert(element - doc->first_element < doc->elements.len);
+    assert(element - doc->first_element < doc_num_elements(doc));
     return doc;
 }
 static inline const struct element *doc_element(const struct document *doc, elem_id element)
 {
     doc = doc_layer(doc, element);
-    return &doc->elements.items[element - doc->first_element];
+    uint32_t index = element - doc->first_element;
+    if (doc->origin) {
+        const struct doc_change *change = doc_find_change(doc, index);
+        return change ? &change->element : &doc->origin->elements.items[index];
+    }
+    return &doc->elements.items[index];
 }
+/* To be changed. */
+struct doc_link *doc_own_link(struct document *doc, elem_id element);
+/* What only a tree in memory has; NULL: an image has none. */
+const struct doc_link *doc_link(const struct document *doc, elem_id element);
 /* The num_attrs attributes of the element. */
 const struct attribute *doc_attrs(const struct document *doc, elem_id element);
 /* NULL if absent. */
@@ -321,6 +355,8 @@ void doc_qualify_names(struct document *doc);
  * are those of this layer.
  */
 void doc_fix_paths(struct document *doc, struct diag_list *diags);
+/* The same for one element. */
+void doc_fix_paths_of(struct document *doc, elem_id element, struct diag_list *diags);
 /* The same for one name; `where` is its place. */
 str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place where,
                     struct diag_list *diags);
@@ -330,10 +366,18 @@ str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place wher
  */
 
 /*
- * Fills a document of doc_init with the tree of another one, above the same base. Its strings must
- * be a copy of the other's (strpool_copy).
+ * Makes a document that shares the elements of `from`, or of the origin of `from`, which becomes
+ * its origin. Its strings are above those of the origin; those of `from` that the origin lacks are
+ * in it under the same ids. Time and memory: linear in the changes of `from`.
  */
-void doc_copy(struct document *doc, const struct document *from);
+void doc_begin_edit(struct document *doc, struct arena *arena, struct strpool *strings,
+                    const struct document *from);
+/* Takes all elements out of the origin. The strings become those of the whole layer. */
+void doc_leave_origin(struct document *doc);
+/* True if an element of the origin has other siblings or children at most. */
+bool doc_is_same(const struct document *doc, const struct doc_change *change);
+/* A comment by its index plus 1. */
+const struct doc_comment *doc_comment_at(const struct document *doc, uint32_t comment);
 /*
  * Appends a copy of an element of any document, with all below it and their comments; `name` 0
  * keeps the name. The copies have no line. 0: the document is full (doc_is_full).

@@ -3,35 +3,103 @@
 #include "document/document.h"
 
 #include <assert.h>
+#include <stdlib.h>
 
-/* ---- Copies ---- */
+/* ---- What documents share ---- */
 
-#define COPY(field) \
+#define COPY(to, from, field) \
     do { \
-        if (from->field.len) \
-            memcpy(vec_extend(doc->arena, &doc->field, from->field.len), from->field.items, \
-                   from->field.len * sizeof *from->field.items); \
+        if ((from)->field.len) \
+            memcpy(vec_extend((to)->arena, &(to)->field, (from)->field.len), (from)->field.items, \
+                   (from)->field.len * sizeof *(from)->field.items); \
     } while (0)
 
-void doc_copy(struct document *doc, const struct document *from)
+static void copy_changes(struct document *doc, const struct document *from)
 {
-    assert(doc->base == from->base && doc->first_element == from->first_element);
-    assert(doc->strings->num == from->strings->num && doc->elements.len == 1);
-    doc->elements.len = doc->links.len = 0;
-    COPY(elements);
-    COPY(attrs);
-    COPY(files);
-    COPY(links);
-    COPY(comments);
-    COPY(comment_lists);
-    doc->root = from->root;
-    doc->max_elements = from->max_elements;
-    doc->has_templates = from->has_templates;
-    doc->has_attributedefs = from->has_attributedefs;
-    doc->is_global = from->is_global;
-    doc->keeps_comments = from->keeps_comments;
+    uint32_t num = from->changes.len;
+    struct doc_change *changes = ARENA_ARRAY(doc->arena, struct doc_change, num),
+                      **items = vec_extend(doc->arena, &doc->changes, num);
+    doc->num_added = from->num_added;
+    for (uint32_t i = 0; i < num; i++) {
+        items[i] = &changes[i];
+        changes[i] = *from->changes.items[i];
+        changes[i].is_fresh = false;
+    }
+    table_copy(&doc->changed, doc->arena, &from->changed);
     table_copy(&doc->names, doc->arena, &from->names);
+    COPY(doc, from, attrs);
+    COPY(doc, from, comments);
+    COPY(doc, from, comment_lists);
 }
+
+void doc_begin_edit(struct document *doc, struct arena *arena, struct strpool *strings,
+                    const struct document *from)
+{
+    const struct document *origin = from->origin ? from->origin : from;
+    assert(strings->base == origin->strings && !origin->origin);
+    *doc = (struct document){.base = origin->base,
+                             .strings = strings,
+                             .arena = arena,
+                             .first_element = origin->first_element,
+                             .first_attr = origin->first_attr,
+                             .first_file = origin->first_file,
+                             .root = origin->root,
+                             .max_elements = from->max_elements,
+                             .has_templates = from->has_templates,
+                             .has_attributedefs = from->has_attributedefs,
+                             .is_global = from->is_global,
+                             .keeps_comments = from->keeps_comments,
+                             .has_loose_attrs = from->has_loose_attrs,
+                             .origin = origin};
+    COPY(doc, from, files);
+    if (from->origin)
+        copy_changes(doc, from);
+}
+
+bool doc_is_same(const struct document *doc, const struct doc_change *change)
+{
+    if (change->index >= doc->origin->elements.len)
+        return false;
+    const struct element *now = &change->element,
+                         *before = &doc->origin->elements.items[change->index];
+    return now->category == before->category && now->name == before->name
+           && now->parent == before->parent && now->first_attr == before->first_attr
+           && now->num_attrs == before->num_attrs;
+}
+
+void doc_leave_origin(struct document *doc)
+{
+    const struct document *origin = doc->origin;
+    struct document changed = *doc;
+    uint32_t num = doc_num_elements(doc);
+    memset(&doc->elements, 0, sizeof doc->elements);
+    memset(&doc->attrs, 0, sizeof doc->attrs);
+    memset(&doc->comments, 0, sizeof doc->comments);
+    memset(&doc->comment_lists, 0, sizeof doc->comment_lists);
+    COPY(doc, origin, attrs);
+    COPY(doc, origin, comments);
+    COPY(doc, origin, comment_lists);
+    COPY(doc, &changed, attrs);
+    COPY(doc, &changed, comments);
+    COPY(doc, &changed, comment_lists);
+    COPY(doc, origin, elements);
+    COPY(doc, origin, links);
+    (void)vec_extend(doc->arena, &doc->elements, num - origin->elements.len);
+    (void)vec_extend(doc->arena, &doc->links, num - origin->links.len);
+    for (uint32_t i = 0; i < changed.changes.len; i++) {
+        const struct doc_change *change = changed.changes.items[i];
+        doc->elements.items[change->index] = change->element;
+        doc->links.items[change->index] = change->link;
+    }
+    doc->origin = NULL;
+    doc->num_added = 0;
+    memset(&doc->changes, 0, sizeof doc->changes);
+    memset(&doc->changed, 0, sizeof doc->changed);
+    memset(&doc->paths, 0, sizeof doc->paths);
+    doc_index_names(doc, NULL);
+}
+
+/* ---- Copies ---- */
 
 struct copier {
     struct document *doc;
@@ -49,8 +117,8 @@ static void copy_comments(const struct copier *c, elem_id copy, elem_id element)
     const struct document *from = doc_layer(c->from, element);
     for (unsigned place = 0; place < NUM_COMMENT_PLACES; place++)
         for (uint32_t i = doc_first_comment(from, element, place); i;
-             i = from->comments.items[i - 1].next)
-            doc_add_comment(c->doc, copy, place, copied_text(c, from->comments.items[i - 1].text));
+             i = doc_comment_at(from, i)->next)
+            doc_add_comment(c->doc, copy, place, copied_text(c, doc_comment_at(from, i)->text));
 }
 
 static elem_id copy_one(const struct copier *c, elem_id parent, elem_id element, str_id name)
@@ -79,7 +147,7 @@ elem_id doc_copy_element(struct document *doc, elem_id parent, const struct docu
     VEC(elem_id) sources = {0};
     for (elem_id at = element; at; at = doc_next_in_tree(from, element, at))
         vec_push(doc->arena, &sources, at);
-    if (doc->max_elements && sources.len > doc->max_elements - doc->elements.len)
+    if (doc->max_elements && sources.len > doc->max_elements - doc_num_elements(doc))
         return 0;
     elem_id copy = copy_one(&c, parent, element, name), at = copy;
     for (uint32_t i = 1; i < sources.len; i++) {
@@ -93,7 +161,7 @@ elem_id doc_copy_element(struct document *doc, elem_id parent, const struct docu
 
 bool doc_has_element(const struct document *doc, elem_id element)
 {
-    return element >= doc->first_element && element - doc->first_element < doc->elements.len
+    return element >= doc->first_element && element - doc->first_element < doc_num_elements(doc)
            && doc_is_within(doc, element, doc->root);
 }
 
@@ -229,16 +297,32 @@ void doc_rename(struct document *doc, elem_id element, str_id name)
 
 /* ---- Places ---- */
 
+static void keep_path(struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element);
+    if (e->line || !e->parent)
+        return;
+    struct text path;
+    text_init(&path, doc->arena);
+    doc_path(doc, element, '/', &path);
+    vec_push(doc->arena, &doc->paths, (struct doc_place_path){element, text_cstr(&path)});
+}
+
+static int by_element(const void *a, const void *b)
+{
+    elem_id x = ((const struct doc_place_path *)a)->element,
+            y = ((const struct doc_place_path *)b)->element;
+    return (x > y) - (x < y);
+}
+
 void doc_keep_paths(struct document *doc)
 {
-    assert(!doc->paths.len);
-    for (uint32_t i = 0; i < doc->elements.len; i++) {
-        elem_id element = doc->first_element + i;
-        if (doc->elements.items[i].line || !doc->elements.items[i].parent)
-            continue;
-        struct text path;
-        text_init(&path, doc->arena);
-        doc_path(doc, element, '/', &path);
-        vec_push(doc->arena, &doc->paths, (struct doc_place_path){element, text_cstr(&path)});
-    }
+    doc->paths.len = 0;
+    if (!doc->origin)
+        for (uint32_t i = 0; i < doc->elements.len; i++)
+            keep_path(doc, doc->first_element + i);
+    for (uint32_t i = 0; i < doc->changes.len; i++)
+        keep_path(doc, doc->first_element + doc->changes.items[i]->index);
+    if (doc->paths.len)
+        qsort(doc->paths.items, doc->paths.len, sizeof *doc->paths.items, by_element);
 }

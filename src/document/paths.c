@@ -24,16 +24,21 @@ static bool is_path(const struct document *doc, elem_id element, str_id attr)
            || (attr == STR_value && doc_attr_value(doc, element, STR_type) == STR_filename);
 }
 
+void doc_fix_paths_of(struct document *doc, elem_id element, struct diag_list *diags)
+{
+    for (uint32_t i = 0; i < doc_element(doc, element)->num_attrs; i++) {
+        struct attribute attr = doc_attrs(doc, element)[i];
+        if (!is_path(doc, element, attr.name))
+            continue;
+        str_id fixed =
+            doc_fix_path(doc->strings, attr.value, doc_attr_place(doc, element, attr.name), diags);
+        if (fixed != attr.value)
+            doc_set_attr(doc, element, attr.name, fixed);
+    }
+}
+
 void doc_fix_paths(struct document *doc, struct diag_list *diags)
 {
     for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e))
-        for (uint32_t i = 0; i < doc_element(doc, e)->num_attrs; i++) {
-            struct attribute attr = doc_attrs(doc, e)[i];
-            if (!is_path(doc, e, attr.name))
-                continue;
-            str_id fixed =
-                doc_fix_path(doc->strings, attr.value, doc_attr_place(doc, e, attr.name), diags);
-            if (fixed != attr.value)
-                doc_set_attr(doc, e, attr.name, fixed);
-        }
+        doc_fix_paths_of(doc, e, diags);
 }

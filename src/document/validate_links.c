@@ -115,7 +115,7 @@ static void report_cycle(struct walk *w, elem_id again)
 static void enter(struct walk *w, elem_id node)
 {
     const struct document *doc = w->v->doc;
-    assert(node - doc->first_element < doc->elements.len);
+    assert(node - doc->first_element < doc_num_elements(doc));
     uint8_t *state = &w->states[node - doc->first_element];
     if (*state == ON_PATH)
         report_cycle(w, node);
@@ -154,8 +154,8 @@ static void check_cycles_from(struct walk *w, elem_id start)
 void validate_links(struct validation *v)
 {
     const struct document *doc = v->doc;
-    struct walk walk = {.v = v, .states = ARENA_ARRAY(v->arena, uint8_t, doc->elements.len)};
-    elem_id *marks = ARENA_ARRAY(v->arena, elem_id, doc->elements.len);
+    struct walk walk = {.v = v, .states = ARENA_ARRAY(v->arena, uint8_t, doc_num_elements(doc))};
+    elem_id *marks = ARENA_ARRAY(v->arena, elem_id, doc_num_elements(doc));
     for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e)) {
         enum element_kind kind = (enum element_kind)doc_element(doc, e)->kind;
         check_references(v, e);

@@ -43,9 +43,8 @@ static void write_comment(const struct document *doc, str_id text, struct text *
 static void write_comments(const struct document *doc, elem_id element, enum comment_place place,
                            uint32_t depth, struct text *out)
 {
-    for (uint32_t i = doc_first_comment(doc, element, place); i;
-         i = doc->comments.items[i - 1].next) {
-        str_id text = doc->comments.items[i - 1].text;
+    for (uint32_t i = doc_first_comment(doc, element, place); i; i = doc_comment_at(doc, i)->next) {
+        str_id text = doc_comment_at(doc, i)->text;
         if (text) {
             indent(out, depth);
             write_comment(doc, text, out);
@@ -57,9 +56,9 @@ static void write_comments(const struct document *doc, elem_id element, enum com
 static void end_line(const struct document *doc, elem_id element, struct text *out)
 {
     for (uint32_t i = doc_first_comment(doc, element, COMMENT_BEHIND); i;
-         i = doc->comments.items[i - 1].next) {
+         i = doc_comment_at(doc, i)->next) {
         text_char(out, doc_element(doc, element)->parent ? ' ' : '\n');
-        write_comment(doc, doc->comments.items[i - 1].text, out);
+        write_comment(doc, doc_comment_at(doc, i)->text, out);
     }
     text_char(out, '\n');
 }

@@ -289,8 +289,8 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     struct indexer ix = {lib, lib->doc.arena, reader, diags};
     lib->deferred = ARENA_NEW(ix.arena, struct diag_list);
     diag_list_init(lib->deferred, ix.arena);
-    uint32_t *info = vec_extend(ix.arena, &lib->element_info, lib->doc.elements.len);
-    memset(info, 0, lib->doc.elements.len * sizeof *info);
+    uint32_t *info = vec_extend(ix.arena, &lib->element_info, doc_num_elements(&lib->doc));
+    memset(info, 0, doc_num_elements(&lib->doc) * sizeof *info);
     for_each(&ix, KIND_TYPEDEF, add_typedef);
     for_each(&ix, KIND_NODEDEF, add_nodedef);
     make_node_table(&ix);
@@ -301,7 +301,7 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     index_link_implementations(&ix);
     for_each(&ix, KIND_UNITDEF, add_unitdef);
     library_sort_units(lib);
-    assert(lib->element_info.len == lib->doc.elements.len);
+    assert(lib->element_info.len == doc_num_elements(&lib->doc));
 }
 
 /*
@@ -333,7 +333,7 @@ static void resolve_graph(struct library *lib, const struct implementation *impl
         assert(node.first_binding == first);
         number_interface(lib, impl->nodedef, out->bindings.items + first,
                          out->bindings.len - first);
-        assert(lib->graph_nodes.len < lib->doc.elements.len);
+        assert(lib->graph_nodes.len < doc_num_elements(&lib->doc));
         vec_push(out->arena, &lib->graph_nodes, node);
         lib->element_info.items[e - lib->doc.first_element] = lib->graph_nodes.len;
     }

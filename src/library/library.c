@@ -21,8 +21,19 @@ void library_init(struct library *lib, struct arena *arena, struct library *base
     lib->base_sources = base->base_sources + base->sources.len;
     lib->base_types = base->base_types + base->types.len;
     lib->base_geomprops = base->base_geomprops + base->geomprops.len;
-    assert(lib->doc.root == base->doc.first_element + base->doc.elements.len);
+    assert(lib->doc.root == base->doc.first_element + doc_num_elements(&base->doc));
     assert(lib->base_nodedefs == library_num_nodedefs(base));
+}
+
+void library_share(struct library *lib, const struct library *from)
+{
+    const struct document doc = lib->doc;
+    const struct strpool strings = lib->strings;
+    assert(strings.base == &from->strings && doc.first_element == from->doc.first_element);
+    *lib = *from;
+    lib->doc = doc;
+    lib->strings = strings;
+    lib->unit.strings = lib->doc.strings = &lib->strings;
 }
 
 const struct nodedef *library_nodedef(const struct library *lib, uint32_t id)
@@ -100,7 +111,7 @@ const struct library *library_of_element(const struct library *lib, elem_id elem
 {
     while (element < lib->doc.first_element)
         lib = lib->base;
-    assert(element - lib->doc.first_element < lib->doc.elements.len);
+    assert(element - lib->doc.first_element < doc_num_elements(&lib->doc));
     return lib;
 }
 
@@ -113,7 +124,8 @@ uint32_t library_element_info(const struct library *lib, elem_id element,
     uint32_t own = element - lib->doc.first_element;
     assert(!lib->narrow_info || lib->element_info.len == 0);
     if (lib->narrow_info)
-        return own < lib->doc.elements.len ? (uint32_t)lib->narrow_info[own] - 1 : LIBRARY_NONE;
+        return own < doc_num_elements(&lib->doc) ? (uint32_t)lib->narrow_info[own] - 1
+                                                 : LIBRARY_NONE;
     return own < lib->element_info.len ? lib->element_info.items[own] - 1 : LIBRARY_NONE;
 }
 

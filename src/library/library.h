@@ -234,6 +234,11 @@ struct library {
 
 /* library.c */
 
+/*
+ * Takes the definitions of another layer for the document and the strings of this one: those of the
+ * other layer, and more. The other layer lives as long.
+ */
+void library_share(struct library *lib, const struct library *from);
 void library_init(struct library *lib, struct arena *arena, struct library *base);
 
 const struct nodedef *library_nodedef(const struct library *lib, uint32_t id);

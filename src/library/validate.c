@@ -12,7 +12,7 @@ static const char *text_of(const struct validate *v, str_id id)
 static void note_use(struct validate *v, const struct binding *binding)
 {
     elem_id first = v->doc->first_element;
-    assert(binding->kind != BIND_NODE || binding->ref < first + v->doc->elements.len);
+    assert(binding->kind != BIND_NODE || binding->ref < first + doc_num_elements(v->doc));
     if (binding->kind == BIND_NODE && binding->ref >= first)
         v->used[binding->ref - first] = 1;
 }
@@ -130,9 +130,9 @@ static void check_use(struct validate *v)
 
 void library_validate(const struct library *lib, struct arena *scratch, struct diag_list *diags)
 {
-    assert(lib->element_info.len == lib->doc.elements.len);
+    assert(lib->element_info.len <= doc_num_elements(&lib->doc));
     struct validate v = {.lib = lib, .doc = &lib->doc, .diags = diags, .resolved.arena = scratch};
-    v.used = ARENA_ARRAY(scratch, uint8_t, lib->doc.elements.len);
+    v.used = ARENA_ARRAY(scratch, uint8_t, doc_num_elements(&lib->doc));
     doc_validate(v.doc, diags);
     for (elem_id e = v.doc->root; e; e = doc_next_in_tree(v.doc, v.doc->root, e))
         check_element(&v, e);

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * An edit of a large document changes few elements. The document that it makes shares the rest with
+ * its origin: elements, names, strings, definitions and renderables. This file decides whether the
+ * changes leave the definitions as they are.
+ */
+#include "api/api.h"
+
+#include <assert.h>
+
+/*
+ * With more changes the document stands alone. An edit copies all changes since the origin, and
+ * standing alone costs time for each element, so the mean cost of an edit is least for about the
+ * square root of the elements.
+ */
+static bool are_many(uint64_t num_changes, uint64_t num_elements)
+{
+    return num_changes > 64 && num_changes * num_changes > 4 * num_elements;
+}
+
+static bool is_definition(const struct document *doc, elem_id top)
+{
+    switch ((enum element_kind)doc_element(doc, top)->kind) {
+    case KIND_NODE:
+    case KIND_LOOK:
+    case KIND_LOOKGROUP:
+    case KIND_COLLECTION:
+    case KIND_VARIANTSET:
+    case KIND_PROPERTYSET:
+    case KIND_GEOMINFO:
+    case KIND_OUTPUT: return false;
+    case KIND_NODEGRAPH: return doc_attr(doc, top, STR_nodedef) != NULL;
+    default: return true;
+    }
+}
+
+/* True if an element of the tree is a part of a definition. */
+static bool defines(const struct document *doc, elem_id element)
+{
+    if (!doc_has_element(doc, element) || element == doc->root)
+        return false;
+    while (doc_element(doc, element)->parent != doc->root)
+        element = doc_element(doc, element)->parent;
+    return is_definition(doc, element);
+}
+
+/* Messages name elements below by their paths. */
+static bool is_renamed_parent(const struct document *doc, const struct doc_change *change)
+{
+    if (change->index >= doc->origin->elements.len || !change->element.first_child)
+        return false;
+    const struct element *before = &doc->origin->elements.items[change->index];
+    return change->element.name != before->name || change->element.parent != before->parent;
+}
+
+static bool leaves_definitions(const struct document *doc, const struct doc_change *change)
+{
+    elem_id element = doc->first_element + change->index;
+    if (doc_is_same(doc, change))
+        return true;
+    bool is_shared = change->index < doc->origin->elements.len;
+    return element != doc->root && !doc_attr(doc, element, STR_namespace)
+           && !is_renamed_parent(doc, change) && !defines(doc, element)
+           && !(is_shared && defines(doc->origin, element));
+}
+
+static bool can_share(const mxg_document *document)
+{
+    const struct document *doc = &document->layer.doc;
+    const mxg_document *origin = document->origin;
+    if (!origin->is_silent || origin->layer.impls.len || doc->has_templates || !doc->is_global
+        || origin->layer.trust != document->layer.trust
+        || doc->has_attributedefs != doc->origin->has_attributedefs
+        || are_many(doc->changes.len, doc->origin->elements.len))
+        return false;
+    for (uint32_t i = 0; i < doc->changes.len; i++)
+        if (doc->changes.items[i]->is_fresh && !leaves_definitions(doc, doc->changes.items[i]))
+            return false;
+    return true;
+}
+
+bool edit_share(mxg_document *document, struct arena *scratch, struct diag_list *diags)
+{
+    struct document *doc = &document->layer.doc;
+    if (!can_share(document))
+        return false;
+    for (uint32_t i = 0; i < doc->changes.len; i++)
+        if (doc->changes.items[i]->is_fresh && !doc_is_same(doc, doc->changes.items[i]))
+            doc_fix_paths_of(doc, doc->first_element + doc->changes.items[i]->index, diags);
+    doc_keep_paths(doc);
+    library_share(&document->layer, &document->origin->layer);
+    document->is_silent = true;
+    if (!document_share_renderables(document))
+        document_find_renderables(document, scratch);
+    return true;
+}

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Edited documents share what they do not change: memory and work of an edit do not grow with the
+ * document, and after any sequence of edits a document is what reading its text gives.
+ */
+#include "tests/unit/test.h"
+
+#include <mxgen/mxgen.h>
+
+#include <stdlib.h>
+
+static size_t used;
+
+static void *count_realloc(void *user_data, void *block, size_t old_size, size_t new_size)
+{
+    (void)user_data;
+    used += new_size - old_size;
+    if (new_size)
+        return realloc(block, new_size);
+    free(block);
+    return NULL;
+}
+
+struct world {
+    mxg_context *context;
+    mxg_library *library;
+};
+
+static struct world open_world(void)
+{
+    struct world w = {0};
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    desc.realloc = count_realloc;
+    REQUIRE(mxg_context_create(&desc, &w.context) == MXG_OK);
+    w.library = mxg_library_builtin(w.context);
+    return w;
+}
+
+static void close_world(struct world *w)
+{
+    mxg_library_unref(w->library);
+    mxg_context_destroy(w->context);
+    REQUIRE_EQ(used, 0);
+}
+
+static mxg_document *parse(struct world *w, const char *text, size_t size)
+{
+    mxg_document *document = NULL;
+    REQUIRE(mxg_document_parse(w->context, w->library, "shared.mtlx", text, size, &document)
+            == MXG_OK);
+    return document;
+}
+
+static mxg_document *many_materials(struct world *w, unsigned count)
+{
+    char *text = malloc(count * 400 + 100);
+    size_t len = (size_t)sprintf(text, "<materialx version='1.39'>");
+    for (unsigned i = 0; i < count; ++i)
+        len += (size_t)sprintf(
+            text + len,
+            "<!-- material %u --><standard_surface name='S%u' type='surfaceshader'>"
+            "<input name='base' type='float' value='0.5'/></standard_surface>"
+            "<surfacematerial name='M%u' type='material'>"
+            "<input name='surfaceshader' type='surfaceshader' nodename='S%u'/></surfacematerial>",
+            i, i, i, i);
+    len += (size_t)sprintf(text + len, "</materialx>");
+    mxg_document *document = parse(w, text, len);
+    free(text);
+    return document;
+}
+
+/* ---- Memory ---- */
+
+enum edit_kind { VALUE, NEW_INPUT, NEW_NODE, CONNECTION, NUM_KINDS };
+
+/* The bytes that a document takes beside the one that it comes from. */
+static size_t bytes_of_edit(struct world *w, const mxg_document *from, enum edit_kind kind)
+{
+    mxg_edit *edit;
+    mxg_document *next;
+    const float value = 0.25f;
+    size_t before = used;
+    REQUIRE(mxg_edit_begin(w->context, w->library, from, NULL, &edit) == MXG_OK);
+    mxg_element shader = mxg_edit_find(edit, "S1"), node;
+    switch (kind) {
+    case VALUE: mxg_edit_numbers(edit, shader, "base", NULL, &value, 1); break;
+    case NEW_INPUT: mxg_edit_numbers(edit, shader, "coat", "float", &value, 1); break;
+    case NEW_NODE: mxg_edit_add(edit, 0, "constant", "Grey", "float"); break;
+    default:
+        node = mxg_edit_add(edit, 0, "constant", "Grey", "float");
+        mxg_edit_connect(edit, shader, "base", node, NULL);
+    }
+    REQUIRE_STR(mxg_edit_error(edit), "");
+    REQUIRE(mxg_edit_end(edit, &next) == MXG_OK);
+    size_t bytes = used - before;
+    mxg_document_destroy(next);
+    REQUIRE_EQ(used, before);
+    return bytes;
+}
+
+/* A document with 40 times the materials takes the same memory for an edit. */
+static void test_memory(void)
+{
+    struct world w = open_world();
+    mxg_document *small = many_materials(&w, 50), *large = many_materials(&w, 2000);
+    for (int kind = 0; kind < NUM_KINDS; ++kind) {
+        size_t of_small = bytes_of_edit(&w, small, (enum edit_kind)kind),
+               of_large = bytes_of_edit(&w, large, (enum edit_kind)kind);
+        REQUIRE(of_small > 0);
+        if (!REQUIRE(of_large <= of_small + 64))
+            printf("    kind %d: %zu bytes, and %zu with more materials\n", kind, of_small,
+                   of_large);
+    }
+    mxg_document_destroy(small);
+    mxg_document_destroy(large);
+    close_world(&w);
+}
+
+/* A slider: a thousand edits of one value take the memory of one. */
+static void test_slider(void)
+{
+    struct world w = open_world();
+    mxg_document *document = many_materials(&w, 500);
+    size_t first = 0, most = 0, before = used;
+    for (int i = 0; i < 1000; ++i) {
+        mxg_edit *edit;
+        mxg_document *next;
+        const float value = 0.001f * (float)(i % 100);
+        mxg_edit_begin(w.context, w.library, document, NULL, &edit);
+        mxg_edit_numbers(edit, mxg_edit_find(edit, "S7"), "base", NULL, &value, 1);
+        REQUIRE(mxg_edit_end(edit, &next) == MXG_OK);
+        mxg_document_destroy(document); /* its elements live on */
+        document = next;
+        first = i == 0 ? used - before : first;
+        most = used - before > most ? used - before : most;
+    }
+    REQUIRE(most < first + 16384);
+    mxg_document_destroy(document);
+    close_world(&w);
+}
+
+/* ---- Equality with a document from the text ---- */
+
+static unsigned next_random(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return *state >> 8;
+}
+
+static void make_change(mxg_edit *edit, const mxg_document *from, unsigned *random)
+{
+    char name[32], other[32];
+    const float value = 0.001f * (float)(next_random(random) % 1000);
+    snprintf(name, sizeof name, "S%u", next_random(random) % 20);
+    snprintf(other, sizeof other, "N%u", next_random(random) % 30);
+    mxg_element shader = mxg_edit_find(edit, name), node = mxg_edit_find(edit, other);
+    switch (next_random(random) % 14) {
+    case 0:
+    case 1:
+    case 2: mxg_edit_numbers(edit, shader, "base", "float", &value, 1); break;
+    case 3: mxg_edit_numbers(edit, shader, "coat", "float", &value, 1); break;
+    case 4: mxg_edit_add(edit, 0, "constant", other, "float"); break;
+    case 5: mxg_edit_connect(edit, shader, "specular", node, NULL); break;
+    case 6: mxg_edit_remove(edit, mxg_edit_child(edit, shader, "coat")); break;
+    case 7: mxg_edit_set(edit, shader, "doc", "changed"); break;
+    case 8: mxg_edit_set(edit, shader, "doc", NULL); break;
+    case 9: mxg_edit_move(edit, node, 0, shader); break;
+    case 10: mxg_edit_rename(edit, node, "N99"); break;
+    case 11: mxg_edit_copy(edit, 0, from, mxg_document_find(from, name), other); break;
+    case 12: mxg_edit_remove(edit, shader); break;
+    default:
+        node = mxg_edit_add(edit, 0, "nodegraph", other, NULL);
+        mxg_edit_set(edit, node, "nodedef", next_random(random) % 2 ? "ND_own" : NULL);
+    }
+}
+
+static void compare_renderables(const mxg_document *a, const mxg_document *b)
+{
+    REQUIRE_EQ(mxg_document_num_renderables(a), mxg_document_num_renderables(b));
+    for (uint32_t i = 0; i < mxg_document_num_renderables(a); ++i) {
+        mxg_renderable x = MXG_INIT(mxg_renderable), y = MXG_INIT(mxg_renderable);
+        mxg_document_renderable(a, i, &x);
+        if (mxg_document_renderable(b, i, &y) == MXG_OK)
+            REQUIRE_STR(x.path, y.path);
+    }
+}
+
+static void compare_elements(const mxg_document *a, const mxg_document *b)
+{
+    mxg_element x = mxg_document_root(a), y = mxg_document_root(b);
+    mxg_element_info p = MXG_INIT(mxg_element_info), q = MXG_INIT(mxg_element_info);
+    mxg_document_element(a, x, &p);
+    mxg_document_element(b, y, &q);
+    for (x = p.first_child, y = q.first_child; x && y; x = p.next, y = q.next) {
+        mxg_document_element(a, x, &p);
+        mxg_document_element(b, y, &q);
+        REQUIRE_STR(p.name, q.name);
+        REQUIRE_EQ(p.num_attributes, q.num_attributes);
+        REQUIRE_EQ(mxg_document_find(a, p.name), x);
+    }
+    REQUIRE(!x && !y);
+}
+
+/* The document equals the one that its text gives. */
+static void compare_with_text(struct world *w, const mxg_document *document)
+{
+    size_t size;
+    const char *xml = mxg_document_xml(document, &size);
+    mxg_document *read = NULL;
+    mxg_document_parse(w->context, w->library, "shared.mtlx", xml, size, &read);
+    REQUIRE_STR(mxg_document_xml(read, NULL), xml);
+    compare_renderables(document, read);
+    compare_elements(document, read);
+    mxg_result *own = NULL, *other = NULL;
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    mxg_status status = mxg_generate(w->context, document, &desc, &own);
+    REQUIRE_EQ(mxg_generate(w->context, read, &desc, &other), status);
+    if (status == MXG_OK)
+        REQUIRE_STR(mxg_result_source(own, MXG_STAGE_PIXEL, NULL),
+                    mxg_result_source(other, MXG_STAGE_PIXEL, NULL));
+    mxg_result_destroy(own);
+    mxg_result_destroy(other);
+    mxg_document_destroy(read);
+}
+
+static void test_sequences(void)
+{
+    struct world w = open_world();
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+        unsigned random = seed;
+        mxg_document *document = many_materials(&w, 20), *kept = NULL;
+        for (int i = 0; i < 40; ++i) {
+            mxg_edit *edit;
+            mxg_document *next = NULL;
+            mxg_edit_begin(w.context, w.library, document, NULL, &edit);
+            for (unsigned k = next_random(&random) % 4; k > 0; --k)
+                make_change(edit, document, &random);
+            mxg_edit_end(edit, &next);
+            if (!REQUIRE(next))
+                break;
+            if (i % 5 == 0)
+                compare_with_text(&w, next);
+            if (i == 10)
+                kept = document; /* its successors may end before it */
+            else
+                mxg_document_destroy(document);
+            document = next;
+        }
+        compare_with_text(&w, document);
+        mxg_document_destroy(document);
+        compare_with_text(&w, kept);
+        mxg_document_destroy(kept);
+    }
+    close_world(&w);
+}
+
+int main(void)
+{
+    test_memory();
+    test_slider();
+    test_sequences();
+    return test_report("api-edit_shared");
+}
