@@ -88,11 +88,21 @@ static ir_ref dark_light(struct builder *b)
     return ir_build(b->graph, IR_LIGHT_SHADER, IR_TYPE_LIGHT, 0, args, 3);
 }
 
+/* The node whose function is called; of a leaf's functions, the node that new nodes come from. */
+static elem_id caller(const struct builder *b)
+{
+    const struct ir_origin *origins = b->graph->origins.items;
+    uint32_t origin = b->graph->origin;
+    while (origin && !origins[origin].element)
+        origin = origins[origin].parent;
+    elem_id leaf = origin ? origins[origin].element : build_doc(b)->root;
+    return b->called ? b->called : leaf;
+}
+
 void build_report_large(void *user_data)
 {
     struct builder *b = user_data;
-    diag_add(b->diags, DIAG_ID_lang_limit,
-             doc_place(build_doc(b), b->called ? b->called : build_doc(b)->root),
+    diag_add(b->diags, DIAG_ID_lang_limit, doc_place(build_doc(b), caller(b)),
              "the arguments and results of the function have more than 128 numbers and vectors");
 }
 

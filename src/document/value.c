@@ -184,6 +184,14 @@ const char *doc_value_fault(doc_type type, const char *text, size_t len, struct 
         end++;
     if (end == fault)
         return ": a number is missing after a comma";
+    float number;
+    if (integer && num_parse_float(text + fault, end - fault, &number) == end - fault)
+        return ": an integer has no fraction and no exponent";
+    unsigned components = doc_type_components(type);
+    if (!fault && end == len && components) { /* the message has the word already */
+        text_fmt(&message, components > 1 ? ": it is %u numbers" : ": it is a number", components);
+        return text_cstr(&message);
+    }
     text_fmt(&message, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
              integer ? "integer" : "number");
     return text_cstr(&message);

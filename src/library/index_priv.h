@@ -127,7 +127,7 @@ bool index_implied_includes(struct indexer *ix, const struct implementation *imp
 struct source_parameter {
     struct scan_word type, name; /* len 0: unknown, because of a macro or a $token */
 };
-enum { INDEX_MAX_PARAMETERS = 2 * INDEX_MAX_PORTS };
+enum { INDEX_MAX_PARAMETERS = 255 }; /* of SPIR-V, and of the portable language */
 enum { SOURCE_NO_FUNCTION = -1, SOURCE_MANY_PARAMETERS = -2 };
 /*
  * The parameters of a function that a source file or one of its includes defines. Returns their

@@ -202,11 +202,13 @@ static const char *signature_fault(struct signature *s, bool is_light)
     return NULL;
 }
 
+static const char too_long[] = "it has more than 255 parameters";
+
 static bool check_function(struct signature *s, const char *name, bool is_light,
                            struct diag_list *diags)
 {
-    const char *fault = s->num_parameters == SOURCE_MANY_PARAMETERS ? "it has too many parameters"
-                                                                    : signature_fault(s, is_light);
+    const char *fault =
+        s->num_parameters == SOURCE_MANY_PARAMETERS ? too_long : signature_fault(s, is_light);
     if (fault)
         diag_add(diags, DIAG_ID_function_signature,
                  doc_attr_place(&s->ix->lib->doc, s->impl->element, STR_function), name,
@@ -241,12 +243,14 @@ static bool find_convention(struct signature *s, struct verbatim *verbatim, stru
 {
     const char *function = index_text(s->ix, verbatim->function), *name = NULL;
     doc_type type = s->ports[s->def->num_inputs].type;
-    bool is_found = false;
+    bool is_found = false, is_long = false;
     for (size_t i = 0; i < sizeof conventions / sizeof *conventions; i++) {
         const struct convention *row = &conventions[i];
-        bool may_join = !is_found || (verbatim->has_suffixes && *row->suffix);
-        if (row->type != type || !may_join
-            || !find_for_convention(s, verbatim->file, function, row, &name))
+        if (row->type != type || (is_found && !(verbatim->has_suffixes && *row->suffix)))
+            continue;
+        bool fits = find_for_convention(s, verbatim->file, function, row, &name);
+        is_long |= s->num_parameters == SOURCE_MANY_PARAMETERS;
+        if (!fits)
             continue;
         if (!check_function(s, name, type == DOC_TYPE_lightshader, diags))
             return false;
@@ -259,7 +263,9 @@ static bool find_convention(struct signature *s, struct verbatim *verbatim, stru
     struct diag_place where = doc_attr_place(&s->ix->lib->doc, s->impl->element, STR_function);
     if (!is_found && name)
         diag_add(diags, DIAG_ID_function_signature, where, name, index_text(s->ix, s->def->name),
-                 "its parameters fit no calling convention of its type (docs/library.md)");
+                 is_long
+                     ? too_long
+                     : "its parameters fit no calling convention of its type (docs/library.md)");
     else if (!is_found)
         diag_add(diags, DIAG_ID_missing_function, where, function, "");
     return is_found;

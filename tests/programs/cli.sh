@@ -437,6 +437,55 @@ check '300 inputs of an expression' exits 0 "$mxgen" many_inputs.mtlx --interfac
 check 'are all summed' grep -q 45150.0 out
 check '300 inputs of source for one target' exits 0 "$mxgen" many_source.mtlx --trust --interface reduced --stdout
 check 'are all there' test "$(grep -Eo '\b[0-9]+\.0' out | sort -u | wc -l)" -ge 300
+# A function has 255 parameters, the limit of SPIR-V: a leaf as source, and as portable functions
+leaf() { # INPUTS FILE, and attributes of the <implementation>
+    local i inputs='' parameters='' sum=0.0
+    for i in $(seq "$1"); do
+        inputs+="<input name='i$i' type='float' value='0.$i'/>"
+        parameters+="float i$i, "
+        [ "$i" -gt 100 ] || sum+=" + i$i" # expressions have a limit, too
+    done
+    cat >leaf.glsl <<X
+vec3 many_eval(${parameters}vec3 N, vec3 V, vec3 L) { return vec3($sum); }
+X
+    cat >source.glsl <<X
+void many(ClosureData closureData, ${parameters}inout BSDF bsdf) { bsdf.response = vec3($sum); bsdf.throughput = vec3(gl_FragCoord.x); }
+X
+    cat >leaf.mtlx <<X
+<materialx version="1.39"><nodedef name="D" node="many" bsdf="R">$inputs<output name="out" type="BSDF"/></nodedef>
+<implementation name="I" nodedef="D" file="$2" function="many" ${3:-}/>
+<many name="m" type="BSDF"/><surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="m"/></surface></materialx>
+X
+}
+leaf 120 leaf.glsl
+check 'a leaf of 120 inputs' exits 0 "$mxgen" leaf.mtlx --stdout
+check 'reads them' grep -q 'const float i100' out
+leaf 128 leaf.glsl # three vectors, and a result
+check 'a leaf whose call has 132 numbers and vectors' exits 1 "$mxgen" leaf.mtlx --stdout
+check 'is told at its node' grep -q '^leaf.mtlx:3:1: error: .* more than 128 numbers and vectors \[lang-limit\]' err
+check 'once' eval 'test "$(grep -c error: err)" -eq 1'
+leaf 253 leaf.glsl
+check 'a leaf of 256 parameters' exits 1 "$mxgen" leaf.mtlx --stdout
+check 'has one too many' grep -q 'leaf.glsl:1:6: error: a function has at most 255 parameters \[lang-limit\]' err
+leaf 253 source.glsl 'target="genglsl"'
+check 'source with 255 parameters' exits 0 "$mxgen" leaf.mtlx --trust --stdout
+leaf 254 source.glsl 'target="genglsl"'
+check 'source with 256 parameters' exits 1 "$mxgen" leaf.mtlx --trust --stdout
+check 'has too many' grep -q 'it has more than 255 parameters \[function-signature\]' err
+# A surface of more leaves than any list was made for
+{
+    echo '<materialx version="1.39"><oren_nayar_diffuse_bsdf name="a0" type="BSDF"/>'
+    for i in $(seq 300); do
+        echo "<oren_nayar_diffuse_bsdf name='b$i' type='BSDF'><input name='roughness' type='float' value='0.$((i + 1000))'/><input name='color' type='color3' value='0.$i, 0, 0'/></oren_nayar_diffuse_bsdf>"
+        echo "<add name='a$i' type='BSDF'><input name='in1' type='BSDF' nodename='a$((i - 1))'/><input name='in2' type='BSDF' nodename='b$i'/></add>"
+    done
+    echo '<surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="a300"/></surface></materialx>'
+} >leaves.mtlx
+for target in glsl osl; do
+    check "301 leaves, $target" exits 0 "$mxgen" leaves.mtlx --target $target --stdout
+done
+check '301 leaves are listed' exits 0 "$mxgen" inspect leaves.mtlx --closures
+check 'each of them' eval 'test "$(grep -c "mx_oren_nayar_diffuse_bsdf" out)" -eq 301'
 cat >outputs.mtlx <<'X'
 <materialx version="1.39"><nodedef name="D" node="two"><input name="in" type="float" value="2"/><output name="a" type="float"/><output name="b" type="float"/></nodedef>
 <implementation name="I" nodedef="D" target="genglsl"><output name="a" sourcecode="{{in}} + float(gl_FrontFacing)"/><output name="b" sourcecode="{{in}} - gl_FragCoord.x"/></implementation>

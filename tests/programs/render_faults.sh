@@ -153,9 +153,9 @@ part.png|including.mtlx plain.mtlx -o part.png
 plain.mtlx|plain.mtlx -o y.png --copy y.png
 X
 check 'and nothing is written' test ! -e y.png
-sed '/<surfacematerial/{p;s/"M"/"M2"/}' plain.mtlx >both.mtlx
-check 'a document of two materials' exits 0 "$render" both.mtlx -o x.png --size 8
-check 'says which it draws' grep -q "^note: 'M' is rendered, the first of 2 elements; -e PATH" err
-check 'unless one is asked for' eval 'exits 0 "$render" both.mtlx -e M2 -o x.png --size 8 && ! grep -q note: err'
+awk '{ print } /<surfacematerial/ { for (i = 2; i <= 15; i++) { line = $0; sub(/"M"/, "\"M" i "\"", line); print line } }' plain.mtlx >many.mtlx
+check 'a document of 15 materials' exits 0 "$render" many.mtlx -o x.png --size 8
+check 'says which it draws' grep -q "^note: 'M' is rendered, the first of 15 elements; -e PATH" err
+check 'unless one is asked for' eval 'exits 0 "$render" many.mtlx -e M12 -o x.png --size 8 && ! grep -q note: err'
 
 finish render-faults
