@@ -45,3 +45,43 @@ ir_ref closure_through(struct shader *shader, const struct closure_host *host, i
     ir_ref decay, throughput = closure_leaf_throughput(shader, host, leaf, &decay);
     return closure_mul(shader->graph, throughput, operand_of(shader, host, leaf, "tint"));
 }
+
+bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
+    ir_type_id type = ir_type_of(g, root);
+    if (type == IR_TYPE_BOOL || type == IR_TYPE_INT || type == IR_TYPE_UINT) {
+        root = ir_convert(g, IR_TYPE_FLOAT, root);
+        type = IR_TYPE_FLOAT;
+    }
+    if (encodes && type == IR_TYPE_VEC3 && shader->value_type == STR_color3)
+        root = closure_encoded(g, root);
+    ir_ref parts[3] = {root, zero, one};
+    uint32_t out = shader_add_variable(
+        shader,
+        &(struct shader_variable){.name = STR_out1, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    switch (type) {
+    case IR_TYPE_FLOAT:
+        parts[0] = ir_convert(g, IR_TYPE_VEC3, root);
+        parts[1] = one;
+        root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
+        break;
+    case IR_TYPE_VEC2: root = ir_construct(g, IR_TYPE_VEC4, parts, 3); break;
+    case IR_TYPE_VEC3:
+        parts[1] = one;
+        root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
+        break;
+    case IR_TYPE_VEC4:
+        if (encodes && shader->value_type == STR_color4) {
+            parts[0] = closure_encoded(g, ir_swizzle(g, root, (uint8_t[]){0, 1, 2}, 3));
+            parts[1] = ir_component(g, root, 3);
+            root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
+        }
+        break;
+    default: return false;
+    }
+    shader_effect(shader, STAGE_PIXEL,
+                  (struct effect){.kind = EFFECT_OUTPUT, .index = out, .value = root});
+    return true;
+}

@@ -60,7 +60,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         bool splat = is_splat(plan->type, s->graph->words.items + node->attr);
         uint32_t components = splat ? 1 : ir_type_info(plan->type)->components;
         plan->chars = clamp16(components == 1 ? 5 : 4 + 6 * components);
-        return components == 1 || plan->uses < (components > 4 ? 2u : 3u);
+        return components <= 2 || plan->uses < (components > 4 ? 2u : 3u);
     }
     case IR_CONTEXT: /* u_lightData[i].member */
         plan->cost = 3;
@@ -268,7 +268,9 @@ void choose_locals(struct scheduler *s)
     bool names_wholes = s->shader->rules.names_wholes;
     for (uint32_t i = 0; i < s->reached.len; i++) {
         struct plan *plan = plan_of(s, s->reached.items[i]);
-        if (plan->num_args == 0 && is_source(s, plan))
+        /* an operand numbers the loop of a CONTEXT or SAMPLE */
+        bool is_name = plan->num_args == 0 || plan->op == IR_CONTEXT || plan->op == IR_SAMPLE;
+        if (is_name && is_source(s, plan))
             continue;
         if (plan->op == IR_SELECT)
             let_arms(s, plan);

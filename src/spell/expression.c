@@ -285,7 +285,9 @@ static void write_source(struct spell *spell, const struct ir_node *node)
             spell_name(spell, spell->variables[node->attr]);
         }
         break;
-    case IR_SAMPLE: spell_text(spell, spell->loop_index); break;
+    case IR_SAMPLE:
+        spell_text(spell, node->attr == IR_SAMPLE_TURN ? spell->loop_turn.text : spell->loop_index);
+        break;
     default: /* after an error, nobody uses the text */
         lang_print_value(spell->style, spell->shader->strings,
                          node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT,

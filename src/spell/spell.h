@@ -49,10 +49,11 @@ struct spell {
     /* by node: 1 + index of the first name of its LET in let_names; 0: the node is an expression */
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
-    VEC(str_id) wanted_names;  /* names that several locals of the function want, sorted */
-    const char *loop_index;    /* inside LIGHTS and SAMPLES: the variable of the loop */
-    struct name_set paths;     /* of the comments so far */
-    VEC(const char *) helpers; /* texts of spell_helper, each once */
+    VEC(str_id) wanted_names;    /* names that several locals of the function want, sorted */
+    const char *loop_index;      /* inside LIGHTS and SAMPLES: the variable of the loop */
+    struct spell_name loop_turn; /* inside SAMPLES: the variable with the sample's turn */
+    struct name_set paths;       /* of the comments so far */
+    VEC(const char *) helpers;   /* texts of spell_helper, each once */
     VEC(struct spell_maker) makers;
     void *target_data;     /* belongs to the target while its hook runs */
     uint8_t *origins_seen; /* origins whose path is known; NULL: no comments */

@@ -96,11 +96,11 @@ void scatter()
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
     float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
-    float diffuse_cos_l_2 = max(diffuse_n_dot_l, 1e-8);
-    float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l_2, 0.0)
-        / max(diffuse_cos_l_2, cos_v);
+    float diffuse_cos_l = max(diffuse_n_dot_l, 1e-8);
+    float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l, 0.0)
+        / max(diffuse_cos_l, cos_v);
     float sum = vd.lightWorld.w * (ratio * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float ratio_2 = LightData_2 * (diffuse_cos_l_2 / 3.1415927 * 0.18 * diffuse_sum_2) / sum;
+    float ratio_2 = LightData_2 * (diffuse_cos_l / 3.1415927 * 0.18 * diffuse_sum) / sum;
     out5 = vec4(ratio_2, ratio_2, ratio_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_2 = 0.0;
@@ -122,10 +122,10 @@ void scatter()
         vec3 light_2 = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 directional_light_L = type == 1 ? directional_light_to_light : to_light;
-        float diffuse_cos_l_3 = max(dot(diffuse_N, directional_light_L), 1e-8);
-        float diffuse_sum_3 = ab.x + ab.y * max(dot(vd.viewWorld, directional_light_L) - cos_v * diffuse_cos_l_3, 0.0)
-            / max(diffuse_cos_l_3, cos_v);
-        vec3 product = light_2 * (LightData_2 * (diffuse_cos_l_3 / 3.1415927 * 0.18 * diffuse_sum_3));
+        float diffuse_cos_l_2 = max(dot(diffuse_N, directional_light_L), 1e-8);
+        float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, directional_light_L) - cos_v * diffuse_cos_l_2, 0.0)
+            / max(diffuse_cos_l_2, cos_v);
+        vec3 product = light_2 * (LightData_2 * (diffuse_cos_l_2 / 3.1415927 * 0.18 * diffuse_sum_2));
         float greater_2 = max(dot(product, vec3(0.33333334)), 0.0);
         sum_2 += greater_2;
         if (sum_2 * chance < greater_2) {

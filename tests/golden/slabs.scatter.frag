@@ -91,12 +91,6 @@ float mx_ggx_smith_visibility(const vec3 v, const vec3 l, const vec2 alpha)
     return 0.5 * l.z / (v.z * length(vec3(l.xy * alpha, l.z)) + l.z * length(vec3(v.xy * alpha, v.z)));
 }
 
-// Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
-vec3 mx_ggx_compensation(const vec2 albedo, const vec3 n)
-{
-    return vec3(1.0) + mix(mx_fresnel_schlick(1.0, n), vec3(1.0), vec3(0.04761905)) * (1.0 / albedo.x - 1.0);
-}
-
 // What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y).
 vec2 mx_ggx_albedo(const vec2 roughness, const float c)
 {
@@ -147,7 +141,7 @@ void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3
         return;
     if (is_reflected) {
         weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
-            * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), n);
+            * (vec3(1.0) + mix(n, vec3(1.0), vec3(0.04761905)) * (1.0 / mx_ggx_albedo(roughness, v.z).x - 1.0));
         pdf = 0.25 * share;
     } else {
         weight = (vec3(1.0) - f) * (2.0 / ((-l).z + length(vec3((-l).xy * alpha, (-l).z))) * -l.z / (1.0 - share));
@@ -302,15 +296,15 @@ void scatter()
     }
     pick += -greater_2;
     if (pick >= 0.0 && pick < greater_3) {
-        vec3 second_reflection_L_2, second_reflection_weight_2;
-        float second_reflection_pdf_2;
-        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), second_reflection_L_2,
-            second_reflection_weight_2, second_reflection_pdf_2);
-        L = second_reflection_L_2;
-        float n_dot_l_2 = dot(N, second_reflection_L_2);
-        weight = sum_2 / greater_3 * (second_reflection_weight_2
-            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l_2 * n_dot_l_2 + 1.25) * 1.5))));
-        density = second_reflection_pdf_2 * (greater_3 / sum_2);
+        vec3 second_reflection_L, second_reflection_weight;
+        float second_reflection_pdf;
+        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), second_reflection_L,
+            second_reflection_weight, second_reflection_pdf);
+        L = second_reflection_L;
+        float n_dot_l = dot(N, second_reflection_L);
+        weight = sum_2 / greater_3 * (second_reflection_weight
+            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))));
+        density = second_reflection_pdf * (greater_3 / sum_2);
     }
     pick += -greater_3;
     if (pick >= 0.0 && pick < greater_4) {
