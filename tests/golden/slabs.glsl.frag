@@ -248,17 +248,15 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // second_reflection, medium, reflection
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio_2 = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio_2 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio_2;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio_2 : 0.0;
         float point_light_choice = type == 2 ? ratio_2 : spot_light_choice;
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
         vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
         vec3 reflection_response = fresnel * (mx_ggx_light(reflection_lobe, V, L) * (reflection_scale * 0.5));
@@ -277,7 +275,7 @@ void main()
             * (ggx_light * (mx_fresnel_schlick(cosine, metal_constant) * second_reflection_weight))
             + second_reflection_response;
         vec3 sum_2 = reflection_response + (max(dot(L, Nf), 0.0) / 3.1415927 * medium_product + sum);
-        color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum_2;
+        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_2;
     }
     // environment
     // medium
