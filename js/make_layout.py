@@ -15,7 +15,8 @@ FUNCTION = re.compile(r"\(\*(\w+)\)\s*\([^)]*\)")
 DECLARATOR = re.compile(r"(\**)\s*(?:const\s*\*)?\s*(\w+)(?:\[(\d+)\])?$")
 
 # the name in layout.js, bytes
-SCALARS = {"bool": ("bool", 1), "int32_t": ("i32", 4), "uint32_t": ("u32", 4), "size_t": ("u32", 4), "float": ("f32", 4), "uint64_t": ("u64", 8)}
+SCALARS = {"bool": ("bool", 1), "int32_t": ("i32", 4), "uint32_t": ("u32", 4), "size_t": ("u32", 4), "float": ("f32", 4),
+           "uint64_t": ("u64", 8)}
 POINTER = ("pointer", 4)
 
 
@@ -69,7 +70,10 @@ def main(headers, script, check):
         offset, widest, members = 0, 1, {}
         for name, kind, size, items in read_members(body, enums, scalars):
             offset = -(-offset // size) * size
-            members[camel(name)] = [kind, offset] + ([items] if items > 1 else [])
+            if name.endswith("_len") and camel(name[:-4]) in members: # a text without a NUL
+                members[camel(name[:-4])] = ["piece", members[camel(name[:-4])][1]]
+            else:
+                members[camel(name)] = [kind, offset] + ([items] if items > 1 else [])
             asserts.append(f'_Static_assert(offsetof({struct}, {name}) == {offset}, "{struct}.{name}");')
             offset += size * items
             widest = max(widest, size)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the C source of the extension module from the public headers. Arguments: the headers, in the order of use; the output.
 
-The declarations of the library stand in its headers only. Each member of a struct that is a pointer to a function also becomes a
-function `callback_<member>` that Python can implement."""
+The declarations of the library stand in its headers only. Each member of a struct and each parameter that is a pointer to a function
+also becomes a function `callback_<name>` that Python can implement."""
 import pathlib
 import re
 import sys
@@ -14,7 +14,7 @@ COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 CPLUSPLUS = re.compile(r"^#ifdef __cplusplus\n.*?^#endif$", re.MULTILINE | re.DOTALL)
 NUMBER = re.compile(r"^#define (MXG_\w+) \d+$", re.MULTILINE)
 DIRECTIVE = re.compile(r"^#(?:[^\n]*\\\n)*[^\n]*$", re.MULTILINE)
-CALLBACK = re.compile(r"^ +(\w+) \(\*(\w+)\)(\([^)]*\));", re.MULTILINE)
+CALLBACK = re.compile(r"^ +(\w+) \(\*(\w+)\)\(([^)]*)\)[;,]", re.MULTILINE)
 
 
 def read_declarations(path):
@@ -27,7 +27,8 @@ def read_declarations(path):
 def main(headers, output):
     # document.h uses types of mxgen.h, and mxgen.h no type of document.h.
     declarations = "\n".join(read_declarations(pathlib.Path(header)) for header in headers)
-    callbacks = "".join(f"{result} callback_{name}{parameters};\n" for result, name, parameters in CALLBACK.findall(declarations))
+    found = {f"{result} callback_{name}({' '.join(parameters.split())});\n" for result, name, parameters in CALLBACK.findall(declarations)}
+    callbacks = "".join(sorted(found)) # two parameters of one name and type share a function
     ffi = cffi.FFI()
     ffi.cdef(declarations)
     ffi.cdef(f'extern "Python" {{\n{callbacks}}}\n')

@@ -7,6 +7,7 @@ import { Edit } from "./edit.js";
 import { ArgumentError, DocumentError, MxgenError, OutOfMemoryError } from "./errors.js";
 import { Library } from "./library.js";
 import { expect, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
+import { Scene } from "./scene.js";
 import { Shader } from "./shader.js";
 
 const LIMITS = ["maxMemory", "maxFileMib", "maxElements", "maxNodes", "maxOutputMib", "maxErrors", "maxDepth", "maxIncludeDepth", "maxIncludes"];
@@ -202,7 +203,7 @@ export class Context extends Owner {
 
     // ---- Documents ----
 
-    #document(library, name, argumentsWith) {
+    _document(library, name, argumentsWith) {
         const used = this.#libraryFor(library);
         const { handle, status } = this._make(name, "mxg_document_destroy", [used._handle], out => [used._pointer, ...argumentsWith(out)]);
         const document = new Document(this, used, handle);
@@ -216,7 +217,7 @@ export class Context extends Owner {
         const native = this._native;
         return native.using(() => {
             const name = native.newText(path, "path");
-            return this.#document(library, "mxg_document_load", out => [name, out]);
+            return this._document(library, "mxg_document_load", out => [name, out]);
         });
     }
 
@@ -225,7 +226,7 @@ export class Context extends Owner {
         const native = this._native;
         return native.using(() => {
             const bytes = bytesOf(text, "text"), data = native.newBytes(bytes), called = native.newText(name, "name");
-            return this.#document(library, "mxg_document_parse", out => [called, data, bytes.length, out]);
+            return this._document(library, "mxg_document_parse", out => [called, data, bytes.length, out]);
         });
     }
 
@@ -273,6 +274,39 @@ export class Context extends Owner {
             return new Edit(this, used, document, handle);
         });
     }
+
+    // ---- Scenes ----
+
+    /** A scene of primitives by their paths, "/set/table", and those above them. Throws DocumentError if a path is none. */
+    scene(...paths) {
+        const scene = new Scene(this, this._make("mxg_scene_create", "mxg_scene_destroy", [], out => [out]).handle);
+        scene.add(...paths);
+        return scene;
+    }
+
+    /**
+     * Reads a list with one path in each line, or a USD text layer (.usda) with its bindings. `purpose` chooses among these: "full", "preview",
+     * or null for those of all purposes. Throws DocumentError.
+     */
+    loadScene(path, { purpose = null } = {}) {
+        const native = this._native;
+        return native.using(() => {
+            const name = native.newText(path, "path"), chosen = native.newOptionalText(purpose, "purpose");
+            const { handle, status } = this._make("mxg_scene_load", "mxg_scene_destroy", [], out => [name, chosen, out]);
+            const scene = new Scene(this, handle);
+            if (status !== STATUS.ok)
+                throw new DocumentError(scene.diagnostics);
+            return scene;
+        });
+    }
+
+    /** The materials in a USD scene as a document. `Document.withMaterials` adds them to one. Throws DocumentError. */
+    sceneMaterials(scene, { library = null } = {}) {
+        expect(scene, Scene, "scene");
+        return this._document(library, "mxg_document_with_materials", out => [0, scene._pointer, out]);
+    }
+
+    // ---- Texts ----
 
     /** Reads a document and writes it again: "format", or "upgrade" to version 1.39. `text` null: reads the file `name`. */
     rewrite(rewriting, name, text = null) {

@@ -5,6 +5,7 @@ import { Diagnostics } from "./diagnostics.js";
 import { ArgumentError, DocumentError, OutOfMemoryError } from "./errors.js";
 import { readNodeDef } from "./library.js";
 import { expect, numberOf, Owner, STATUS } from "./native.js";
+import { Bindings, Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
 /** An element of a document. */
@@ -233,6 +234,34 @@ export class Document extends Owner {
         return this.context.edit(this);
     }
 
+    // ---- Scenes ----
+
+    /** A copy with the materials of a USD scene that the document lacks. Throws DocumentError. */
+    withMaterials(scene) {
+        expect(scene, Scene, "scene");
+        return this.context._document(this.library, "mxg_document_with_materials", out => [this._pointer, scene._pointer, out]);
+    }
+
+    /**
+     * Finds the layers of each primitive of a scene. `look` is a look, or a look group with a default; null: the only look, or just the
+     * bindings of the scene if the document has none. `solo` has the slots that alone count, `mute` those that do not. Throws DocumentError.
+     */
+    bind(scene, look = null, { solo = [], mute = [] } = {}) {
+        expect(scene, Scene, "scene");
+        const native = this._native;
+        return native.using(() => {
+            const desc = native.newStruct("mxg_bind_desc", {
+                look: native.newOptionalText(look, "look"), solo: native.newTexts(solo, "a name of solo"), numSolo: solo.length,
+                mute: native.newTexts(mute, "a name of mute"), numMute: mute.length });
+            const { handle, status } = this.context._make("mxg_bind", "mxg_bindings_destroy", [this._handle, scene._handle],
+                                                          out => [this._pointer, scene._pointer, desc, out]);
+            const bindings = new Bindings(this, scene, handle);
+            if (status !== STATUS.ok)
+                throw new DocumentError(bindings.diagnostics);
+            return bindings;
+        });
+    }
+
     // ---- Calls ----
 
     /** Checks every node, connection and value against the library, without generating. Errors are in the result. */
@@ -242,13 +271,15 @@ export class Document extends Owner {
     }
 
     /** Calls `use` with the address of a mxg_generate_desc. */
-    #request(target, { element = null, options = null, withoutSource = false, onlyDiagnostics = false }, use) {
+    #request(target, { element = null, stack = null, options = null, withoutSource = false, onlyDiagnostics = false }, use) {
+        if (stack && (!(stack.bindings instanceof Bindings) || stack.bindings.document !== this))
+            throw new ArgumentError("the stack is not one of bindings of this document");
         if (element instanceof Element && element.document !== this)
             throw new ArgumentError("the element is of another document");
         const native = this._native, path = element instanceof Element ? element.path : element;
         return native.using(() => withOptions(this.context, options, made => use(native.newStruct("mxg_generate_desc", {
             target: native.newText(target, "target"), element: native.newOptionalText(path, "element"), options: made,
-            withoutSource, onlyDiagnostics }))));
+            bindings: stack ? stack.bindings._pointer : 0, stack: stack ? stack.number : 0, withoutSource, onlyDiagnostics }))));
     }
 
     #made(make) {
@@ -260,7 +291,7 @@ export class Document extends Owner {
 
     /**
      * Makes a shader. `element` is a material, shader, node or output, a graph with one output, or a look with one material; null: the first
-     * renderable. Throws DocumentError.
+     * renderable. `stack`, of `Bindings`, stands in the place of an element. Throws DocumentError.
      */
     generate(target, request = {}) {
         return this.#made(() => this.#request(target, request, desc => this.context._make(

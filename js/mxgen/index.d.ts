@@ -29,6 +29,10 @@ export class Mxgen {
     readonly options: Option[];
     /** Whether an option has a meaning for a target, which ignores the others. */
     optionApplies(key: string, target: string): boolean;
+    /** The name of a slot in USD: "050::010" is "_050:_:_010". Throws ArgumentError. */
+    encodeSlot(name: string): string;
+    /** The reverse of `encodeSlot`. */
+    decodeSlot(identifiers: string): string;
     /** Every diagnostic that mxgen can report. */
     readonly diagnosticKinds: DiagnosticKind[];
     /** The meanings of variables without a path. */
@@ -131,6 +135,12 @@ export class Context extends Owner {
     loadAsync(path: string, open: (from: string, ref: string) => Promise<FileContent>, request?: { library?: Library | null }): Promise<Document>;
     /** Begins a new document, or a changed copy of one. */
     edit(document?: Document | null, request?: { name?: string; library?: Library | null }): Edit;
+    /** A scene of primitives by their paths, "/set/table", and those above them. Throws DocumentError if a path is none. */
+    scene(...paths: string[]): Scene;
+    /** Reads a list of paths, or a USD text layer (.usda) with its bindings, by the resolver. `purpose`: "full", "preview", null for all. */
+    loadScene(path: string, request?: { purpose?: string | null }): Scene;
+    /** The materials in a USD scene as a document. Throws DocumentError. */
+    sceneMaterials(scene: Scene, request?: { library?: Library | null }): Document;
     /** Reads a document and writes it again. `text` null: reads the file `name`. */
     rewrite(rewriting: Rewriting, name: string, text?: string | ArrayBuffer | ArrayBufferView | null): { text: string; diagnostics: Diagnostics };
     /** The text of a document in one layout; comments stay. */
@@ -207,6 +217,8 @@ export interface Renderable {
 export interface GenerateRequest {
     /** A material, shader, node or output, a graph with one output, or a look with one material; null: the first renderable. */
     element?: string | Element | null;
+    /** A stack of bindings of the document, in the place of an element. */
+    stack?: Stack | null;
     /** Keys of `Mxgen.options`; an array gives several values of a list. */
     options?: Record<string, boolean | number | string | string[]> | null;
     /** Leaves out the source. */
@@ -234,6 +246,13 @@ export class Document extends Owner {
     readonly nodedefs: NodeDef[];
     xml(): string;
     edit(): Edit;
+    /** A copy with the materials of a USD scene that the document lacks. Throws DocumentError. */
+    withMaterials(scene: Scene): Document;
+    /**
+     * Finds the layers of each primitive of a scene. `look` null: the only look, or just the bindings of the scene. `solo` has the slots that
+     * alone count, `mute` those that do not. Throws DocumentError.
+     */
+    bind(scene: Scene, look?: string | null, request?: { solo?: string[]; mute?: string[] }): Bindings;
     /** Checks every node, connection and value against the library, without generating. */
     validate(): Diagnostics;
     /** Makes a shader. Throws DocumentError. */
@@ -301,6 +320,100 @@ export class Edit extends Owner {
     cancel(): void;
 }
 
+// ---- Scenes ----
+
+/** A property of USD. Its texts are those of the file. */
+export interface Property {
+    name: string;
+    /** "point3f[]"; "rel" of a relationship */
+    type: string;
+    /** "faceVarying"; "": the file does not say it */
+    interpolation: string;
+    /** of time samples the first; "": none */
+    value: string;
+    file: string;
+    line: number;
+    column: number;
+}
+
+/** A primitive of a scene. */
+export class Primitive {
+    constructor(scene: Scene, number: number);
+    readonly scene: Scene;
+    readonly number: number;
+    readonly name: string;
+    /** of USD: "Mesh"; "": unknown */
+    readonly type: string;
+    readonly path: string;
+    readonly parent: Primitive | null;
+    readonly children: Primitive[];
+    readonly properties: Map<string, Property>;
+    property(name: string): Property | null;
+    /** The numbers of a property in a row; true is 1. */
+    numbers(name: string): number[];
+    /** The strings, tokens or paths of a property. */
+    words(name: string): string[];
+    /** The primitives that a relationship names. */
+    targets(name: string): (Primitive | null)[];
+    equals(other: unknown): boolean;
+}
+
+/** The primitives of a scene, each after its parent. */
+export class Scene extends Owner implements Iterable<Primitive> {
+    private constructor();
+    readonly diagnostics: Diagnostics;
+    /** Adds primitives and those above them. Throws ArgumentError while bindings of the scene exist. */
+    add(...paths: string[]): void;
+    find(path: string): Primitive | null;
+    readonly length: number;
+    [Symbol.iterator](): Iterator<Primitive>;
+    readonly upAxis: string;
+    /** 0 for a list of paths */
+    readonly metersPerUnit: number;
+}
+
+export type LayerKind = "layer" | "layerProduct" | "layerOverride" | "layerVertical" | "layerVolume" | "layerLight";
+
+/** A layer of a primitive (docs/slots.md). */
+export interface Layer {
+    kind: LayerKind;
+    /** the whole name: "050::010" */
+    slot: string;
+    material: string;
+    isNodegraph: boolean;
+    /** of a product: "mask" */
+    product: string;
+    /** the primitive where the assignment stands; null: the whole scene */
+    source: Primitive | null;
+    look: string;
+    assign: string;
+    file: string;
+    line: number;
+}
+
+/** The layers that several primitives share. */
+export interface Stack {
+    bindings: Bindings;
+    number: number;
+    /** follows from the content */
+    name: string;
+}
+
+/** The layers of each primitive of a scene under a look. */
+export class Bindings extends Owner {
+    private constructor();
+    readonly document: Document;
+    readonly scene: Scene;
+    readonly diagnostics: Diagnostics;
+    /** The layers of a primitive, base first; a product, override or vertical layer follows its layer. */
+    layers(primitive: Primitive | string): Layer[];
+    readonly stacks: Stack[];
+    stack(primitive: Primitive | string): Stack | null;
+    text(format?: "table" | "tableColour" | "json" | "usda"): string;
+    /** The reasons of a primitive's layers. */
+    explain(primitive: Primitive | string): string;
+}
+
 // ---- Shaders ----
 
 export interface Tile {
@@ -318,6 +431,8 @@ export interface Variable {
     type: string;
     documentType: string;
     path: string;
+    /** in the shader of a stack: "050::010"; otherwise "" */
+    slot: string;
     semantic: string;
     colorspace: string;
     unit: string;

@@ -5,6 +5,7 @@ import { Context } from "./context.js";
 import { ArgumentError } from "./errors.js";
 import { ENUMS } from "./layout.js";
 import { Native } from "./native.js";
+import { slotText } from "./scene.js";
 
 export * from "./errors.js";
 export { Context } from "./context.js";
@@ -12,6 +13,7 @@ export { Diagnostics } from "./diagnostics.js";
 export { Document, Element } from "./document.js";
 export { Draft, Edit } from "./edit.js";
 export { Library } from "./library.js";
+export { Bindings, Primitive, Scene } from "./scene.js";
 export { Shader } from "./shader.js";
 
 /** An instance of mxgen with memory of its own. */
@@ -54,6 +56,16 @@ export class Mxgen {
         if (!this.targets.some(({ name }) => name === target))
             throw new ArgumentError(`there is no target '${target}'`);
         return this.#native.using(() => this.#native.lib.mxg_option_applies(index, this.#native.newText(target, "target")) !== 0);
+    }
+
+    /** The name of a slot in USD: "050::010" is "_050:_:_010". */
+    encodeSlot(name) {
+        return slotText(this.#native, "mxg_slot_encode", name, "a name of a slot");
+    }
+
+    /** The reverse of `encodeSlot`. */
+    decodeSlot(identifiers) {
+        return slotText(this.#native, "mxg_slot_decode", identifiers, "an encoded name of a slot");
     }
 
     /** Every diagnostic that mxgen can report. */

@@ -56,6 +56,7 @@ export class Native {
     #temporary = []; // addresses that the end of `using` frees
     #hosts = new Map();
     #nextHost = 1;
+    #written = []; // the pieces of a text that C writes
     #fault = null; // the reason why the instance ended
 
     constructor() {
@@ -105,6 +106,7 @@ export class Native {
             release: (host, blob) => this.#hosts.get(host).release(blob),
             list_folder: (host, ...rest) => this.#hosts.get(host).listFolder(...rest),
             cancel: host => this.#hosts.get(host).cancel(),
+            write: (_, data, size) => { this.#written.push(this.bytes(data, size).slice()); return 1; },
         };
     }
 
@@ -223,11 +225,19 @@ export class Native {
         });
     }
 
+    /** The text that a call of C writes in pieces, and its status. */
+    writtenText(call) {
+        const status = call(), stream = new TextDecoder();
+        const pieces = this.#written.splice(0).map(piece => stream.decode(piece, { stream: true }));
+        return { status, text: pieces.join("") + stream.decode() };
+    }
+
     // ---- Structs ----
 
     #read(kind, address) {
         switch (kind) {
         case "text": return this.text(this.pointer(address));
+        case "piece": return decoder.decode(this.bytes(this.pointer(address), this.pointer(address + 4)));
         case "bool": return this.view.getUint8(address) !== 0;
         case "i32": return this.view.getInt32(address, true);
         case "f32": return this.view.getFloat32(address, true);

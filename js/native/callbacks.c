@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The callbacks as C functions, whose addresses a mxg_context_desc can hold. */
+#include <mxgen/scene.h>
+
 #include "native/host.h"
 
 static const mxg_resolver resolvers[] = {
@@ -23,4 +25,19 @@ mxg_status mxgen_js_context(mxg_context_desc *desc, void *host, bool lists_folde
     desc->cancel = cancels ? host_cancel : NULL;
     desc->cancel_user_data = host;
     return mxg_context_create(desc, out_context);
+}
+
+/* mxg_bindings_write and mxg_bindings_explain; the pieces go to the import `write`. */
+MXG_API mxg_status mxgen_js_bindings_write(const mxg_bindings *bindings,
+                                           mxg_bindings_format format);
+MXG_API mxg_status mxgen_js_bindings_explain(const mxg_bindings *bindings, uint32_t primitive);
+
+mxg_status mxgen_js_bindings_write(const mxg_bindings *bindings, mxg_bindings_format format)
+{
+    return mxg_bindings_write(bindings, format, host_write, NULL);
+}
+
+mxg_status mxgen_js_bindings_explain(const mxg_bindings *bindings, uint32_t primitive)
+{
+    return mxg_bindings_explain(bindings, primitive, host_write, NULL);
 }

@@ -26,4 +26,7 @@ size_t host_list_folder(void *context, const char *from, const char *folder, cha
                         size_t capacity);
 IMPORT(cancel) bool host_cancel(void *context);
 
+/* Takes a piece of the text that the current call writes. */
+IMPORT(write) bool host_write(void *user_data, const char *data, size_t size);
+
 #endif

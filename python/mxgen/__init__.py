@@ -15,14 +15,17 @@ from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, diagn
 from .document import Connection, Document, Element, Renderable, Value, equal
 from .edit import Draft, Edit, NewValue
 from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, OutOfMemoryError
+from .scene import Bindings, BindingsFormat, Layer, LayerKind, Primitive, Property, Scene, Stack, decode_slot, encode_slot
 from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, Place, Semantic, Shader,
                      ShaderInfo, Stage, Tile, Variable, View, semantics)
 
 __version__ = library_version()
 
-__all__ = ["Alpha", "ArgumentError", "Block", "BlockInfo", "Change", "CancelledError", "CompiledInput", "Connection", "Context", "Diagnostic",
-           "DiagnosticKind", "Diagnostics", "Document", "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "File",
-           "InputState", "InternalError", "Library", "LightType", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType", "OptionValue",
-           "OutOfMemoryError", "Part", "Place", "Port", "Renderable", "Resolver", "Rewriting", "Rewritten", "Semantic", "Severity", "Shader",
-           "ShaderInfo", "Stage", "Target", "Tile", "Value", "Variable", "View", "diagnostic_kinds", "equal", "library_version",
-           "option_applies", "options", "semantics", "targets"]
+__all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "BlockInfo", "CancelledError", "Change",
+           "CompiledInput", "Connection", "Context", "Diagnostic", "DiagnosticKind", "Diagnostics", "Document",
+           "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "File", "InputState", "InternalError",
+           "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType",
+           "OptionValue", "OutOfMemoryError", "Part", "Place", "Port", "Primitive", "Property", "Renderable",
+           "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "Stack",
+           "Stage", "Target", "Tile", "Value", "Variable", "View", "decode_slot", "diagnostic_kinds", "encode_slot",
+           "equal", "library_version", "option_applies", "options", "semantics", "targets"]

@@ -16,6 +16,7 @@ from .diagnostic import Diagnostics
 from .document import Document
 from .edit import Edit
 from .error import ArgumentError, DocumentError, Error, OutOfMemoryError
+from .scene import Scene
 
 
 @dataclass(frozen=True)
@@ -319,6 +320,32 @@ class Context(Native):
             raise ValueError("a changed document keeps its library")
         used = document.library if document is not None else self._library_for(library)
         return Edit(self, used, document, name)
+
+    # ---- Scenes ----
+
+    def scene(self, *paths: str) -> Scene:
+        """A scene of primitives by their paths, "/set/table", and those above them. Raises DocumentError if a path is none."""
+        scene = Scene(self._make("mxg_scene", lib.mxg_scene_create, lib.mxg_scene_destroy, ())[0])
+        scene.add(*paths)
+        return scene
+
+    def load_scene(self, path: str | os.PathLike[str], *, purpose: str | None = None) -> Scene:
+        """Reads a list with one path in each line, or a USD text layer (.usda) with its bindings. `purpose` chooses among these:
+        "full", "preview", or None for those of all purposes. Raises DocumentError."""
+        purpose_text = ffi.NULL if purpose is None else c_text(purpose, "purpose")
+        handle, status = self._make("mxg_scene", lib.mxg_scene_load, lib.mxg_scene_destroy, (), c_path(path, "path"), purpose_text)
+        scene = Scene(handle)
+        if status != lib.MXG_OK:
+            raise DocumentError(scene.diagnostics)
+        return scene
+
+    def scene_materials(self, scene: Scene, *, library: Library | None = None) -> Document:
+        """The materials in a USD scene as a document. `Document.with_materials` adds them to one. Raises DocumentError."""
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
+        return self._document(self._library_for(library), lib.mxg_document_with_materials, ffi.NULL, scene._handle.pointer)
+
+    # ---- Texts ----
 
     def rewrite(self, rewriting: Rewriting, name: str | os.PathLike[str], text: str | bytes | None = None) -> Rewritten:
         """Reads a document and writes it again. `text` None: reads the file `name`. Raises DocumentError."""

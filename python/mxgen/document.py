@@ -2,7 +2,7 @@
 """Documents and their elements."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, Union
@@ -11,6 +11,7 @@ from ._calls import Handle, Native, c_text, error_of, ffi, keep_text, lib, py_te
 from .definition import Library, NodeDef, read_nodedef, read_nodedefs
 from .diagnostic import Diagnostics
 from .error import ArgumentError, DocumentError, OutOfMemoryError
+from .scene import Bindings, Scene, Stack, make_bind_desc
 from .shader import OptionValue, Shader, View, make_options
 
 if TYPE_CHECKING:
@@ -309,6 +310,28 @@ class Document(Native):
         """Begins a changed copy."""
         return self.context.edit(self)
 
+    # ---- Scenes ----
+
+    def with_materials(self, scene: Scene) -> Document:
+        """A copy with the materials of a USD scene that the document lacks. Raises DocumentError."""
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
+        return self.context._document(self.library, lib.mxg_document_with_materials, self._handle.pointer, scene._handle.pointer)
+
+    def bind(self, scene: Scene, look: str | None = None, *, solo: Sequence[str] = (), mute: Sequence[str] = ()) -> Bindings:
+        """Finds the layers of each primitive of a scene. `look` is a look, or a look group with a default; None: the only look, or
+        just the bindings of the scene if the document has none. `solo` has the slots that alone count, `mute` those that do not.
+        Raises DocumentError."""
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
+        keep: list[Any] = []
+        handle, status = self.context._make("mxg_bindings", lib.mxg_bind, lib.mxg_bindings_destroy, (self._handle, scene._handle),
+                                            self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, keep))
+        bindings = Bindings(self, scene, handle)
+        if status != lib.MXG_OK:
+            raise DocumentError(bindings.diagnostics)
+        return bindings
+
     # ---- Calls ----
 
     def _context_for(self, context: Context | None) -> Context:
@@ -327,10 +350,16 @@ class Document(Native):
         """Checks every node, connection and value against the library, without generating. Errors are in the result."""
         return self._call(context, lib.mxg_document_validate)[0].diagnostics
 
-    def _request(self, context: Context | None, target: str, element: str | Element | None,
+    def _request(self, context: Context | None, target: str, element: str | Element | Stack | None,
                  options: Mapping[str, OptionValue] | None, keep: list[Any]) -> Any:
         """A mxg_generate_desc; it lives as long as `keep`."""
         desc = ffi.new("mxg_generate_desc *", {"size": ffi.sizeof("mxg_generate_desc")})
+        if isinstance(element, Stack):
+            if element.bindings.document is not self:
+                raise ValueError("the stack is of another document")
+            desc.bindings = element.bindings._handle.pointer
+            desc.stack = element.number
+            element = None
         if isinstance(element, Element):
             if element.document is not self:
                 raise ValueError("the element is of another document")
@@ -344,10 +373,10 @@ class Document(Native):
             desc.options = made_options._handle.pointer
         return desc
 
-    def generate(self, target: str, element: str | Element | None = None, *, options: Mapping[str, OptionValue] | None = None,
+    def generate(self, target: str, element: str | Element | Stack | None = None, *, options: Mapping[str, OptionValue] | None = None,
                  without_source: bool = False, only_diagnostics: bool = False, context: Context | None = None) -> Shader:
-        """Makes a shader. `element` is a material, shader, node or output, a graph with one output, or a look with one material;
-        None: the first renderable. `options` has the keys of `mxgen.options()`; a list gives several values. Raises
+        """Makes a shader. `element` is a material, shader, node or output, a graph with one output, a look with one material, or a
+        stack of `Bindings`; None: the first renderable. `options` has the keys of `mxgen.options()`; a list gives several values. Raises
         DocumentError.
 
         `without_source` leaves out the source, `only_diagnostics` everything but the diagnostics. A thread that generates at the
@@ -361,7 +390,7 @@ class Document(Native):
             raise DocumentError(shader.diagnostics)
         return shader
 
-    def inspect(self, view: View, element: str | Element | None = None, *, target: str = "glsl",
+    def inspect(self, view: View, element: str | Element | Stack | None = None, *, target: str = "glsl",
                 options: Mapping[str, OptionValue] | None = None, context: Context | None = None) -> str:
         """A text for people: the tree, the graph, the IR or the closures. Raises DocumentError."""
         keep: list[Any] = []

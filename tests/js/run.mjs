@@ -342,6 +342,92 @@ test("callbacks that throw", () => {
     assert.equal(nested.load("x").renderables.length, 1); // another context can be used
 });
 
+// ---- Scenes ----
+
+test("scenes", () => {
+    const context = mxgen.createContext(), scene = context.scene("/set/table", "/set/chair/leg"), leg = scene.find("/set/chair/leg");
+    assert.deepEqual([...scene].map(({ path: name }) => name), ["/set", "/set/table", "/set/chair", "/set/chair/leg"]);
+    assert.deepEqual([leg.name, leg.type, leg.parent.path, leg.children, scene.metersPerUnit], ["leg", "", "/set/chair", [], 0]);
+    assert.deepEqual(scene.find("/set").children.map(({ name }) => name), ["table", "chair"]);
+    assert(leg.equals(scene.find("/set/chair/leg")) && !leg.equals(leg.parent) && scene.find("/set").parent === null && scene.find("/none") === null);
+    assert.throws(() => scene.add("/a", "b c", "/d"), error => error instanceof DocumentError && /b c/.test(error.message));
+    assert.equal(scene.length, 6);
+    assert.throws(() => new js.Primitive(scene, 6), ArgumentError);
+    assert.deepEqual([mxgen.encodeSlot("050::010"), mxgen.decodeSlot("_050:_:_010")], ["_050:_:_010", "050::010"]);
+    assert.throws(() => mxgen.encodeSlot(""), ArgumentError);
+    inFolder(out => {
+        const file = path.join(out, "stage.usda");
+        fs.writeFileSync(file, `#usda 1.0
+( upAxis = "Z"; metersPerUnit = 0.5 )
+def Mesh "box" {
+    float[] primvars:wear = [0.25, 0.5] (interpolation = "vertex")
+    token subdivisionScheme = "none"
+    rel friends = [</ball>, </nowhere>]
+    rel material:binding = </paint>
+}
+def Sphere "ball" {}
+def Material "paint" {
+    token outputs:mtlx:surface.connect = </paint/shader.outputs:out>
+    def Shader "shader" { uniform token info:id = "ND_standard_surface_surfaceshader"; token outputs:out }
+}
+`);
+        const stage = context.loadScene(file), box = stage.find("/box"), wear = box.property("primvars:wear");
+        assert.deepEqual([stage.upAxis, stage.metersPerUnit, box.type, stage.diagnostics.length], ["Z", 0.5, "Mesh", 0]);
+        assert.deepEqual([wear.type, wear.interpolation, wear.value, wear.line], ["float[]", "vertex", "[0.25, 0.5]", 4]);
+        assert.deepEqual(box.properties.get("primvars:wear"), wear);
+        assert.deepEqual([box.numbers("primvars:wear"), box.words("subdivisionScheme"), box.numbers("none"), box.property("none")],
+                         [[0.25, 0.5], ["none"], [], null]);
+        assert.deepEqual(box.targets("friends").map(target => target?.path), ["/ball", undefined]);
+        assert.equal(context.sceneMaterials(stage).renderables.length, 1);
+        const both = context.parse(GOLD).withMaterials(stage), bindings = both.bind(stage);
+        assert.equal(both.renderables.length, 2);
+        assert.equal(bindings.layers(box)[0].source.path, "/box");
+        assert(both.generate("essl", { stack: bindings.stack("/box") }).pixel.includes("base_color"));
+        fs.writeFileSync(file, "#usda 1.0\ndef {");
+        assert.throws(() => context.loadScene(file), DocumentError);
+    });
+});
+
+test("the layers of primitives", () => {
+    const context = mxgen.createContext(), document = context.load(path.join(examples, "slots.mtlx"));
+    const scene = context.loadScene(path.join(examples, "slots.txt")), bindings = document.bind(scene, "finished");
+    const layers = bindings.layers("/device/case/handle");
+    assert.deepEqual(layers.map(({ kind, slot, material }) => [kind, slot, material]),
+                     [["layer", "000", "steel"], ["layerVertical", "000|010", "varnish"], ["layer", "050", "dirt"],
+                      ["layerOverride", "050::020", "light_dirt"]]);
+    assert.deepEqual(layers.map(({ source }) => source?.path ?? null), ["/device/case", "/device/case/handle", null, "/device/case"]);
+    assert.deepEqual(document.bind(scene, "finished", { solo: ["050"] }).layers("/device/case/handle").map(({ slot }) => slot), ["050", "050::020"]);
+    assert.deepEqual(document.bind(scene, "finished", { mute: ["050"] }).layers("/device/case/handle").map(({ slot }) => slot), ["000", "000|010"]);
+    const table = spawnSync(program, ["bind", path.join(examples, "slots.mtlx"), "--look", "finished", "--stage", path.join(examples, "slots.txt")],
+                            { encoding: "utf8" });
+    assert.equal(bindings.text(), table.stdout);
+    assert.equal(JSON.parse(bindings.text("json")).stacks.length, bindings.stacks.length);
+    assert.match(bindings.explain("/device/case/handle"), /varnish/);
+    inFolder(out => {
+        spawnSync(program, [path.join(examples, "slots.mtlx"), "--look", "finished", "--stage", path.join(examples, "slots.txt"), "-o", out]);
+        const written = fs.readdirSync(out).filter(name => name.endsWith(".frag"));
+        for (const name of written) {
+            const stack = bindings.stacks.find(made => `${made.name}.frag` === name);
+            assert.equal(document.generate("glsl", { stack }).pixel, fs.readFileSync(path.join(out, name), "utf8"));
+        }
+        assert(written.length > 3);
+    });
+    assert.throws(() => scene.add("/more"), /bindings hold the scene/);
+    assert.throws(() => document.bind(scene, "none"), DocumentError);
+    assert.throws(() => bindings.text("xml"), ArgumentError);
+    assert.throws(() => bindings.layers("/none"), /no primitive/);
+    assert.throws(() => bindings.layers(context.scene("/device").find("/device")), /another scene/);
+    assert.throws(() => context.parse(GOLD).generate("glsl", { stack: bindings.stacks[0] }), ArgumentError);
+    for (const use of [() => document.bind({}), () => document.withMaterials({}), () => context.sceneMaterials({}), () => scene.find(5), () => bindings.stack(5)])
+        assert.throws(use, TypeError);
+    const { pixel } = document.generate("glsl", { stack: bindings.stack("/device/case/handle") });
+    scene.destroy();
+    document.destroy();
+    assert.throws(() => bindings.layers("/device"), /the scene was destroyed/);
+    bindings.destroy();
+    assert(pixel.length > 100);
+});
+
 // ---- Lifetimes and limits ----
 
 test("objects used after free", () => {
@@ -417,9 +503,9 @@ test("every function and member is declared, and every function of C is used", (
     const structs = JSON.parse(layout.slice(layout.indexOf("STRUCTS = ") + 10, layout.lastIndexOf(";")));
     const shown = { mxg_variable: "Variable", mxg_diagnostic: "Diagnostic", mxg_port: "Port", mxg_nodedef: "NodeDef", mxg_compiled_input: "CompiledInput",
                     mxg_shader_info: "ShaderInfo", mxg_block_info: "BlockInfo", mxg_option: "Option", mxg_semantic: "Semantic", mxg_tile: "Tile",
-                    mxg_diagnostic_kind: "DiagnosticKind", mxg_renderable: "Renderable", mxg_context_desc: "ContextOptions" };
+                    mxg_diagnostic_kind: "DiagnosticKind", mxg_renderable: "Renderable", mxg_property: "Property", mxg_context_desc: "ContextOptions" };
     const hidden = ["size", "numValues", "numTiles", "numInputs", "numOutputs", "realloc", "reallocUserData", "cancelUserData", "sandbox", "includeRoots",
-                    "numIncludeRoots", "numSourcePaths"];
+                    "numIncludeRoots", "numSourcePaths", "nodeCodes", "numNodeCodes"]; // nodes in C: not from JavaScript
     for (const [struct, name] of Object.entries(shown)) {
         const body = declared.match(new RegExp(`export interface ${name} \\{([^}]*)\\}`))[1];
         for (const member of Object.keys(structs[struct].members))
@@ -431,12 +517,12 @@ test("every function and member is declared, and every function of C is used", (
             assert(new RegExp(`^    (readonly )?${member}\\b`, "m").test(declared), `index.d.ts lacks ${name}.${member}`);
     }
     const sources = fs.readdirSync(folder).filter(name => name.endsWith(".js")).map(name => fs.readFileSync(path.join(folder, name), "utf8")).join("");
-    const headers = ["mxgen.h", "document.h"].map(name => fs.readFileSync(path.join(root, "include/mxgen", name), "utf8")).join("");
-    const notUsed = ["mxg_version", "mxg_library_ref", "mxg_diagnostics_format_line", "mxg_document_num_nodedefs", "mxg_edit_numbers", "mxg_scene_diagnostics",
-                     "mxg_bindings_diagnostics"].filter(name => !sources.includes(name));
+    const headers = ["mxgen.h", "document.h", "scene.h"].map(name => fs.readFileSync(path.join(root, "include/mxgen", name), "utf8")).join("");
+    const notUsed = ["mxg_version", "mxg_library_ref", "mxg_diagnostics_format_line", "mxg_document_num_nodedefs", "mxg_edit_numbers"].filter(name => !sources.includes(name));
     const functions = [...headers.matchAll(/MXG_API [^;]*?\b(mxg_\w+)\(/g)].map(([, name]) => name);
     assert(functions.length > 80);
-    assert.deepEqual(functions.filter(name => !notUsed.includes(name) && !sources.includes(name) && name !== "mxg_context_create"), []);
+    assert.deepEqual(functions.filter(name => !notUsed.includes(name) && !sources.includes(name) && !sources.includes(name.replace("mxg_", "mxgen_js_")) &&
+                                              name !== "mxg_context_create"), []);
 });
 
 await run("npm");

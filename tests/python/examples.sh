@@ -19,4 +19,9 @@ check "shader.py lists uniforms" grep -q '^// NG_marble/stone: vec3 ' out
 check "shader.py without a document" exits 1 "$python" "$root/examples/shader.py" none.mtlx glsl
 check "shader.py reports errors" grep -q 'error: .*file-missing' err
 check "without a trace" exits 1 grep Traceback err
+mkdir stacks
+check "scene.py" exits 0 "$python" "$root/examples/scene.py" "$root/examples/slots.mtlx" finished "$root/examples/slots.txt" stacks
+check "scene.py lists the layers" grep -q '^/device/case/handle stack_[0-9a-f]* 000 steel, 000|010 varnish, ' out
+check "scene.py writes a shader for each stack" test "$(grep -o 'stack_[0-9a-f]*' out | sort -u)" = "$(ls stacks | sed 's/.frag//')"
+check "scene.py without a look" exits 1 "$python" "$root/examples/scene.py" "$root/examples/slots.mtlx" none "$root/examples/slots.txt" stacks
 finish python-examples

@@ -1,0 +1,399 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes, and the layers of materials of their primitives (docs/slots.md)."""
+from __future__ import annotations
+
+import enum
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ._calls import Handle, Native, c_text, error_of, ffi, keep_text, lib, py_text, record, sized_text
+from .diagnostic import Diagnostics
+from .error import ArgumentError, DocumentError
+
+if TYPE_CHECKING:
+    from .document import Document
+
+_NONE = 0xFFFFFFFF
+
+
+# ---- Names of slots ----
+
+def encode_slot(name: str) -> str:
+    """The name of a slot in USD: "050::010" is "_050:_:_010". Raises ValueError."""
+    return _slot_text(lib.mxg_slot_encode, name, "a name of a slot")
+
+
+def decode_slot(identifiers: str) -> str:
+    """The reverse of `encode_slot`. Raises ValueError."""
+    return _slot_text(lib.mxg_slot_decode, identifiers, "an encoded name of a slot")
+
+
+def _slot_text(function: Callable[..., int], text: str, what: str) -> str:
+    data = c_text(text, "name")
+    made = sized_text(lambda out, capacity: function(data, out, capacity))
+    if not made:
+        raise ValueError(f"'{text}' is not {what}")
+    return made
+
+
+# ---- Scenes ----
+
+def _piece(struct: Any, name: str) -> str:
+    """The text of a member without a NUL; member `<name>_len` has its length."""
+    data: bytes = ffi.buffer(getattr(struct, name), getattr(struct, f"{name}_len"))[:]
+    return data.decode("utf-8", "surrogateescape")
+
+
+@dataclass(frozen=True)
+class Property:
+    """A property of USD. Its texts are those of the file."""
+
+    name: str
+    #: "point3f[]"; "rel" of a relationship
+    type: str
+    #: "faceVarying"; "" if the file does not say it
+    interpolation: str
+    #: "[(0, 0, 0), (1, 0, 0)]", of time samples the first; "" if it has none
+    value: str
+    file: str
+    line: int
+    column: int
+
+
+class Primitive:
+    """A primitive of a scene. Two are equal if they are the same primitive of the same scene."""
+
+    __slots__ = ("scene", "number")
+
+    def __init__(self, scene: Scene, number: int) -> None:
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
+        self.scene = scene
+        #: a parent has a lower number than its children
+        self.number = number
+        self._info()
+
+    def _info(self) -> Any:
+        out = ffi.new("mxg_primitive *", {"size": ffi.sizeof("mxg_primitive")})
+        if lib.mxg_scene_primitive(self.scene._handle.pointer, self.number, out) != lib.MXG_OK:
+            raise ArgumentError(f"the scene has no primitive {self.number}")
+        return out
+
+    @property
+    def name(self) -> str:
+        """The last part of the path."""
+        return _piece(self._info(), "name")
+
+    @property
+    def type(self) -> str:
+        """The type in USD: "Mesh"; "" if unknown."""
+        return _piece(self._info(), "type")
+
+    @property
+    def path(self) -> str:
+        """"/set/table"."""
+        pointer = self.scene._handle.pointer
+        return sized_text(lambda out, capacity: lib.mxg_scene_path(pointer, self.number, out, capacity))
+
+    @property
+    def parent(self) -> Primitive | None:
+        """The primitive above; None for a root."""
+        return self.scene._primitive(self._info().parent)
+
+    @property
+    def children(self) -> Iterator[Primitive]:
+        """The primitives directly below."""
+        child = self.scene._primitive(self._info().first_child)
+        while child is not None:
+            yield child
+            child = self.scene._primitive(child._info().next_sibling)
+
+    # ---- Properties ----
+
+    @property
+    def properties(self) -> Mapping[str, Property]:
+        """The properties by name. A primitive of a list has none; an instance has those of its prototype that it does not set."""
+        pointer = self.scene._handle.pointer
+        found = {}
+        out = ffi.new("mxg_property *", {"size": ffi.sizeof("mxg_property")})
+        for index in range(lib.mxg_scene_num_properties(pointer, self.number)):
+            lib.mxg_scene_property(pointer, self.number, index, out)
+            made = _read_property(out)
+            found[made.name] = made
+        return found
+
+    def property(self, name: str) -> Property | None:
+        """The property of a name; None: there is none."""
+        out = ffi.new("mxg_property *", {"size": ffi.sizeof("mxg_property")})
+        there = lib.mxg_scene_find_property(self.scene._handle.pointer, self.number, c_text(name, "name"), out)
+        return _read_property(out) if there else None
+
+    def numbers(self, name: str) -> tuple[float, ...]:
+        """The numbers of a property in a row; true is 1. Empty: there are none."""
+        key = c_text(name, "name")
+        pointer = self.scene._handle.pointer
+        count = lib.mxg_scene_numbers(pointer, self.number, key, ffi.NULL, 0)
+        out = ffi.new("double[]", count)
+        lib.mxg_scene_numbers(pointer, self.number, key, out, count)
+        return tuple(out)
+
+    def words(self, name: str) -> tuple[str, ...]:
+        """The strings, tokens or paths of a property, without quotes."""
+        key = c_text(name, "name")
+        pointer = self.scene._handle.pointer
+        found: list[str] = []
+        while True:
+            word = sized_text(lambda out, capacity: lib.mxg_scene_word(pointer, self.number, key, len(found), out, capacity))
+            if not word:
+                return tuple(found)
+            found.append(word)
+
+    def targets(self, name: str) -> tuple[Primitive | None, ...]:
+        """The primitives that a relationship names; None for a path that the scene does not have."""
+        key = c_text(name, "name")
+        pointer = self.scene._handle.pointer
+        return tuple(self.scene._primitive(lib.mxg_scene_target(pointer, self.number, key, index))
+                     for index in range(len(self.words(name))))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Primitive) and other.scene is self.scene and other.number == self.number
+
+    def __hash__(self) -> int:
+        return hash((id(self.scene), self.number))
+
+    def __repr__(self) -> str:
+        return f"<Primitive '{self.path}'>"
+
+
+def _read_property(struct: Any) -> Property:
+    return Property(name=_piece(struct, "name"), type=_piece(struct, "type"), interpolation=_piece(struct, "interpolation"),
+                    value=_piece(struct, "value"), file=py_text(struct.file), line=struct.line, column=struct.column)
+
+
+class Scene(Native):
+    """The primitives of a scene. `Context.scene` and `Context.load_scene` give scenes."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+    def _primitive(self, number: int) -> Primitive | None:
+        return Primitive(self, number) if number != _NONE else None
+
+    @property
+    def diagnostics(self) -> Diagnostics:
+        """The diagnostics of reading it."""
+        return Diagnostics(lib.mxg_scene_diagnostics(self._handle.pointer), self)
+
+    def add(self, *paths: str) -> None:
+        """Adds primitives and those above them. Raises DocumentError if a path is none (the others are added), and ArgumentError
+        while bindings of the scene exist."""
+        keep: list[Any] = []
+        names = ffi.new("const char *[]", [keep_text(c_text(path, "a path"), keep) for path in paths])
+        status = lib.mxg_scene_add(self._handle.pointer, names, len(paths))
+        if status == lib.MXG_ERROR_DOCUMENT:
+            raise DocumentError(self.diagnostics)
+        if status == lib.MXG_ERROR_ARGUMENT:
+            raise ArgumentError("bindings hold the scene: add primitives before Document.bind")
+        if status != lib.MXG_OK:
+            raise error_of(status)
+
+    def find(self, path: str) -> Primitive | None:
+        """A primitive by path."""
+        return self._primitive(lib.mxg_scene_find(self._handle.pointer, c_text(path, "path")))
+
+    def __getitem__(self, path: str) -> Primitive:
+        """A primitive by path. Raises KeyError."""
+        primitive = self.find(path)
+        if primitive is None:
+            raise KeyError(path)
+        return primitive
+
+    def __len__(self) -> int:
+        """The number of primitives."""
+        return int(lib.mxg_scene_num_primitives(self._handle.pointer))
+
+    def __iter__(self) -> Iterator[Primitive]:
+        """All primitives, each after its parent."""
+        return (Primitive(self, number) for number in range(len(self)))
+
+    @property
+    def up_axis(self) -> str:
+        """"Y" or "Z"."""
+        axis: bytes = lib.mxg_scene_up_axis(self._handle.pointer)
+        return axis.decode("ascii")
+
+    @property
+    def meters_per_unit(self) -> float:
+        """Metres in a unit of the scene; 0 for a list of paths."""
+        return float(lib.mxg_scene_meters_per_unit(self._handle.pointer))
+
+
+# ---- Bindings ----
+
+class LayerKind(enum.IntEnum):
+    """The kind of a layer."""
+
+    #: a slot; the base comes first
+    LAYER = lib.MXG_LAYER
+    #: a product that the layer before takes from a weaker assignment
+    PRODUCT = lib.MXG_LAYER_PRODUCT
+    #: of the layer before; a later one wins
+    OVERRIDE = lib.MXG_LAYER_OVERRIDE
+    #: over the LAYER before
+    VERTICAL = lib.MXG_LAYER_VERTICAL
+    #: beside the stack
+    VOLUME = lib.MXG_LAYER_VOLUME
+    LIGHT = lib.MXG_LAYER_LIGHT
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of a primitive."""
+
+    kind: LayerKind
+    #: the whole name: "050::010"
+    slot: str
+    #: the material, or the nodegraph if `is_nodegraph`
+    material: str
+    is_nodegraph: bool
+    #: of PRODUCT: "mask"; otherwise ""
+    product: str
+    #: the primitive where the assignment stands; None: the whole scene, "/"
+    source: Primitive | None
+    #: the look and the name of the assignment; "" if it has none
+    look: str
+    assign: str
+    #: the place of the assignment
+    file: str
+    line: int
+
+
+class BindingsFormat(enum.IntEnum):
+    """A form of `Bindings.text`."""
+
+    #: a line for each primitive
+    TABLE = lib.MXG_BINDINGS_TABLE
+    TABLE_COLOUR = lib.MXG_BINDINGS_TABLE_COLOUR
+    JSON = lib.MXG_BINDINGS_JSON
+    #: slot bindings of USD
+    USDA = lib.MXG_BINDINGS_USDA
+
+
+class _Pieces:
+    """What a call of C writes. An exception waits until the call returns."""
+
+    def __init__(self) -> None:
+        self.data = bytearray()
+        self.raised: BaseException | None = None
+
+
+def _keep_exception(_type: Any, error: BaseException | None, traceback: Any) -> None:
+    ffi.from_handle(traceback.tb_frame.f_locals["user_data"]).raised = error
+
+
+@ffi.def_extern(error=False, onerror=_keep_exception)
+def callback_write(user_data: Any, data: Any, size: int) -> bool:
+    """The parameter of mxg_bindings_write and mxg_bindings_explain."""
+    ffi.from_handle(user_data).data.extend(ffi.buffer(data, size))
+    return True
+
+
+def _written(function: Callable[..., int], *arguments: Any) -> tuple[str, int]:
+    """The text that a function writes in pieces, and its status."""
+    pieces = _Pieces()
+    handle = ffi.new_handle(pieces)
+    status = function(*arguments, lib.callback_write, handle)
+    if pieces.raised is not None:
+        raise pieces.raised
+    return pieces.data.decode("utf-8", "surrogateescape"), status
+
+
+@dataclass(frozen=True)
+class Stack:
+    """The layers that several primitives share. `Document.generate` makes its shader."""
+
+    bindings: Bindings
+    #: from 0
+    number: int
+    #: follows from the content: "stack_8a5f7a0f9c2f6f0e"
+    name: str
+
+
+class Bindings(Native):
+    """The layers of each primitive of a scene under a look. `Document.bind` gives bindings."""
+
+    def __init__(self, document: Document, scene: Scene, handle: Handle) -> None:
+        self._handle = handle
+        self.document = document
+        self.scene = scene
+
+    def _number(self, primitive: Primitive | str) -> int:
+        found = self.scene[primitive] if isinstance(primitive, str) else primitive
+        if not isinstance(found, Primitive):
+            raise TypeError(f"primitive must be Primitive or str, not {type(found).__name__}")
+        if found.scene is not self.scene:
+            raise ValueError("the primitive is of another scene")
+        return found.number
+
+    @property
+    def diagnostics(self) -> Diagnostics:
+        """The diagnostics of finding the layers."""
+        return Diagnostics(lib.mxg_bindings_diagnostics(self._handle.pointer), self)
+
+    def layers(self, primitive: Primitive | str) -> tuple[Layer, ...]:
+        """The layers of a primitive, base first; a product, override or vertical layer follows its layer."""
+        number = self._number(primitive)
+        pointer = self._handle.pointer
+        found = []
+        for index in range(lib.mxg_bindings_num_layers(pointer, number)):
+            values = record("mxg_layer", lib.mxg_bindings_layer, pointer, number, index)
+            assert values is not None
+            source = self.scene._primitive(values.pop("from"))
+            found.append(Layer(kind=LayerKind(values.pop("kind")), source=source, **values))
+        return tuple(found)
+
+    @property
+    def stacks(self) -> tuple[Stack, ...]:
+        """The different stacks of the scene."""
+        return tuple(self._stack(number) for number in range(lib.mxg_bindings_num_stacks(self._handle.pointer)))
+
+    def stack(self, primitive: Primitive | str) -> Stack | None:
+        """The stack of a primitive. Primitives with equal layers have the same one."""
+        number = lib.mxg_bindings_stack(self._handle.pointer, self._number(primitive))
+        return self._stack(number) if number != _NONE else None
+
+    def _stack(self, number: int) -> Stack:
+        pointer = self._handle.pointer
+        return Stack(self, number, sized_text(lambda out, size: lib.mxg_bindings_stack_name(pointer, number, out, size)))
+
+    def text(self, format: BindingsFormat = BindingsFormat.TABLE) -> str:
+        """All bindings as text. Raises DocumentError if USDA cannot express some of them."""
+        made, status = _written(lib.mxg_bindings_write, self._handle.pointer, BindingsFormat(format))
+        if status == lib.MXG_ERROR_DOCUMENT:
+            raise DocumentError(self.diagnostics)
+        if status != lib.MXG_OK:
+            raise error_of(status)
+        return made
+
+    def explain(self, primitive: Primitive | str) -> str:
+        """The reasons of a primitive's layers: every assignment that was considered."""
+        made, status = _written(lib.mxg_bindings_explain, self._handle.pointer, self._number(primitive))
+        if status != lib.MXG_OK:
+            raise error_of(status)
+        return made
+
+
+def make_bind_desc(look: str | None, solo: Sequence[str], mute: Sequence[str], keep: list[Any]) -> Any:
+    """A mxg_bind_desc; it lives as long as `keep`."""
+    desc = ffi.new("mxg_bind_desc *", {"size": ffi.sizeof("mxg_bind_desc")})
+    if look is not None:
+        desc.look = keep_text(c_text(look, "look"), keep)
+    for name, slots in ("solo", solo), ("mute", mute):
+        if isinstance(slots, str):
+            raise TypeError(f"{name} must be a sequence of names, not str")
+        names = ffi.new("const char *[]", [keep_text(c_text(slot, f"a name of {name}"), keep) for slot in slots])
+        keep.append(names)
+        setattr(desc, name, names)
+        setattr(desc, f"num_{name}", len(slots))
+    return desc

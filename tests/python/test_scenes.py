@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes, and the layers of their primitives. examples/slots.mtlx has the looks; docs/slots.md has the rules."""
+import gc
+import json
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import common
+import mxgen
+
+STAGE = """#usda 1.0
+( upAxis = "Z"; metersPerUnit = 0.5 )
+def Xform "world" {
+    def Mesh "box" (prepend apiSchemas = ["MaterialBindingAPI"]) {
+        float[] primvars:wear = [0.25, 0.5] (interpolation = "vertex")
+        bool doubleSided = 1
+        token subdivisionScheme = "none"
+        rel friends = [</world/ball>, </nowhere>]
+        rel material:binding = </world/paint>
+    }
+    def Sphere "ball" { double radius = 2 }
+    def Material "paint" {
+        token outputs:mtlx:surface.connect = </world/paint/shader.outputs:out>
+        def Shader "shader" {
+            uniform token info:id = "ND_standard_surface_surfaceshader"
+            color3f inputs:base_color = (1, 0, 0)
+            token outputs:out
+        }
+    }
+}
+"""
+
+
+def write(folder, name, text):
+    path = pathlib.Path(folder) / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+class Slots(unittest.TestCase):
+    def test_names(self):
+        self.assertEqual(mxgen.encode_slot("050::010"), "_050:_:_010")
+        self.assertEqual(mxgen.decode_slot("_050:_:_010"), "050::010")
+        for function in mxgen.encode_slot, mxgen.decode_slot:
+            with self.assertRaises(ValueError):
+                function("")
+            with self.assertRaises(TypeError):
+                function(5)
+
+
+class Scenes(unittest.TestCase):
+    def setUp(self):
+        self.context = mxgen.Context()
+
+    def test_paths(self):
+        scene = self.context.scene("/set/table", "/set/chair/leg")
+        self.assertEqual([primitive.path for primitive in scene], ["/set", "/set/table", "/set/chair", "/set/chair/leg"])
+        self.assertEqual(len(scene), 4)
+        leg = scene["/set/chair/leg"]
+        self.assertEqual((leg.name, leg.type, leg.parent, list(leg.children)), ("leg", "", scene["/set/chair"], []))
+        self.assertEqual([child.name for child in scene["/set"].children], ["table", "chair"])
+        self.assertIsNone(scene["/set"].parent)
+        self.assertIsNone(scene.find("/none"))
+        self.assertEqual(len({leg, scene["/set/chair/leg"], scene["/set"]}), 2)
+        self.assertEqual(repr(leg), "<Primitive '/set/chair/leg'>")
+        self.assertEqual((dict(leg.properties), leg.property("x"), leg.numbers("x"), leg.words("x"), leg.targets("x")),
+                         ({}, None, (), (), ()))
+        self.assertEqual(scene.meters_per_unit, 0)
+        scene.add("/set/lamp")
+        self.assertEqual(len(scene), 5)
+        with self.assertRaises(KeyError):
+            scene["/none"]
+        with self.assertRaises(mxgen.ArgumentError):
+            mxgen.Primitive(scene, 5)
+
+    def test_wrong_paths(self):
+        scene = self.context.scene()
+        with self.assertRaises(mxgen.DocumentError) as caught:
+            scene.add("/a", "b c", "/d")
+        self.assertIn("b c", str(caught.exception))
+        self.assertEqual([primitive.path for primitive in scene], ["/a", "/d"])
+        with self.assertRaises(mxgen.DocumentError):
+            self.context.load_scene("/nonexistent/stage.txt")
+        for call in (lambda: scene.add(5), lambda: scene.find(5), lambda: self.context.load_scene(5), lambda: scene["/a"].numbers(5),
+                     lambda: self.context.load_scene("a", purpose=5), lambda: mxgen.Primitive(5, 0),
+                     lambda: self.context.scene_materials(5)):
+            with self.assertRaises(TypeError):
+                call()
+
+    def test_usd(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = self.context.load_scene(write(folder, "stage.usda", STAGE))
+            with self.assertRaises(mxgen.DocumentError) as caught:
+                self.context.load_scene(write(folder, "broken.usda", STAGE[:200]))
+        self.assertEqual(caught.exception.diagnostics[0].severity, mxgen.Severity.ERROR)
+        self.assertEqual(str(scene.diagnostics), "")
+        self.assertEqual((scene.up_axis, scene.meters_per_unit), ("Z", 0.5))
+        box = scene["/world/box"]
+        self.assertEqual(box.type, "Mesh")
+        wear = box.properties["primvars:wear"]
+        self.assertEqual((wear.type, wear.interpolation, wear.line), ("float[]", "vertex", 5))
+        self.assertEqual(wear, box.property("primvars:wear"))
+        self.assertEqual(box.numbers("primvars:wear"), (0.25, 0.5))
+        self.assertEqual(box.numbers("doubleSided"), (1,))
+        self.assertEqual(box.words("subdivisionScheme"), ("none",))
+        self.assertEqual(box.words("friends"), ("/world/ball", "/nowhere"))
+        self.assertEqual(box.targets("friends"), (scene["/world/ball"], None))
+        # The stage brings the material and its binding.
+        paint = self.context.scene_materials(scene)
+        self.assertEqual([renderable.type for renderable in paint.renderables], ["material"])
+        both = self.context.parse(common.GOLD).with_materials(scene)
+        self.assertEqual(len(both.renderables), 2)
+        bindings = both.bind(scene)
+        self.assertEqual([layer.source for layer in bindings.layers(box)], [box])
+        self.assertIn("base_color", both.generate("glsl", bindings.stack(box)).pixel)
+        with self.assertRaises(TypeError):
+            both.with_materials(5)
+
+
+class Bindings(unittest.TestCase):
+    def setUp(self):
+        self.context = mxgen.Context()
+        self.document = self.context.load(common.EXAMPLES / "slots.mtlx")
+        self.scene = self.context.load_scene(common.EXAMPLES / "slots.txt")
+
+    def test_layers(self):
+        bindings = self.document.bind(self.scene, "finished")
+        self.assertEqual(str(bindings.diagnostics), "")
+        layers = bindings.layers("/device/case/handle")
+        kinds = mxgen.LayerKind
+        self.assertEqual([(layer.kind, layer.slot, layer.material) for layer in layers],
+                         [(kinds.LAYER, "000", "steel"), (kinds.VERTICAL, "000|010", "varnish"), (kinds.LAYER, "050", "dirt"),
+                          (kinds.OVERRIDE, "050::020", "light_dirt")])
+        self.assertEqual([layer.source for layer in layers],
+                         [self.scene["/device/case"], self.scene["/device/case/handle"], None, self.scene["/device/case"]])
+        self.assertEqual((layers[1].assign, layers[1].look, layers[1].is_nodegraph, layers[3].is_nodegraph),
+                         ("varnish", "finished", False, True))
+        self.assertEqual(layers[0].file, str(common.EXAMPLES / "slots.mtlx"))
+        # The decisions of the paper: no dirt on the front panel.
+        self.assertEqual([layer.slot for layer in bindings.layers(self.scene["/device/case/front_panel"])], ["000"])
+
+    def test_solo_and_mute(self):
+        for words, slots in (({"solo": ["050"]}, ["050", "050::020"]), ({"mute": ["050"]}, ["000", "000|010"])):
+            bindings = self.document.bind(self.scene, "finished", **words)
+            self.assertEqual([layer.slot for layer in bindings.layers("/device/case/handle")], slots)
+
+    def test_stacks(self):
+        bindings = self.document.bind(self.scene, "finished")
+        one, other = (bindings.stack(f"/device/knobs/knob_{number}/cap") for number in (1, 3))
+        self.assertEqual((one.number, one.name), (other.number, other.name))
+        self.assertRegex(one.name, "^stack_[0-9a-f]{16}$")
+        self.assertEqual(len({stack.name for stack in bindings.stacks}), len(bindings.stacks))
+        self.assertEqual(bindings.stacks[one.number].name, one.name)
+        compared = 0
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([common.PROGRAM, common.EXAMPLES / "slots.mtlx", "--look", "finished", "--stage",
+                            common.EXAMPLES / "slots.txt", "-o", folder], check=True, stdout=subprocess.DEVNULL)
+            written = json.loads((pathlib.Path(folder) / "bindings.json").read_text(encoding="utf-8"))
+            self.assertEqual([stack["name"] for stack in written["stacks"]], [stack.name for stack in bindings.stacks])
+            for stack in bindings.stacks:
+                if stack.name in {program["name"] for program in written["programs"]}:
+                    self.assertEqual(self.document.generate("glsl", stack).pixel,
+                                     (pathlib.Path(folder) / f"{stack.name}.frag").read_text(encoding="utf-8"))
+                    compared += 1
+        self.assertEqual(compared, len(written["programs"]))
+
+    def test_texts(self):
+        bindings = self.document.bind(self.scene, "finished")
+        table = subprocess.run([common.PROGRAM, "bind", common.EXAMPLES / "slots.mtlx", "--look", "finished", "--stage",
+                                common.EXAMPLES / "slots.txt"], check=True, stdout=subprocess.PIPE).stdout.decode()
+        self.assertEqual(bindings.text(), table)
+        found = json.loads(bindings.text(mxgen.BindingsFormat.JSON))
+        self.assertEqual(len(found["stacks"]), len(bindings.stacks))
+        self.assertIn("/device/case/handle", bindings.explain("/device/case/handle"))
+        with self.assertRaises(mxgen.DocumentError):
+            self.document.bind(self.scene, "no such look")
+
+    def test_lifetime(self):
+        """Bindings keep their scene and their document, whatever Python ends first."""
+        bindings = mxgen.Context().load(common.EXAMPLES / "slots.mtlx").bind(mxgen.Context().scene("/device/case/handle"), "finished")
+        gc.collect()
+        self.assertEqual(bindings.layers("/device/case/handle")[0].material, "steel")
+        stack = bindings.stack("/device/case/handle")
+        other = self.context.load(common.EXAMPLES / "slots.mtlx")
+        with self.assertRaises(ValueError):
+            other.generate("glsl", stack)
+        with self.assertRaises(ValueError):
+            bindings.layers(self.scene["/device/case/handle"])
+        for call in (lambda: bindings.layers(5), lambda: bindings.stack(5), lambda: other.bind(5), lambda: bindings.explain(5),
+                     lambda: other.bind(self.scene, 5), lambda: other.bind(self.scene, solo="050")):
+            with self.assertRaises(TypeError):
+                call()
