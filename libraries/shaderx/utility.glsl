@@ -5,7 +5,9 @@
 
 vec3 mx_reflectivity(vec3 ior, vec3 extinction)
 {
-    return mx_fresnel_f0("conductor", ior, extinction);
+    vec3 re, im;
+    mx_permittivity(ior, extinction, re, im);
+    return mx_fresnel_f0("conductor", re, im);
 }
 
 // Gulbrandsen 2014, section 3: where the index lies between the largest, (1 + sqrt r) / (1 - sqrt r), and the smallest,

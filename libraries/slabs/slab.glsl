@@ -270,9 +270,9 @@ vec3 mx_slab_reflection_bsdf_eval(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec
     return mx_ggx_eval(roughness, N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
 }
 
-vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V)
+vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V, int sample_index, vec2 sample_turn)
 {
-    return mx_ggx_environment(roughness, N, X, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+    return mx_ggx_environment(roughness, N, X, V, sample_index, sample_turn, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
 }
 
 vec3 mx_slab_reflection_bsdf_albedo(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V)

@@ -52,7 +52,10 @@ static ir_ref context_value(struct shader *shader, struct closure_point *point, 
     case STR_N: return made_once(shader, &point->normal, name, normal);
     case STR_xi: return shader_stream(shader, STR_random, IR_TYPE_VEC3);
     case STR_P: return made_once(shader, &point->position, name, position);
-    case STR_sample_index: return ir_build(shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
+    case STR_sample_index:
+        return ir_build(shader->graph, IR_SAMPLE, IR_TYPE_INT, IR_SAMPLE_INDEX, NULL, 0);
+    case STR_sample_turn:
+        return ir_build(shader->graph, IR_SAMPLE, IR_TYPE_VEC2, IR_SAMPLE_TURN, NULL, 0);
     default: return name == STR_L && light ? *light : ir_poison(shader->graph, IR_TYPE_VEC3);
     }
 }

@@ -10,6 +10,13 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 
 /* output.c: a linear colour by the transfer function of sRGB (IEC 61966-2-1, section 5.2). */
 ir_ref closure_encoded(struct ir_graph *graph, ir_ref color);
+/* The colour, a vec3, and its alpha: one output of a program, two members of a function. */
+void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha);
+/*
+ * Writes a plain value as a colour: scalars are grey, two components are red and green, an alpha is
+ * kept. encodes: as closure_encoded. False: the type is no value.
+ */
+bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root);
 /*
  * The part of the light from behind that passes a leaf straight on, by throughput and tint; 0: the
  * leaf transmits none.
@@ -164,11 +171,43 @@ ir_ref closure_layer_number(struct shader *shader, ir_ref point);
  * run a layer; except textures that the weights read, too.
  */
 ir_ref closure_own_textures(struct shader *shader, ir_ref slots);
+/* rewrite.c: nodes over copies of their operands. */
+struct closure_rewriting {
+    struct shader *shader;
+    struct ir_graph *graph;
+    ir_ref *became; /* by node: its copy */
+};
+/* The copy of a node, with one more operand if `last` is not 0. */
+ir_ref closure_over_copies(struct closure_rewriting *r, ir_ref ref, ir_ref last);
 /*
  * The value in another loop over the lights or samples: 0 is the first one. The current light of
  * one loop is not that of another.
  */
 ir_ref closure_in_loop(struct shader *shader, ir_ref root, uint32_t loop);
+/* A value of a sample where the choice is true, or false. */
+ir_ref closure_chosen(struct shader *shader, ir_ref root, ir_ref choice, bool is_true);
+
+/* samples.c: the loops over the samples of the environment, in the order of their first parts. */
+struct closure_sample_loop {
+    struct closure_parts list;
+    ir_ref choice; /* a bool, the same for all samples, that chooses between values; 0: none */
+};
+struct closure_sample_loops {
+    VEC(struct closure_sample_loop) loops;
+};
+void closure_find_sample_loops(struct shader *shader, const struct closure_parts *list,
+                               struct closure_sample_loops *out);
+/*
+ * The turn of samples, a unit vector: the golden angle further around from sample to sample. 0: the
+ * parts do not read it.
+ */
+struct closure_turn {
+    ir_ref first, next;
+};
+struct closure_turn closure_turn_of_samples(struct shader *shader,
+                                            const struct closure_parts *list);
+/* The sum of a value over all samples, for code that does more than add it up: adds effects. */
+ir_ref closure_gathered(struct shader *shader, ir_ref value);
 
 /* aov.c: the algebra of closure_aovs. Nothing changes an operand. */
 

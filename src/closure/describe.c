@@ -180,3 +180,47 @@ void closure_describe_weight(const struct shader *shader, const struct closure_l
         text_str(out, leaf->steady ? "^way)" : "^way");
     }
 }
+
+/* ---- All leaves ---- */
+
+static void describe_list(struct shader *shader, const struct closure_host *host, ir_ref root,
+                          struct text *out)
+{
+    struct closure_list list;
+    closure_flatten(shader, host, root, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct ir_node *node = ir_get(shader->graph, list.leaves.items[i].leaf);
+        const struct ir_origin *origin = &shader->graph->origins.items[node->origin];
+        text_fmt(out, "  %-24s %-32s weight ", str_text(shader->strings, origin->name),
+                 str_text(shader->strings, shader->graph->callees.items[node->attr].name));
+        closure_describe_weight(shader, &list.leaves.items[i], out);
+        text_char(out, '\n');
+    }
+}
+
+void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root,
+                      struct text *out)
+{
+    const struct ir_graph *g = shader->graph;
+    if (root && ir_get(g, root)->op == IR_MATERIAL)
+        root = ir_arg(g, root, ir_arg(g, root, 3) ? 3 : 0);
+    if (!root)
+        return;
+    ir_type_id type = ir_type_of(g, root);
+    struct closure_surface s = closure_surface_of(shader, host, type == IR_TYPE_SURFACE ? root : 0);
+    if (type == IR_TYPE_BSDF)
+        s.bsdf = root;
+    if (type == IR_TYPE_EDF)
+        s.edf = root;
+    if (type == IR_TYPE_VOLUME || type == IR_TYPE_VDF) {
+        struct closure_volume volume;
+        closure_volume(shader, host, root, &volume);
+        text_str(out, "vdf\n");
+        describe_list(shader, host, volume.vdf, out);
+        s.edf = volume.edf;
+    }
+    text_str(out, "bsdf\n");
+    describe_list(shader, host, s.bsdf, out);
+    text_str(out, "edf\n");
+    describe_list(shader, host, s.edf, out);
+}

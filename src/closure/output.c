@@ -2,6 +2,8 @@
 /* What hosts choose about the output: the encoding of its colour, and transmission as alpha. */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 ir_ref closure_encoded(struct ir_graph *g, ir_ref color)
 {
     ir_type_id type = ir_type_of(g, color);
@@ -44,4 +46,49 @@ ir_ref closure_through(struct shader *shader, const struct closure_host *host, i
         return 0;
     ir_ref decay, throughput = closure_leaf_throughput(shader, host, leaf, &decay);
     return closure_mul(shader->graph, throughput, operand_of(shader, host, leaf, "tint"));
+}
+
+static void write_value(struct shader *shader, str_id name, ir_ref value)
+{
+    uint32_t out = shader_output(shader, name, ir_type_of(shader->graph, value));
+    shader_effect(shader, STAGE_PIXEL,
+                  (struct effect){.kind = EFFECT_OUTPUT, .index = out, .value = value});
+}
+
+void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha)
+{
+    struct ir_graph *g = shader->graph;
+    assert(ir_type_of(g, color) == IR_TYPE_VEC3 && ir_type_of(g, alpha) == IR_TYPE_FLOAT);
+    if (shader->is_function) {
+        write_value(shader, STR_color, color);
+        write_value(shader, STR_alpha, alpha);
+        return;
+    }
+    ir_ref parts[2] = {color, alpha};
+    write_value(shader, STR_out1, ir_construct(g, IR_TYPE_VEC4, parts, 2));
+}
+
+bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref zero = ir_const_float(g, 0.0f);
+    ir_type_id type = ir_type_of(g, root);
+    if (type == IR_TYPE_BOOL || type == IR_TYPE_INT || type == IR_TYPE_UINT) {
+        root = ir_convert(g, IR_TYPE_FLOAT, root);
+        type = IR_TYPE_FLOAT;
+    }
+    ir_ref color = root, alpha = ir_const_float(g, 1.0f);
+    bool is_color = shader->value_type == STR_color3 || shader->value_type == STR_color4;
+    switch (type) {
+    case IR_TYPE_FLOAT: color = ir_convert(g, IR_TYPE_VEC3, root); break;
+    case IR_TYPE_VEC2: color = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){root, zero}, 2); break;
+    case IR_TYPE_VEC3: break;
+    case IR_TYPE_VEC4:
+        color = ir_swizzle(g, root, (uint8_t[]){0, 1, 2}, 3);
+        alpha = ir_component(g, root, 3);
+        break;
+    default: return false;
+    }
+    closure_write_output(shader, encodes && is_color ? closure_encoded(g, color) : color, alpha);
+    return true;
 }

@@ -126,30 +126,8 @@ void closure_choose(struct shader *shader, const struct closure_host *host, ir_r
 
 /* ---- The layers ---- */
 
-struct rewriting {
-    struct shader *shader;
-    struct ir_graph *graph;
-    uint32_t num_nodes;
-    ir_ref *became;
-};
-
-static ir_ref over_copies(struct rewriting *r, ir_ref ref, ir_ref first)
-{
-    const struct ir_node node = *ir_get(r->graph, ref);
-    ir_ref *args = ARENA_ARRAY(r->shader->arena, ir_ref, node.num_args + 1u);
-    bool changed = first != 0;
-    uint32_t n = 0;
-    for (; n < node.num_args; n++) {
-        args[n] = r->became[ir_arg(r->graph, ref, n)];
-        changed |= args[n] != ir_arg(r->graph, ref, n);
-    }
-    if (first)
-        args[n++] = first;
-    return changed ? ir_build(r->graph, (enum ir_op)node.op, node.type, node.attr, args, n) : ref;
-}
-
 /* texture(s, uv) with the derivatives of uv */
-static ir_ref with_derivatives(struct rewriting *r, ir_ref ref)
+static ir_ref with_derivatives(struct closure_rewriting *r, ir_ref ref)
 {
     struct ir_graph *g = r->graph;
     ir_ref uv = r->became[ir_arg(g, ref, 1)];
@@ -171,39 +149,19 @@ static const uint8_t *mark_shared(struct shader *shader, ir_ref slots)
 
 ir_ref closure_own_textures(struct shader *shader, ir_ref slots)
 {
-    struct rewriting r = {shader, shader->graph, slots + 1, NULL};
+    struct closure_rewriting r = {shader, shader->graph, NULL};
+    uint32_t num_nodes = slots + 1;
     const uint8_t *is_shared = mark_shared(shader, slots),
                   *needed = ir_mark(r.graph, &slots, 1, shader->arena);
-    r.became = ARENA_ARRAY(shader->arena, ir_ref, r.num_nodes);
-    for (ir_ref ref = 1; ref < r.num_nodes; ref++) {
+    r.became = ARENA_ARRAY(shader->arena, ir_ref, num_nodes);
+    for (ir_ref ref = 1; ref < num_nodes; ref++) {
         r.became[ref] = ref;
         if (!needed[ref] || is_shared[ref])
             continue;
         ir_push_origin_of(r.graph, ref);
         bool is_texture = ir_get(r.graph, ref)->op == IR_TEX;
-        r.became[ref] = is_texture ? with_derivatives(&r, ref) : over_copies(&r, ref, 0);
+        r.became[ref] = is_texture ? with_derivatives(&r, ref) : closure_over_copies(&r, ref, 0);
         ir_pop_origin(r.graph);
     }
     return r.became[slots];
-}
-
-ir_ref closure_in_loop(struct shader *shader, ir_ref root, uint32_t loop)
-{
-    struct rewriting r = {shader, shader->graph, root + 1, NULL};
-    if (!loop || !root || !(ir_get(r.graph, root)->flags & IR_NODE_LOOP))
-        return root;
-    ir_ref number = ir_const_int(r.graph, (int32_t)loop);
-    const uint8_t *needed = ir_mark(r.graph, &root, 1, shader->arena);
-    r.became = ARENA_ARRAY(shader->arena, ir_ref, r.num_nodes);
-    for (ir_ref ref = 1; ref < r.num_nodes; ref++) {
-        const struct ir_node *node = ir_get(r.graph, ref);
-        r.became[ref] = ref;
-        if (!needed[ref] || !(node->flags & IR_NODE_LOOP))
-            continue;
-        bool is_source = (node->op == IR_CONTEXT || node->op == IR_SAMPLE) && !node->num_args;
-        ir_push_origin_of(r.graph, ref);
-        r.became[ref] = over_copies(&r, ref, is_source ? number : 0);
-        ir_pop_origin(r.graph);
-    }
-    return r.became[root];
 }

@@ -5,7 +5,8 @@
  *     color = emission
  *     for each light: color += intensity · Σ w · eval
  *     color += Σ w · environment + Σ w · transmission
- *     for each sample of the environment: color += Σ of the sample functions
+ *     for leaves that share samples, for each sample of the environment:
+ *         color += Σ w · environment + Σ w · transmission
  *     out1 = vec4(color · opacity, opacity)
  *
  * A leaf with a variable weight may have weight 0: its expensive part stands behind `if (weight >
@@ -21,7 +22,7 @@ struct emitter {
     const struct closure_host *host;
     const struct closure_lighting *lighting;
     struct closure_lit lit;
-    uint32_t loop;  /* number of the layer that is lit, if one is picked */
+    uint32_t loop;  /* number of the current loop over lights or samples */
     ir_ref through; /* vec3: the transmitted part, with transmits_alpha; 0: none */
 };
 
@@ -140,10 +141,11 @@ static void accumulate_parts(struct emitter *e, const struct closure_part *parts
  * color += factor · Σ parts. Leaves without branch and loop share one line, which comes first:
  * their weights need no registers in the loops. Neighbours with the same guard share a branch.
  */
-static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref factor)
+static void accumulate_all(struct emitter *e, struct closure_parts *list, bool in_loop,
+                           ir_ref factor)
 {
-    struct closure_parts *list = &e->lit.at[place], plain = {0}, dear = {0};
-    closure_find_guarded(e->shader, list, place != PLACE_WHOLE);
+    struct closure_parts plain = {0}, dear = {0};
+    closure_find_guarded(e->shader, list, in_loop);
     for (uint32_t i = 0; i < list->parts.len; i++) {
         struct closure_part *part = &list->parts.items[i];
         part->is_guarded &= !ir_is_const(e->graph, part->scalar);
@@ -298,10 +300,82 @@ static void loop_lights(struct emitter *e)
     }
     comment(e, STR_lights);
     effect(e, EFFECT_LIGHTS, 0, 0);
-    accumulate_all(e, PLACE_LIGHT, factor);
+    e->loop = e->shader->num_light_loops++;
+    accumulate_all(e, &e->lit.at[PLACE_LIGHT], true, factor);
     if (e->lighting->shadow)
         effect(e, EFFECT_ASSIGN, local, ir_const_float(e->graph, 1.0f));
     effect(e, EFFECT_END, 0, 0);
+}
+
+/* ---- samples of the environment ---- */
+
+static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref factor)
+{
+    struct closure_turn turn = closure_turn_of_samples(e->shader, list);
+    effect(e, EFFECT_SAMPLES, 0, turn.first);
+    e->loop = e->shader->num_sample_loops++;
+    if (list->parts.len == 1)
+        accumulate(e, factor, list->parts.items[0].value);
+    else
+        accumulate_all(e, list, true, factor);
+    if (turn.next)
+        effect(e, EFFECT_NEXT, 0, turn.next);
+    effect(e, EFFECT_END, 0, 0);
+}
+
+/* The parts where a choice is true, or false. */
+static struct closure_parts chosen_parts(struct emitter *e, const struct closure_sample_loop *loop,
+                                         bool is_true)
+{
+    struct closure_parts chosen = {0};
+    for (uint32_t i = 0; i < loop->list.parts.len; i++) {
+        struct closure_part part = loop->list.parts.items[i];
+        part.value = closure_chosen(e->shader, part.value, loop->choice, is_true);
+        vec_push(e->shader->arena, &chosen.parts, part);
+    }
+    return chosen;
+}
+
+static void loop_samples_by_choice(struct emitter *e, struct closure_sample_loop *loop,
+                                   ir_ref factor)
+{
+    if (!loop->choice) {
+        loop_samples(e, &loop->list, factor);
+        return;
+    }
+    struct closure_parts sides[2] = {chosen_parts(e, loop, true), chosen_parts(e, loop, false)};
+    effect(e, EFFECT_IF, 0, loop->choice);
+    loop_samples(e, &sides[0], factor);
+    effect(e, EFFECT_ELSE, 0, 0);
+    loop_samples(e, &sides[1], factor);
+    effect(e, EFFECT_END, 0, 0);
+}
+
+/* True if a weight of the parts is not 0; 0: always. */
+static ir_ref is_any_visible(struct emitter *e, const struct closure_parts *list)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref any = 0;
+    for (uint32_t i = 0; i < list->parts.len; i++) {
+        const struct closure_part *part = &list->parts.items[i];
+        if (ir_is_const(g, part->scalar))
+            return 0;
+        ir_ref visible = ir_op2(g, IR_GT, part->scalar, ir_const_float(g, 0.0f));
+        closure_name(e->shader, visible, part->leaf, "visible");
+        any = any && any != visible ? ir_op2(g, IR_LOR, any, visible) : visible;
+    }
+    return any;
+}
+
+static void gather_samples(struct emitter *e, struct closure_sample_loop *loop, ir_ref factor)
+{
+    ir_ref visible = is_any_visible(e, &loop->list);
+    comment_leaves(e, loop->list.parts.items, loop->list.parts.len);
+    if (visible)
+        effect(e, EFFECT_IF, 0, visible);
+    loop_samples_by_choice(e, loop, factor);
+    if (visible)
+        effect(e, EFFECT_END, 0, 0);
 }
 
 /* Emits the parts as effects. */
@@ -320,12 +394,11 @@ static void emit_lit(struct emitter *e)
                       : 0;
     if (has_environment)
         comment(e, STR_environment);
-    accumulate_all(e, PLACE_WHOLE, open);
-    if (has_samples) {
-        effect(e, EFFECT_SAMPLES, 0, 0);
-        accumulate_all(e, PLACE_SAMPLE, open);
-        effect(e, EFFECT_END, 0, 0);
-    }
+    accumulate_all(e, &e->lit.at[PLACE_WHOLE], false, open);
+    struct closure_sample_loops samples = {0};
+    closure_find_sample_loops(e->shader, &e->lit.at[PLACE_SAMPLE], &samples);
+    for (uint32_t i = 0; i < samples.loops.len; i++)
+        gather_samples(e, &samples.loops.items[i], open);
     e->shader->lit = true;
 }
 
@@ -358,29 +431,10 @@ static ir_ref encoded(struct emitter *e, ir_ref color)
     return e->lighting->encodes ? closure_encoded(e->graph, color) : color;
 }
 
-static void write_value(struct emitter *e, str_id name, ir_ref value)
-{
-    effect(e, EFFECT_OUTPUT, shader_output(e->shader, name, ir_type_of(e->graph, value)), value);
-}
-
-/* A program has one output for both, a function gives two members. */
-static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
-{
-    struct ir_graph *g = e->graph;
-    assert(ir_type_of(g, color) == IR_TYPE_VEC3 && ir_type_of(g, alpha) == IR_TYPE_FLOAT);
-    if (e->shader->is_function) {
-        write_value(e, STR_color, color);
-        write_value(e, STR_alpha, alpha);
-        return;
-    }
-    ir_ref parts[2] = {color, alpha};
-    write_value(e, STR_out1, ir_construct(g, IR_TYPE_VEC4, parts, 2));
-}
-
 static void write_surface(struct emitter *e, ir_ref color, ir_ref alpha)
 {
     ir_suggest_name(e->graph, alpha, STR_opacity, IR_NAME_ROLE);
-    write_output(e, encoded(e, color), alpha);
+    closure_write_output(e->shader, encoded(e, color), alpha);
 }
 
 /* The pixel stage discards pixels below the host's threshold. */
@@ -518,7 +572,6 @@ static void light_aov(struct emitter *e, ir_ref closure)
     bool emits = ir_type_of(e->graph, closure) == IR_TYPE_EDF;
     struct closure_surface s = {.bsdf = emits ? 0 : closure, .edf = emits ? closure : 0};
     ir_ref through = e->through; /* it is not that of the surface */
-    e->loop++;
     light_surface(e, &s);
     emit_lit(e);
     e->through = through;
@@ -623,7 +676,6 @@ static void emit_layer(struct emitter *e, const struct closure_choice *choice, c
     emit_lit(e);
     keep_aovs(e, choice->layer.aovs, aovs);
     e->lit.color = color;
-    e->loop++;
     if (choice->is_it)
         effect(e, EFFECT_END, 0, 0);
 }
@@ -639,7 +691,6 @@ static void emit_picked(struct emitter *e, ir_ref slots)
     uint32_t *aovs = declare_aovs(e);
     for (uint32_t i = 0; i < choices.items.len; i++)
         emit_layer(e, &choices.items.items[i], aovs);
-    e->loop = 0;
     e->lit.base = 0;
     struct closure_surface whole = {.premultiplied = true, .aovs = read_aovs(e, aovs)};
     if (choices.covered)
@@ -689,7 +740,6 @@ static void emit_surface(struct emitter *e, ir_ref root)
     light_surface(e, &s);
     emit_lit(e);
     light_aovs(e, s.aovs);
-    e->loop = 0;
     finish_surface(e, &s);
 }
 
@@ -715,35 +765,7 @@ static void emit_volume(struct emitter *e, ir_ref root)
     write_surface(e, final_color(e), volume.alpha);
 }
 
-/* ---- values ---- */
-
-/* A value as a colour: scalars are grey, two components are red and green, an alpha is kept. */
-static bool emit_value(struct emitter *e, ir_ref root)
-{
-    struct ir_graph *g = e->graph;
-    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
-    ir_type_id type = ir_type_of(g, root);
-    if (type == IR_TYPE_BOOL || type == IR_TYPE_INT || type == IR_TYPE_UINT) {
-        root = ir_convert(g, IR_TYPE_FLOAT, root);
-        type = IR_TYPE_FLOAT;
-    }
-    if (type == IR_TYPE_VEC3 && e->shader->value_type == STR_color3)
-        root = encoded(e, root);
-    ir_ref color = root, alpha = one;
-    switch (type) {
-    case IR_TYPE_FLOAT: color = ir_convert(g, IR_TYPE_VEC3, root); break;
-    case IR_TYPE_VEC2: color = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){root, zero}, 2); break;
-    case IR_TYPE_VEC3: break;
-    case IR_TYPE_VEC4:
-        color = ir_swizzle(g, root, (uint8_t[]){0, 1, 2}, 3);
-        alpha = ir_component(g, root, 3);
-        color = e->shader->value_type == STR_color4 ? encoded(e, color) : color;
-        break;
-    default: return false;
-    }
-    write_output(e, color, alpha);
-    return true;
-}
+/* ---- entry ---- */
 
 bool closure_is_surface(const struct shader *shader, ir_ref root)
 {
@@ -785,56 +807,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
         return true;
     }
     if (type != IR_TYPE_SURFACE)
-        return emit_value(&e, root);
+        return closure_emit_value(shader, lighting->encodes, root);
     emit_surface(&e, root);
     return true;
-}
-
-/* ---- looking inside ---- */
-
-static void describe_list(struct shader *shader, const struct closure_host *host, ir_ref root,
-                          struct text *out)
-{
-    struct closure_list list;
-    closure_flatten(shader, host, root, &list);
-    for (uint32_t i = 0; i < list.leaves.len; i++) {
-        const struct ir_node *node = ir_get(shader->graph, list.leaves.items[i].leaf);
-        const struct ir_origin *origin = &shader->graph->origins.items[node->origin];
-        text_fmt(out, "  %-24s %-32s weight ", str_text(shader->strings, origin->name),
-                 str_text(shader->strings, shader->graph->callees.items[node->attr].name));
-        closure_describe_weight(shader, &list.leaves.items[i], out);
-        text_char(out, '\n');
-    }
-}
-
-void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root,
-                      struct text *out)
-{
-    struct closure_lighting lighting = {true, true};
-    struct emitter e = {.shader = shader,
-                        .graph = shader->graph,
-                        .host = host,
-                        .lighting = &lighting,
-                        .lit = {.color = UINT32_MAX}};
-    if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
-        root = ir_arg(e.graph, root, ir_arg(e.graph, root, 3) ? 3 : 0);
-    if (!root)
-        return;
-    ir_type_id type = ir_type_of(e.graph, root);
-    struct closure_surface s = closure_surface_of(shader, host, type == IR_TYPE_SURFACE ? root : 0);
-    if (type == IR_TYPE_BSDF)
-        s.bsdf = root;
-    if (type == IR_TYPE_EDF)
-        s.edf = root;
-    if (type == IR_TYPE_VOLUME || type == IR_TYPE_VDF) {
-        struct closure_volume volume;
-        closure_volume(shader, host, root, &volume);
-        text_str(out, "vdf\n");
-        describe_list(shader, host, volume.vdf, out);
-        s.edf = volume.edf;
-    }
-    text_str(out, "bsdf\n");
-    describe_list(shader, host, s.bsdf, out);
-    text_str(out, "edf\n");
-    describe_list(shader, host, s.edf, out);
 }

@@ -38,6 +38,8 @@ static ir_ref response_of(struct evaluation *e, ir_ref leaf)
     };
     ir_ref response =
         closure_call(e->shader, e->host, leaf, functions[e->host->context], e->host->light);
+    if (response && e->host->context != SOURCE_REFLECTION)
+        response = closure_gathered(e->shader, ir_convert(e->graph, IR_TYPE_VEC3, response));
     return response ? multiply(e, response, ir_arg(e->graph, leaf, 0))
                     : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f);
 }

@@ -229,6 +229,8 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
     case IR_RESULT: return result_problem(graph, type, attr, args[0]);
     case IR_CONTEXT:
     case IR_SAMPLE:
+        if (op == IR_SAMPLE && type != (attr == IR_SAMPLE_TURN ? IR_TYPE_VEC2 : IR_TYPE_INT))
+            return "neither the index nor the turn of a sample";
         if (num_args > 1 || (num_args && from != IR_TYPE_INT))
             return "the operand is no number of a loop";
         break;

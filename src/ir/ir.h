@@ -174,6 +174,9 @@ struct ir_node {
     uint32_t origin; /* index in graph->origins: the source of the node; 0 = none */
 };
 
+/* The attr of a SAMPLE. */
+enum { IR_SAMPLE_INDEX, IR_SAMPLE_TURN };
+
 enum ir_node_flags {
     /* it or an operand has OP_DERIVATIVE, or calls a function with derivatives */
     IR_NODE_DERIVATIVE = 1,

@@ -8,13 +8,8 @@
 #include <assert.h>
 
 /*
- * The limits of an expression, and costs in SPIR-V instructions without an optimiser: a read of a
- * block's member takes an access chain and a load, a local takes a variable, a store, and a load
- * per use.
- */
-/*
- * Characters. All names count alike, so that shaders that differ only in names have the same
- * statements.
+ * Characters of an expression. All names count alike, so that shaders that differ only in names
+ * have the same statements.
  */
 enum {
     GOOD_CHARS = 110,
@@ -24,16 +19,24 @@ enum {
     MAX_CLOSURE_CHARS = 64,
     NAME_CHARS = 10
 };
-/* each use takes an access and a load; a copy takes both once, a store, and a load per use */
+/* a copy of a uniform is for the reader: a GPU reads it once anyway */
 enum { MIN_USES_OF_COPY = 5 };
+/*
+ * The cost model of GPUs (docs/architecture.md): instructions per component. Roots, exponentials
+ * and reciprocals run at a quarter of the rate of additions. Drivers find equal expressions in
+ * straight code themselves, but they move nothing out of loops, so two limits decide what a GPU
+ * does; bench/gpu measures them.
+ */
 enum {
     COST_OPERATOR = 1,
     COST_CHOICE = 3,
     COST_BUILTIN = 4,
     COST_CALL = 32,
     COST_LOCAL = 2,
+    /* cheaper to compute in each round of a loop than to keep in a register */
     MAX_COST_IN_LOOP = 3,
-    MAX_COST_OF_ARM = 24
+    /* a dearer arm of a choice is worth a branch, which a GPU takes where all pixels agree */
+    MAX_COST_OF_ARM = 3
 };
 
 static bool is_splat(ir_type_id type, const union ir_word *words)
@@ -60,7 +63,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         bool splat = is_splat(plan->type, s->graph->words.items + node->attr);
         uint32_t components = splat ? 1 : ir_type_info(plan->type)->components;
         plan->chars = clamp16(components == 1 ? 5 : 4 + 6 * components);
-        return components == 1 || plan->uses < (components > 4 ? 2u : 3u);
+        return components <= 2 || plan->uses < (components > 4 ? 2u : 3u);
     }
     case IR_CONTEXT: /* u_lightData[i].member */
         plan->cost = 3;
@@ -219,7 +222,8 @@ static bool is_little_work(struct scheduler *s, const struct plan *arm)
 
 /*
  * A choice between locals and constants is one operation, and a choice between expressions is a
- * branch. So arms become locals in a loop if they are cheap; elsewhere one line reads better.
+ * branch. So arms become locals in a loop if they cost less than the branch; elsewhere one line
+ * reads better.
  */
 static void let_arms(struct scheduler *s, const struct plan *plan)
 {
@@ -268,7 +272,9 @@ void choose_locals(struct scheduler *s)
     bool names_wholes = s->shader->rules.names_wholes;
     for (uint32_t i = 0; i < s->reached.len; i++) {
         struct plan *plan = plan_of(s, s->reached.items[i]);
-        if (plan->num_args == 0 && is_source(s, plan))
+        /* an operand numbers the loop of a CONTEXT or SAMPLE */
+        bool is_name = plan->num_args == 0 || plan->op == IR_CONTEXT || plan->op == IR_SAMPLE;
+        if (is_name && is_source(s, plan))
             continue;
         if (plan->op == IR_SELECT)
             let_arms(s, plan);

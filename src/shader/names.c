@@ -44,6 +44,19 @@ const char *names_of_frame(const struct shader *shader, const char *name)
 void names_open_scope(struct name_set *names)
 {
     names->scope++;
+    names->taken.len = 0;
+}
+
+uint32_t names_open_block(const struct name_set *names)
+{
+    return names->taken.len;
+}
+
+void names_close_block(struct name_set *names, uint32_t block)
+{
+    assert(block <= names->taken.len);
+    while (names->taken.len > block)
+        names->entries.items[vec_pop(&names->taken)].scope = UINT32_MAX;
 }
 
 /* 1 + index of the entry of a name, in any scope; 0: there is none. */
@@ -60,7 +73,6 @@ static uint32_t find(const struct name_set *names, const char *text, size_t len,
 
 static bool is_over(const struct name_set *names, const struct name_entry *entry)
 {
-    assert(entry->scope <= names->scope);
     return entry->scope != 0 && entry->scope != names->scope;
 }
 
@@ -73,16 +85,19 @@ static uint32_t take(struct name_set *names, const char *text, size_t len, bool 
     uint32_t hash = hash_bytes(text, len), found = find(names, text, len, hash);
     struct name_entry fresh = {text, (uint32_t)len, names->scope, 2};
     *out_new = !found || is_over(names, &names->entries.items[found - 1]);
-    if (found) {
-        bool is_kept = names->entries.items[found - 1].next == KEPT && names->scope == 0;
-        if (*out_new || is_kept)
-            names->entries.items[found - 1] = fresh;
-        return found - 1;
+    uint32_t index = found ? found - 1 : names->entries.len;
+    bool is_kept =
+        found && names->entries.items[index].next == KEPT && names->scope == 0;
+    if (!found) {
+        vec_push(names->arena, &names->entries, fresh);
+        table_add(&names->table, names->arena, hash, names->entries.len);
+        assert(names->table.num == names->entries.len);
+    } else if (*out_new || is_kept) {
+        names->entries.items[index] = fresh;
     }
-    vec_push(names->arena, &names->entries, fresh);
-    table_add(&names->table, names->arena, hash, names->entries.len);
-    assert(names->table.num == names->entries.len);
-    return names->entries.len - 1;
+    if (*out_new)
+        vec_push(names->arena, &names->taken, index);
+    return index;
 }
 
 bool names_take(struct name_set *names, const char *text, size_t len)

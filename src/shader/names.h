@@ -15,8 +15,10 @@
 struct name_entry {
     const char *text;
     uint32_t len;
-    uint32_t scope; /* 0: file scope; otherwise a function, which frees its names at its end */
-    uint32_t next;  /* next number to try for this name */
+    /* 0: file scope; UINT32_MAX: none any more; otherwise a function, which frees its names at its
+     * end */
+    uint32_t scope;
+    uint32_t next; /* next number to try for this name */
 };
 
 struct spell_name { /* in the output */
@@ -42,8 +44,9 @@ struct name_set {
     const struct name_rules *rules;
     const struct lang_syntax *syntax; /* NULL: no word is reserved */
     VEC(struct name_entry) entries;
-    struct table table; /* 1 + index of the entry */
-    uint32_t scope;     /* of the current function; 0 at file scope */
+    struct table table;  /* 1 + index of the entry */
+    uint32_t scope;      /* of the current function; 0 at file scope */
+    VEC(uint32_t) taken; /* by the current function, in order */
 };
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax);
@@ -57,6 +60,12 @@ void names_take_frame(struct name_set *names, const struct shader *shader);
 const char *names_of_frame(const struct shader *shader, const char *name);
 /* Opens the scope of a new function, which frees the names of the previous one. */
 void names_open_scope(struct name_set *names);
+/*
+ * Opens a block of the function. names_close_block frees the names of the block; `block` is the
+ * result of names_open_block. A name in a block differs from those of the blocks around it.
+ */
+uint32_t names_open_block(const struct name_set *names);
+void names_close_block(struct name_set *names, uint32_t block);
 /* The texts for the next two functions must live as long as the set. */
 /*
  * Makes `text` an identifier, with a number as suffix if the name is taken. At file scope the rules

@@ -162,15 +162,19 @@ static void find_regions(struct scheduler *s, const struct effect_list *effects)
     uint32_t current = 0;
     for (uint32_t i = 0; i < effects->len; i++) {
         uint8_t kind = effects->items[i].kind;
-        if (kind == EFFECT_END)
+        uint32_t ended = current;
+        if (kind == EFFECT_END || kind == EFFECT_ELSE)
             current = s->regions.items[current].parent;
         vec_push(s->arena, &s->region_of, current);
         if (kind == EFFECT_DISCARD && s->first_discard == NO_EFFECT)
             s->first_discard = i;
         bool loop = kind == EFFECT_LIGHTS || kind == EFFECT_SAMPLES;
-        if (kind != EFFECT_IF && !loop)
+        if (kind != EFFECT_IF && kind != EFFECT_ELSE && !loop)
             continue;
-        struct region inner = {current, i, s->regions.items[current].depth + 1, s->regions.len};
+        /* locals for both sides of a choice stand before its IF */
+        uint32_t header = kind == EFFECT_ELSE ? s->regions.items[ended].header : i;
+        struct region inner = {current, header, s->regions.items[current].depth + 1,
+                               s->regions.len};
         bool in_loop = s->regions.items[current].outside != current;
         if (loop || in_loop)
             inner.outside = s->regions.items[current].outside;

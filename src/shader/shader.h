@@ -148,10 +148,14 @@ enum effect_kind {
     EFFECT_POSITION,   /* the vertex's clip position = value */
     EFFECT_IF,         /* if (value) { */
     EFFECT_LIGHTS,     /* for each active light {; CONTEXT nodes read its data */
-    EFFECT_SAMPLES,    /* for each environment sample {; a SAMPLE node is its index */
-    EFFECT_END,        /* } */
-    EFFECT_COMMENT,    /* a line of comment: text */
-    EFFECT_DISCARD,    /* alpha test: if (value) discard */
+    /* for each environment sample {; SAMPLE nodes are its index and its turn; value: of the first
+     */
+    EFFECT_SAMPLES,
+    EFFECT_NEXT,    /* at the end of SAMPLES: the turn of the next sample = value */
+    EFFECT_ELSE,    /* } else { of the IF */
+    EFFECT_END,     /* } */
+    EFFECT_COMMENT, /* a line of comment: text */
+    EFFECT_DISCARD, /* alpha test: if (value) discard */
     /* added by schedule.c */
     /* a local for node `value`; for a call with several results, a local for each */
     EFFECT_LET,
@@ -283,6 +287,7 @@ struct shader {
     uint8_t alpha;    /* enum shader_alpha */
     bool lit;         /* reads lights or environment */
     bool displaced;   /* the vertex stage moves the surface */
+    uint32_t num_light_loops, num_sample_loops; /* so far; each has its own lights or samples */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
     /* words that it stores per pixel, at most; 0: it lights itself. Deferred pipeline. */

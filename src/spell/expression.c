@@ -293,7 +293,9 @@ static void write_source(struct spell *spell, const struct ir_node *node)
         break;
     case IR_LOCAL: spell_name(spell, spell->locals[node->attr]); break;
     case IR_CONTEXT: write_light(spell, node->attr); break;
-    case IR_SAMPLE: spell_text(spell, spell->loop_index); break;
+    case IR_SAMPLE:
+        spell_text(spell, node->attr == IR_SAMPLE_TURN ? spell->loop_turn.text : spell->loop_index);
+        break;
     default: /* after an error, nobody uses the text */
         lang_print_value(spell->style, spell->shader->strings,
                          node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT,

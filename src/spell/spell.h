@@ -52,9 +52,10 @@ struct spell {
     VEC(str_id) wanted_names; /* names that several locals of the function want, sorted */
     /* of a shader that is a function: its parameters are copied to file scope */
     bool shares_vertex_data;
-    const char *loop_index;    /* inside LIGHTS and SAMPLES: the variable of the loop */
-    struct name_set paths;     /* of the comments so far */
-    VEC(const char *) helpers; /* texts of spell_helper, each once */
+    const char *loop_index;      /* inside LIGHTS and SAMPLES: the variable of the loop */
+    struct spell_name loop_turn; /* inside SAMPLES: the variable with the sample's turn */
+    struct name_set paths;       /* of the comments so far */
+    VEC(const char *) helpers;   /* texts of spell_helper, each once */
     VEC(struct spell_maker) makers;
     void *target_data;     /* belongs to the target while its hook runs */
     uint8_t *origins_seen; /* origins whose path is known; NULL: no comments */

@@ -288,8 +288,22 @@ static const char *private_name(const struct spell *spell, str_id asked)
  * Over all lights from the last one: a driver that knows a loop's first number unrolls it, which
  * makes the shader by a third longer and no faster.
  */
-static void write_loop(struct spell *spell, unsigned indent, bool lights)
+/* The turn is carried from sample to sample. */
+static void write_first_turn(struct spell *spell, unsigned indent, ir_ref turn)
 {
+    spell->loop_turn = names_unique(&spell->names, "turn", 4);
+    open_line(spell, indent, 0);
+    spell_variable(spell, IR_TYPE_VEC2, spell->loop_turn);
+    text_mem(spell->out, " = ", 3);
+    spell_expression(spell, turn, LANG_PREC_ASSIGN);
+    text_mem(spell->out, ";\n", 2);
+}
+
+static void write_loop(struct spell *spell, unsigned indent, const struct effect *effect)
+{
+    bool lights = effect->kind == EFFECT_LIGHTS;
+    if (effect->value)
+        write_first_turn(spell, indent, effect->value);
     if (!spell->loop_index)
         spell->loop_index = names_unique(&spell->names, "i", 1).text;
     const char *i = spell->loop_index;
@@ -388,11 +402,15 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
         write_assignment(spell, indent, position_name(spell), " = ", effect->value);
         break;
     case EFFECT_LIGHTS:
-    case EFFECT_SAMPLES: write_loop(spell, indent, effect->kind == EFFECT_LIGHTS); break;
+    case EFFECT_SAMPLES: write_loop(spell, indent, effect); break;
+    case EFFECT_NEXT:
+        write_assignment(spell, indent, spell->loop_turn, " = ", effect->value);
+        break;
     case EFFECT_COMMENT: write_comment(spell, indent, effect->text); break;
     case EFFECT_DISCARD: write_discard(spell, indent, effect->value); break;
     case EFFECT_RESULT: write_result(spell, indent, effect); break;
     case EFFECT_IF:
+    case EFFECT_ELSE:
     case EFFECT_END: /* spell_statements */ break;
     }
 }
@@ -406,32 +424,42 @@ static bool holds_one_statement(const struct effect_list *list, uint32_t opening
     return kind == EFFECT_ACCUMULATE || kind == EFFECT_ASSIGN;
 }
 
+static bool opens_block(uint8_t kind)
+{
+    return kind == EFFECT_IF || kind == EFFECT_ELSE || kind == EFFECT_LIGHTS
+           || kind == EFFECT_SAMPLES;
+}
+
 void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent)
 {
+    VEC(uint32_t) blocks = {0};
     spell->let_names.len = 0;
     spell->loop_index = NULL;
     spell_plan_locals(spell, statements);
     for (uint32_t i = 0; i < statements->len; i++) {
         const struct effect *effect = &statements->items[i];
-        if (effect->kind == EFFECT_END) {
-            open_line(spell, --indent, 0);
-            text_mem(spell->out, "}\n", 2);
-            continue;
-        }
-        if (effect->kind != EFFECT_IF) {
-            write_effect(spell, indent, effect);
-            indent += effect->kind == EFFECT_LIGHTS || effect->kind == EFFECT_SAMPLES;
-            continue;
-        }
-        bool braces = !holds_one_statement(statements, i);
-        write_if(spell, indent, effect->value, braces);
-        if (braces) {
-            indent++;
-        } else {
+        uint8_t kind = effect->kind;
+        if (kind == EFFECT_IF && holds_one_statement(statements, i)) {
+            write_if(spell, indent, effect->value, false);
             write_effect(spell, indent + 1, &statements->items[i + 1]);
             i += 2;
+            continue;
+        }
+        if (kind == EFFECT_END || kind == EFFECT_ELSE) {
+            names_close_block(&spell->names, vec_pop(&blocks));
+            open_line(spell, --indent, 0);
+            spell_text(spell, kind == EFFECT_END ? "}\n" : "} else {\n");
+        } else if (kind == EFFECT_IF) {
+            write_if(spell, indent, effect->value, true);
+        } else {
+            write_effect(spell, indent, effect);
+        }
+        if (opens_block(kind)) {
+            vec_push(spell->scratch, &blocks, names_open_block(&spell->names));
+            indent++;
         }
     }
+    assert(blocks.len == 0);
     for (uint32_t i = 0; i < statements->len; i++)
         if (statements->items[i].kind == EFFECT_LET)
             spell->local_of[statements->items[i].value] = 0;

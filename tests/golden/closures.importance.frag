@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     vec3 N;
+    float cosine;
     vec3 x;
     vec2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float shrink;
     float level;
 };
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
@@ -69,16 +75,11 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(const float cosine)
-{
-    return sqrt(mix(cosine * cosine, 1.0, 0.0016));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
-    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), vec2(0.04), mx_ggx_masking(max(dot(N, V), 1e-8)));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.04),
+        sqrt(cosine * cosine + 0.0016 * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -88,11 +89,11 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -118,29 +119,32 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 X, const vec3 V)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+    mx_GgxLobe lobe = mx_ggx_lobe(N, X, V);
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
 {
-    float cosine = dot(s.v, h);
-    vec3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    return vec4(cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, spread * spread * s.level), clamp(cosine * sqrt(shrink), 1e-8, 1.0));
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -151,39 +155,26 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
     return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap));
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
-}
-
-// A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth);
-        sum += mx_fresnel_dielectric(light.w) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 void main()
@@ -195,39 +186,44 @@ void main()
     float cos_v = max(abs(dot(normal_N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
-    vec3 N = faceforward(normal_N, -V, normal_N);
-    mx_GgxLobe lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
+    vec3 X = normalize(vd.tangentWorld);
+    mx_GgxLobe lobe = mx_ggx_lobe(normal_N, X, V);
     vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75 * vec3(0.6, 0.1, 0.05);
+    vec3 paint_N = faceforward(normal_N, -V, normal_N);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // coat, paint
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float v_dot_l = dot(V, L);
         float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
-        float cos_l = max(dot(L, N), 1e-8);
+        float cos_l = max(dot(L, paint_N), 1e-8);
         vec3 paint_response = scaled_paint_weight
             * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         vec3 sum = scale * mx_ggx_light(lobe, V, L) * fresnel + paint_response;
-        color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum;
+        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum;
     }
     // environment
     // paint
     vec3 paint_product = scaled_paint_weight
-        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz;
+        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(paint_N, 0.0)).xyz)), 0.0).xyz;
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
     color += paint_product * (clamp(fit.x / fit.y, 0.0, 1.0) * u_envLightIntensity);
     // coat
-    color += scale * mx_ggx_gather_dielectric(lobe, V);
+    mx_GgxSamples coat_ggx_samples = mx_ggx_samples(normal_N, X, V);
+    vec2 turn = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        vec4 light = mx_ggx_reflected(coat_ggx_samples, i, turn);
+        color += scale * mx_fresnel_dielectric(light.w) * light.xyz;
+        turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+    }
     // opacity
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;

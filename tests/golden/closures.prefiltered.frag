@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     vec3 N;
+    float cosine;
     vec3 x;
     vec2 alpha;
     float masking;
@@ -48,16 +49,11 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(const float cosine)
-{
-    return sqrt(mix(cosine * cosine, 1.0, 0.0016));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
-    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), vec2(0.04), mx_ggx_masking(max(dot(N, V), 1e-8)));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.04),
+        sqrt(cosine * cosine + 0.0016 * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -67,11 +63,11 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -126,37 +122,35 @@ void main()
     float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
-    vec3 h = faceforward(N, -V, N);
-    mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(h, normalize(vd.tangentWorld), V);
+    mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
     vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75 * vec3(0.6, 0.1, 0.05);
+    vec3 h = faceforward(N, -V, N);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // coat, paint
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float v_dot_l = dot(V, L);
         float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
         float cos_l = max(dot(L, h), 1e-8);
         vec3 paint_response = scaled_paint_weight
             * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         vec3 sum = scale * mx_ggx_light(coat_ggx_lobe, V, L) * fresnel + paint_response;
-        color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum;
+        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum;
     }
     // environment
     // coat, paint
     vec3 paint_product = scaled_paint_weight
         * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)), 0.0).xyz;
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_response_2 = paint_product * (clamp(fit.x / fit.y, 0.0, 1.0) * u_envLightIntensity);
-    color += scale * mx_ggx_prefiltered(N, V) + paint_response_2;
+    vec3 paint_response = paint_product * (clamp(fit.x / fit.y, 0.0, 1.0) * u_envLightIntensity);
+    color += scale * mx_ggx_prefiltered(N, V) + paint_response;
     out1 = vec4(color, 1.0);
 }

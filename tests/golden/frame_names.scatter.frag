@@ -96,11 +96,11 @@ void scatter()
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
     float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
-    float diffuse_cos_l_2 = max(diffuse_n_dot_l, 1e-8);
-    float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l_2, 0.0)
-        / max(diffuse_cos_l_2, cos_v);
+    float diffuse_cos_l = max(diffuse_n_dot_l, 1e-8);
+    float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l, 0.0)
+        / max(diffuse_cos_l, cos_v);
     float sum = vd.lightWorld.w * (ratio * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float ratio_2 = LightData_2 * (diffuse_cos_l_2 / 3.1415927 * 0.18 * diffuse_sum_2) / sum;
+    float ratio_2 = LightData_2 * (diffuse_cos_l / 3.1415927 * 0.18 * diffuse_sum) / sum;
     out5 = vec4(ratio_2, ratio_2, ratio_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_2 = 0.0;
@@ -109,30 +109,26 @@ void scatter()
     float distance_ = 0.0;
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float magnitude_d = length(d);
-        float ratio_3 = intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+        float ratio_3 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio_3;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio_3 : 0.0;
         float point_light_choice = type == 2 ? ratio_3 : spot_light_choice;
-        vec3 light_2 = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 directional_light_L = type == 1 ? directional_light_to_light : to_light;
-        float diffuse_cos_l_3 = max(dot(diffuse_N, directional_light_L), 1e-8);
-        float diffuse_sum_3 = ab.x + ab.y * max(dot(vd.viewWorld, directional_light_L) - cos_v * diffuse_cos_l_3, 0.0)
-            / max(diffuse_cos_l_3, cos_v);
-        vec3 product = light_2 * (LightData_2 * (diffuse_cos_l_3 / 3.1415927 * 0.18 * diffuse_sum_3));
+        vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        vec3 directional_light_L = type == 1 ? -u_lightData[i].direction : to_light;
+        float diffuse_cos_l_2 = max(dot(diffuse_N, directional_light_L), 1e-8);
+        float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, directional_light_L) - cos_v * diffuse_cos_l_2, 0.0)
+            / max(diffuse_cos_l_2, cos_v);
+        vec3 product = light_2 * (LightData_2 * (diffuse_cos_l_2 / 3.1415927 * 0.18 * diffuse_sum_2));
         float greater_2 = max(dot(product, vec3(0.33333334)), 0.0);
         sum_2 += greater_2;
         if (sum_2 * chance < greater_2) {
             L_2 = directional_light_L;
-            float choice = type == 3 ? magnitude_d : 1e30;
-            float choice_2 = type == 2 ? magnitude_d : choice;
-            distance_ = type == 1 ? 1e30 : choice_2;
+            distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
             light = product / greater_2;
         }
         if (greater_2 > 0.0) {

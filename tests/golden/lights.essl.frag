@@ -33,13 +33,12 @@ void main()
         bool bulb_is_equal = u_lightData[i].type == 1;
         vec3 d = u_lightData[i].position - vd_positionWorld;
         float magnitude_d = length(d);
-        vec3 bulb_product = u_lightData[i].tint * (u_lightData[i].power / (magnitude_d * magnitude_d));
         float point_light_ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
         vec3 point_light_product = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_ratio : 0.0);
-        vec3 bulb_ratio = d / magnitude_d;
-        vec3 to_light = normalize(d);
-        float bsdf_response = max(dot(bulb_is_equal ? bulb_ratio : to_light, bsdf_facing), 1e-8) / 3.1415927 * 0.8;
-        color += (bulb_is_equal ? bulb_product : point_light_product) * bsdf_response;
+        float bsdf_response = max(dot(bulb_is_equal ? d / magnitude_d : normalize(d), bsdf_facing), 1e-8) / 3.1415927
+            * 0.8;
+        color += (bulb_is_equal ? u_lightData[i].tint * (u_lightData[i].power / (magnitude_d * magnitude_d))
+            : point_light_product) * bsdf_response;
     }
     // opacity
     if (S_opacity < u_alphaThreshold)

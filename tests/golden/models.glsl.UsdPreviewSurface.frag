@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     vec3 N;
+    float cosine;
     vec3 x;
     vec2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float shrink;
     float level;
 };
 uniform vec3 SR_UsdPreviewSurface_diffuseColor = vec3(0.18);
@@ -88,17 +94,12 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
     return mix(f0, f90, x * x * x * x * x);
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(const float cosine, const float area)
-{
-    return sqrt(mix(cosine * cosine, 1.0, area));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -108,11 +109,11 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
@@ -125,11 +126,11 @@ void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 io
     extinction = sqrt(max((greatest - ior) * (ior - vec3(1.0) / greatest), vec3(0.0)));
 }
 
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
+// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
 {
-    float t = n * n - k * k + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
     return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
@@ -139,20 +140,19 @@ float mx_fresnel_ratio(const vec2 x, const vec2 u)
     return dot(x - u, x - u) / dot(x + u, x + u);
 }
 
-// Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
-// perpendicular part, (n + ik)^2 times the cosine in the parallel part.
-float mx_fresnel_conductor(const float cosine, const float n, const float k)
+// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
+// perpendicular part, the permittivity times the cosine in the parallel part.
+float mx_fresnel_conductor(const float cosine, const float re, const float im)
 {
-    vec2 u = mx_fresnel_refract(cosine, n, k);
-    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u)
-        + mx_fresnel_ratio(cosine * vec2(n * n - k * k, 2.0 * n * k), u));
+    vec2 u = mx_fresnel_refract(cosine, re, im);
+    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * vec2(re, im), u));
 }
 
 // One channel after the other, which needs a third of the registers.
-vec3 mx_fresnel_conductor(const float cosine, const vec3 n, const vec3 k)
+vec3 mx_fresnel_conductor(const float cosine, const vec3 re, const vec3 im)
 {
-    return vec3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
-        mx_fresnel_conductor(cosine, n.z, k.z));
+    return vec3(mx_fresnel_conductor(cosine, re.x, im.x), mx_fresnel_conductor(cosine, re.y, im.y),
+        mx_fresnel_conductor(cosine, re.z, im.z));
 }
 
 // The point of the picture for a unit direction in it.
@@ -169,42 +169,32 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
-}
-
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
-vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
-{
-    vec3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread,
-    const float refract_ior)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
 {
-    float cosine = dot(s.v, h);
-    vec3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
-    if (refract_ior > 0.0) {
-        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
-        weight = 0.5 / s.v.z;
-    }
-    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
-        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -215,51 +205,42 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
     return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const vec3 f0, const vec3 f90)
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
+    vec3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-vec3 mx_ggx_gather_conductor(const mx_GgxLobe lobe, const vec3 V, const vec3 n, const vec3 k)
+// The light that comes through it and a solid sphere of an index behind it.
+vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 h = facet.h * sqrt(facet.shrink);
+    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.level),
+        clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -269,21 +250,6 @@ float mx_fresnel_dielectric(const float cosine, const float ior)
     vec2 a = cosine * vec2(1.0, ior * ior);
     vec2 r = (a - g) / (a + g);
     return 0.5 * dot(r, r);
-}
-
-// A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float refract_ior, const float ior)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        float f = mx_fresnel_dielectric(light.w, ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
 }
 
 void main()
@@ -297,26 +263,26 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     vec3 N = faceforward(shading_normal, -V, shading_normal);
     float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
-    float coating_n = max(amplitude * amplitude, 0.0);
+    float coating_fresnel_facing = max(amplitude * amplitude, 0.0);
     float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
         1e-8, 1.0);
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
-    vec3 blended_fresnel = mix(mx_fresnel_schlick(1.0, vec3(coating_n), vec3(1.0)), vec3(1.0), 0.04761905);
-    vec3 coating_scale = blended_fresnel * (1.0 / coating_albedo.x - 1.0) + vec3(1.0);
+    float coating_scale = mix(coating_fresnel_facing, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
-        * dot(mix(coating_n, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale, vec3(0.33333334));
+        * dot(vec3(mix(coating_fresnel_facing, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
+        vec3(0.33333334));
     bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
     vec3 grazing_metallic = mix(vec3(1.0), SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_metallic);
-    vec3 reflection_n = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor
+    vec3 reflection_fresnel_facing = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor
         : mix(amplitude * amplitude * grazing_metallic, grazing_metallic, SR_UsdPreviewSurface_metallic), 0.0);
     vec3 f90 = max(is_equal_useSpecularWorkflow ? vec3(1.0) : grazing_metallic, 0.0);
     float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
     vec2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
     float difference = 1.0 / albedo.x - 1.0;
-    vec3 reflection_scale = mix(mx_fresnel_schlick(1.0, reflection_n, f90), f90, 0.04761905) * difference + vec3(1.0);
+    vec3 reflection_scale = mix(reflection_fresnel_facing, f90, 0.04761905) * difference + vec3(1.0);
     float body_weight = coating_difference
-        * (1.0 - dot(mix(reflection_n, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
+        * (1.0 - dot(mix(reflection_fresnel_facing, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
     float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
     float diffuse_weight = 1.0 - metal_weight;
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
@@ -324,65 +290,92 @@ void main()
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
     vec3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
-    vec3 coating_product = SR_UsdPreviewSurface_clearcoat * coating_scale;
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), N, tangent_direction, V);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), shading_normal, tangent_direction, V);
     vec3 metal_ior, metal_extinction;
     mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
-    vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, metal_ior, metal_extinction), vec3(1.0),
-        0.04761905) + vec3(1.0)) * (metal_weight * coating_difference);
-    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), N, tangent_direction, V);
+    vec3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
+    vec3 im = metal_extinction * (metal_ior * 2.0);
+    vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, re, im), vec3(1.0), 0.04761905) + vec3(1.0))
+        * (metal_weight * coating_difference);
+    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), shading_normal, tangent_direction, V);
     vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light_to_light : to_light;
-        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
+        vec3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
+        color += directional_light_light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
         // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_UsdPreviewSurface_clearcoat > 0.0) {
-            vec3 fresnel = mx_fresnel_schlick(cosine, vec3(coating_n), vec3(1.0));
-            color += light * (coating_product * (mx_ggx_light(coating_lobe, V, L) * fresnel));
+            float coating_product = mx_ggx_light(coating_lobe, V, L) * (SR_UsdPreviewSurface_clearcoat * coating_scale);
+            color += directional_light_light
+                * (mx_fresnel_schlick(cosine, vec3(coating_fresnel_facing), vec3(1.0)) * coating_product);
         }
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_weight > 0.0)
-            color += light * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, metal_ior, metal_extinction)));
+            color += directional_light_light * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, re, im)));
         // reflection
         if (diffuse_weight > 0.0)
-            color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_n, f90)));
+            color += directional_light_light
+                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_facing, f90)));
     }
     // environment
-    // coating
-    if (SR_UsdPreviewSurface_clearcoat > 0.0)
-        color += SR_UsdPreviewSurface_clearcoat
-            * (coating_scale * mx_ggx_gather_schlick(coating_lobe, V, vec3(coating_n), vec3(1.0)));
-    // metal
-    if (metal_weight > 0.0)
-        color += metal_product * mx_ggx_gather_conductor(lobe, V, metal_ior, metal_extinction);
-    // reflection
-    if (diffuse_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, V, reflection_n, f90);
     // diffuse
     if (diffuse_weight_2 > 0.0)
         color += u_envLightIntensity * (diffuse_product
             * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz);
+    // coating
+    if (SR_UsdPreviewSurface_clearcoat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_roughness), shading_normal, tangent_direction, V);
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            vec4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += SR_UsdPreviewSurface_clearcoat * coating_scale
+                * (mx_fresnel_schlick(coating_light.w, vec3(coating_fresnel_facing), vec3(1.0)) * coating_light.xyz);
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // metal, reflection
+    if (metal_weight > 0.0 || diffuse_weight > 0.0) {
+        mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(specular_roughness), shading_normal, tangent_direction, V);
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            // metal
+            vec4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+            if (metal_weight > 0.0)
+                color += metal_product * (mx_fresnel_conductor(metal_ggx_reflected.w, re, im)
+                    * metal_ggx_reflected.xyz);
+            // reflection
+            if (diffuse_weight > 0.0)
+                color += reflection_product
+                    * (metal_ggx_reflected.xyz
+                    * mx_fresnel_schlick(metal_ggx_reflected.w, reflection_fresnel_facing, f90));
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
     // refraction
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
-        mx_GgxLobe refraction_lobe = mx_ggx_lobe(vec2(0.0), N, tangent_direction, V);
-        color += mx_ggx_gather_dielectric(refraction_lobe, V, SR_UsdPreviewSurface_ior, SR_UsdPreviewSurface_ior)
-            * (body_weight * refraction_weight);
+        mx_GgxSamples samples = mx_ggx_samples(vec2(0.0), shading_normal, tangent_direction, V);
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_UsdPreviewSurface_ior, i, turn);
+            color += refraction_ggx_transmitted.xyz
+                * (body_weight * refraction_weight
+                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_UsdPreviewSurface_ior)));
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
     }
     // opacity
     float mask = SR_UsdPreviewSurface_opacity >= SR_UsdPreviewSurface_opacityThreshold ? 1.0 : 0.0;

@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     float3 N;
+    float cosine;
     float3 x;
     float2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     float3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    float3 h;
+    float shrink;
     float level;
 };
 cbuffer PublicUniforms : register(b1)
@@ -81,10 +87,11 @@ struct VertexData {
     float3 tangentWorld : TEXCOORD2;
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float3 x, float2 alpha, float masking)
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
 {
     mx_GgxLobe made;
     made.N = N;
+    made.cosine = cosine;
     made.x = x;
     made.alpha = alpha;
     made.masking = masking;
@@ -107,6 +114,15 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     return made;
 }
 
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float level)
+{
+    mx_GgxFacet made;
+    made.h = h;
+    made.shrink = shrink;
+    made.level = level;
+    return made;
+}
+
 // A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
 float mx_bicubic(float4x4 m, float x, float y)
 {
@@ -124,80 +140,76 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
         * x);
 }
 
-float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
+// A channel of one polarisation after interference.
+float mx_film_channel(float a, float2 r, float terms)
 {
-    float x = 1.0 - cosine;
-    return lerp(f0, f90, x * x * x * x * x);
-}
-
-// A channel after interference, the mean of both polarisations.
-float mx_film_channel(float2 a, float2 re, float2 terms)
-{
-    float2 r23 = re * re;
-    float2 t = 1.0 - a * a;
-    float2 even = t * t * r23 / (1.0 - a * a * r23);
-    float2 both = a * a + even + 2.0 * (even - t) * terms;
-    return 0.5 * (both.x + both.y);
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
 }
 
 // Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
-// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
-float2 mx_film_terms(float2 a, float2 re, float d, float3 gauss)
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(float a, float2 r, float d, float3 gauss)
 {
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
     float decay = exp(gauss.z * d * d);
-    float2 x = re * cos(gauss.x * d);
-    float2 y = re * sin(gauss.x * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
     return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// Amplitudes of the film's own interface.
-float2 mx_film_amplitudes(float cosine, float inside, float ior)
+float mx_film_z(float a, float2 r, float d)
 {
-    float2 x = float2(cosine, ior * cosine);
-    float2 u = float2(ior * inside, inside);
-    return (x - u) / (x + u);
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
 }
 
-// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
-float3 mx_film_schlick(float cosine, float3 f0, float3 f90, float film, float film_ior)
+float mx_film_y(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.7953, 1.000222, -0.0093046)));
+}
+
+float mx_film_x(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, float3(2.2399, 0.153868, -0.0045282)));
+}
+
+// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
+// film is lower.
+float3 mx_film_turned(float3 f0, float3 f, float ior)
+{
+    return (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * f, 0.0));
+}
+
+float3 mx_film_schlick_facing(float3 f0, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    float2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    float3 r = (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
-        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, f90), 0.0));
-    float2 re = float2(-r.x, r.x);
-    float x = mx_film_channel(a, re, mx_film_terms(a, re, d, float3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, re, d, float3(2.2399, 0.153868, -0.0045282)));
-    re = float2(-r.y, r.y);
-    float y = mx_film_channel(a, re, mx_film_terms(a, re, d, float3(1.7953, 1.000222, -0.0093046)));
-    re = float2(-r.z, r.z);
-    return clamp(mul(float3(x, y, mx_film_channel(a, re,
-        mx_film_terms(a, re, d, float3(2.2084, 1.001122, -0.0066121)))),
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float3 r = -mx_film_turned(f0, f0, ior);
+    return clamp(mul(float3(mx_film_x(a, float2(r.x, 0.0), d), mx_film_y(a, float2(r.y, 0.0), d),
+        mx_film_z(a, float2(r.z, 0.0), d)),
         float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
         0.0, 1.0);
 }
 
-float3 mx_fresnel(float cosine, float3 n, float3 f90, float film, float film_ior)
+float3 mx_fresnel_facing(float3 n, float film, float film_ior)
 {
     if (film > 0.0)
-        return mx_film_schlick(cosine, n, f90, film, film_ior);
-    return mx_fresnel_schlick(cosine, n, f90);
+        return mx_film_schlick_facing(n, film, film_ior);
+    return n;
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(float cosine, float area)
-{
-    return sqrt(lerp(cosine * cosine, 1.0, area));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
-    return make_mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha,
-        mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -207,11 +219,11 @@ float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
     float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -230,6 +242,42 @@ float3 mx_rotate3d(float3 v, float angle, float3 axis)
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
+float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
+{
+    float x = 1.0 - cosine;
+    return lerp(f0, f90, x * x * x * x * x);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour.
+float3 mx_film_schlick(float cosine, float3 f0, float3 f90, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, f90), ior);
+    return clamp(mul(0.5 * float3(mx_film_x(a.x, float2(-r.x, 0.0), d) + mx_film_x(a.y, float2(r.x, 0.0), d),
+        mx_film_y(a.x, float2(-r.y, 0.0), d) + mx_film_y(a.y, float2(r.y, 0.0), d), mx_film_z(a.x, float2(-r.z, 0.0), d)
+        + mx_film_z(a.y, float2(r.z, 0.0), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float3 f90, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, f90, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, f90);
+}
+
 // The point of the picture for a unit direction in it.
 float2 mx_map_point(float3 d)
 {
@@ -244,42 +292,33 @@ float2 mx_map_point(float3 d)
     return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float level)
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
-        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
-}
-
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
-float3 mx_refract_sphere(float3 v, float3 h, float ior)
-{
-    float3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    float3 v = float3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
+        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-float4 mx_ggx_sample_at(mx_GgxSamples s, float3 h, float shrink, float spread, float refract_ior)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float level)
 {
-    float cosine = dot(s.v, h);
-    float3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
-    if (refract_ior > 0.0) {
-        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
-        weight = 0.5 / s.v.z;
-    }
-    return float4(weight * mx_filtered_light(mul(l, s.to_map), spread * spread * s.level),
-        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -290,67 +329,42 @@ float3 mx_ggx_cap(float2 around, float depth, float3 top)
     return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-float4 mx_ggx_sample(mx_GgxSamples s, float2 around, float depth, float refract_ior)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 {
-    float3 cap = mx_ggx_cap(around, depth, s.top);
+    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     float3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+    float spread = shrink * dot(cap, cap);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, float3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 {
-    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float3 stretch = float3(lobe.alpha, 1.0);
-    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
-        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return float4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(mul(l, s.to_map), facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
-// A function for each interface: what has nothing left to choose needs no version of its own.
-float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float3 V, float refract_ior, float ior)
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        float f = mx_fresnel_dielectric(light.w, ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// Any other: on a colour, or what it lets through.
-float3 mx_ggx_gather_film(mx_GgxLobe lobe, float3 V, float limit, float3 n, float3 f90, float film, float film_ior)
+// The light that comes through it and a solid sphere of an index behind it.
+float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_film_schlick(light.w, n, f90, film, film_ior) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
-}
-
-float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float3 V, float limit, float3 f0, float3 f90)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 h = facet.h * sqrt(facet.shrink);
+    return float4(s.weight * 0.5 / s.v.z
+        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.level), clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main(
@@ -364,7 +378,8 @@ void main(
     // SR_gltf_pbr
     float3 Nf = faceforward(N, -V, N);
     float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
-    float3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
+    float3 fresnel_facing = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0),
+        0.0);
     float3 f90 = (float3)max(SR_gltf_pbr_specular, 0.0);
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
     float2 specular_roughness = clamp(float2(lerp(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
@@ -373,14 +388,13 @@ void main(
     float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(abs(dot(N, V)), 1e-8);
     float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
-    float3 product = lerp(n, f90, albedo.y) * albedo.x;
+    float3 product = lerp(fresnel_facing, f90, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
-    float3 reflection_scale = difference * lerp(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905)
-        + float3(1.0, 1.0, 1.0);
+    float3 reflection_scale = difference * lerp(fresnel_facing, f90, 0.04761905) + float3(1.0, 1.0, 1.0);
     float reflection_throughput = 1.0 - dot(product * reflection_scale, float3(0.33333334, 0.33333334, 0.33333334));
     float iridescence_thickness = SR_gltf_pbr_iridescence_thickness;
     float iridescence_ior = SR_gltf_pbr_iridescence_ior;
-    float3 reflection_film_scale = lerp(mx_fresnel(1.0, n, f90, iridescence_thickness, iridescence_ior), f90,
+    float3 reflection_film_scale = lerp(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior), f90,
         0.04761905) * difference + float3(1.0, 1.0, 1.0);
     float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
     float2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
@@ -397,23 +411,21 @@ void main(
         - dot(product * reflection_film_scale, float3(0.33333334, 0.33333334, 0.33333334)), SR_gltf_pbr_iridescence)
         * substrate_weight;
     float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
-    float3 diffuse_product = SR_gltf_pbr_base_color
-        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
+    float diffuse_weight = dielectric_weight * (1.0 - SR_gltf_pbr_transmission);
+    float3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight);
     float3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_lobe, Nf, X, V);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_lobe, N, X, V);
     float s = 1.0 / max(sheen_rough, 0.005);
-    float v_dot_nf = dot(V, Nf);
     float3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
     float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
-    float3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
+    float3 fresnel_facing_2 = max(SR_gltf_pbr_base_color, 0.0);
     float3 metal_film_product = (difference
-        * lerp(mx_fresnel(1.0, limited_base_color, float3(1.0, 1.0, 1.0), iridescence_thickness, iridescence_ior),
-        float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
+        * lerp(mx_fresnel_facing(fresnel_facing_2, iridescence_thickness, iridescence_ior), float3(1.0, 1.0, 1.0),
+        0.04761905) + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
     float3 specular_tangent = mx_rotate3d(X, radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
-    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, Nf, specular_tangent, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
     float metal_bare_weight = SR_gltf_pbr_metallic * (1.0 - SR_gltf_pbr_iridescence);
-    float3 metal_bare_product = (difference
-        * lerp(mx_fresnel_schlick(1.0, limited_base_color, float3(1.0, 1.0, 1.0)), float3(1.0, 1.0, 1.0), 0.04761905)
+    float3 metal_bare_product = (difference * lerp(fresnel_facing_2, float3(1.0, 1.0, 1.0), 0.04761905)
         + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_bare_weight);
     bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
     float3 reflection_film_product = reflection_film_scale
@@ -423,93 +435,138 @@ void main(
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         float3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         float3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        float3 directional_light_to_light = -u_lightData[i].direction;
-        float3 L = type == 1 ? directional_light_to_light : to_light;
+        float3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
-        color += light * (cos_l / 3.1415927 * diffuse_product);
+        color += directional_light_light * (cos_l / 3.1415927 * diffuse_product);
         // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0)
-            color += light * (SR_gltf_pbr_clearcoat * coating_scale
+            color += directional_light_light
+                * (SR_gltf_pbr_clearcoat * coating_scale
                 * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
         // fuzz
         if (sheen_weight > 0.0) {
-            float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
+            float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
             float fuzz_product_2 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
                 / 6.2831855);
-            color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
+            color += directional_light_light
+                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
         }
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += light * (metal_film_product
-                * (ggx_light * mx_fresnel(cosine, limited_base_color, float3(1.0, 1.0, 1.0), iridescence_thickness,
-                iridescence_ior)));
+            color += directional_light_light
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0), iridescence_thickness, iridescence_ior)));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += light * (metal_bare_product
-                * (ggx_light * mx_fresnel_schlick(cosine, limited_base_color, float3(1.0, 1.0, 1.0))));
+            color += directional_light_light
+                * (metal_bare_product * (ggx_light
+                * mx_fresnel_schlick(cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0))));
         // reflection_film
         if (reflection_film_visible)
-            color += light * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, n, f90, iridescence_thickness, iridescence_ior)));
+            color += directional_light_light
+                * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, iridescence_thickness, iridescence_ior)));
         // reflection
         if (reflection_weight > 0.0)
-            color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
+            color += directional_light_light
+                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90)));
     }
     // environment
-    // diffuse
+    // fuzz
     float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
         mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
-    color += u_envLightIntensity * (diffuse_product * part);
-    // coating
-    if (SR_gltf_pbr_clearcoat > 0.0)
-        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, V, 0.0, 1.5);
-    // fuzz
     if (sheen_weight > 0.0)
         color += fuzz_product * part * (sheen_albedo * u_envLightIntensity);
-    // metal_film
-    float filmed = iridescence_thickness > 0.0 ? 1.0 : 0.0;
-    float limit = iridescence_thickness > 0.0 ? 0.0 : 1.0;
-    if (metal_film_weight > 0.0) {
-        float3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, limited_base_color,
-            float3(1.0, 1.0, 1.0), iridescence_thickness, iridescence_ior);
-        float3 metal_film_bare = mx_ggx_gather_schlick(lobe, V, limit, limited_base_color, float3(1.0, 1.0, 1.0));
-        color += metal_film_product * (iridescence_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
+    // diffuse
+    if (diffuse_weight > 0.0)
+        color += u_envLightIntensity * (diffuse_product * part);
+    // coating
+    if (SR_gltf_pbr_clearcoat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_lobe, N, X, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (SR_gltf_pbr_clearcoat * coating_scale
+                * mx_fresnel_dielectric(coating_light.w, 1.5));
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
     }
-    // metal_bare
-    if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, limited_base_color, float3(1.0, 1.0, 1.0));
-    // reflection_film
-    if (reflection_film_visible) {
-        float3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, f90, iridescence_thickness,
-            iridescence_ior);
-        float3 reflection_film_bare = mx_ggx_gather_schlick(lobe, V, limit, n, f90);
-        color += reflection_film_product
-            * (iridescence_thickness > 0.0 ? reflection_film_ggx_gather_film : reflection_film_bare);
+    // metal_film, metal_bare, reflection_film, reflection
+    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
+    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+        if (iridescence_thickness > 0.0) {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product
+                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, float3(1.0, 1.0, 1.0),
+                        iridescence_thickness, iridescence_ior) * metal_film_ggx_reflected.xyz);
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, float3(1.0, 1.0, 1.0)));
+                // reflection_film
+                if (reflection_film_visible)
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90, iridescence_thickness,
+                        iridescence_ior));
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90));
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film, metal_bare
+                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                float3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2,
+                    float3(1.0, 1.0, 1.0)) * metal_film_ggx_reflected.xyz;
+                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
+                // reflection_film
+                float3 reflection_product_2 = metal_film_ggx_reflected.xyz
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90);
+                if (reflection_film_visible)
+                    color += reflection_film_product * reflection_product_2;
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product * reflection_product_2;
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
     }
-    // reflection
-    if (reflection_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, f90);
     // refraction
     if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
-        float3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
-        float3 dielectric_bsdf_transmission = limited_base_color
-            * (u_refractionTwoSided ? limited_base_color : float3(1.0, 1.0, 1.0)) * ggx_refraction;
-        color += dielectric_bsdf_transmission * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+        float3 refraction_tint = fresnel_facing_2 * (u_refractionTwoSided ? fresnel_facing_2 : float3(1.0, 1.0, 1.0));
+        float3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
+            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_gltf_pbr_ior))
+                * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
     }
     // opacity
     float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;

@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     float3 N;
+    float cosine;
     float3 x;
     float2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     float3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    float3 h;
+    float shrink;
     float level;
 };
 cbuffer PublicUniforms : register(b1)
@@ -94,10 +100,11 @@ struct VertexData {
     float3 tangentWorld : TEXCOORD2;
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float3 x, float2 alpha, float masking)
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
 {
     mx_GgxLobe made;
     made.N = N;
+    made.cosine = cosine;
     made.x = x;
     made.alpha = alpha;
     made.masking = masking;
@@ -116,6 +123,15 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     made.top = top;
     made.step = step;
     made.weight = weight;
+    made.level = level;
+    return made;
+}
+
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float level)
+{
+    mx_GgxFacet made;
+    made.h = h;
+    made.shrink = shrink;
     made.level = level;
     return made;
 }
@@ -153,80 +169,78 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
         * x);
 }
 
-// A channel after interference, the mean of both polarisations.
-float mx_film_channel(float2 a, float2 re, float2 im, float2 terms)
+// A channel of one polarisation after interference.
+float mx_film_channel(float a, float2 r, float terms)
 {
-    float2 r23 = re * re + im * im;
-    float2 t = 1.0 - a * a;
-    float2 even = t * t * r23 / (1.0 - a * a * r23);
-    float2 both = a * a + even + 2.0 * (even - t) * terms;
-    return 0.5 * (both.x + both.y);
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
 }
 
 // Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
-// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
-float2 mx_film_terms(float2 a, float2 re, float2 im, float d, float3 gauss)
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(float a, float2 r, float d, float3 gauss)
 {
     float c = cos(gauss.x * d);
     float s = sin(gauss.x * d);
     float decay = exp(gauss.z * d * d);
-    float2 x = re * c - im * s;
-    float2 y = re * s + im * c;
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
     return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-float2 mx_fresnel_refract(float cosine, float n, float k)
+float mx_film_x(float a, float2 r, float d)
 {
-    float t = n * n - k * k + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, float3(2.2399, 0.153868, -0.0045282)));
+}
+
+// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+float2 mx_film_amplitude(float2 x, float2 u)
+{
+    return float2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
+}
+
+// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+float2 mx_fresnel_refract(float cosine, float re, float im)
+{
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
     return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
 }
 
-// Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
-void mx_film_base(float cosine, float n, float k, out float2 re, out float2 im)
+float mx_film_y(float a, float2 r, float d)
 {
-    float2 u = mx_fresnel_refract(cosine, n, k);
-    float2 x = cosine * float2(1.0, n * n - k * k);
-    float2 y = float2(0.0, 2.0 * cosine * n * k);
-    float2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
-    re = (x * x + y * y - dot(u, u)) / norm;
-    im = 2.0 * (y * u.x - x * u.y) / norm;
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.7953, 1.000222, -0.0093046)));
 }
 
-// Amplitudes of the film's own interface.
-float2 mx_film_amplitudes(float cosine, float inside, float ior)
+float mx_film_z(float a, float2 r, float d)
 {
-    float2 x = float2(cosine, ior * cosine);
-    float2 u = float2(ior * inside, inside);
-    return (x - u) / (x + u);
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
 }
 
-// A film on the index n + ik.
-float3 mx_film_index(float cosine, float3 n, float film, float film_ior)
+// Facing the viewer both polarisations are alike.
+float3 mx_film_index_facing(float3 re, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    float2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    float2 re;
-    float2 im;
-    mx_film_base(c, n.x / ior, 0.0 / ior, re, im);
-    float x = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, re, im, d, float3(2.2399, 0.153868, -0.0045282)));
-    mx_film_base(c, n.y / ior, 0.0 / ior, re, im);
-    float y = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(1.7953, 1.000222, -0.0093046)));
-    mx_film_base(c, n.z / ior, 0.0 / ior, re, im);
-    float z = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(2.2084, 1.001122, -0.0066121)));
-    return clamp(mul(float3(x, y, z), float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949,
-        -0.4706338, 0.0885814, 1.0093968)), 0.0, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float2 across = float2(1.0, 0.0);
+    float3 r = re / (ior * ior);
+    float3 i = float3(0.0, 0.0, 0.0) / (ior * ior);
+    return clamp(mul(float3(mx_film_x(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.x, i.x)), d),
+        mx_film_y(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.y, i.y)), d),
+        mx_film_z(a, mx_film_amplitude(float2(1.0, 0.0), mx_fresnel_refract(1.0, r.z, i.z)), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
 }
 
-float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+float3 mx_fresnel_facing(float3 n, float film, float film_ior)
 {
     if (film > 0.0)
-        return mx_film_index(cosine, n, film, film_ior);
-    return (float3)mx_fresnel_dielectric(cosine, n.x);
+        return mx_film_index_facing(n * n, film, film_ior);
+    return (float3)mx_fresnel_dielectric(1.0, n.x);
 }
 
 // Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
@@ -257,18 +271,12 @@ float mx_sheen_zeltner(float3 N, float3 V, float3 L, float c, float r)
     return max(w.z, 0.0) / 3.1415927 * scale * scale;
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(float cosine, float area)
-{
-    return sqrt(lerp(cosine * cosine, 1.0, area));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
-    return make_mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha,
-        mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -278,11 +286,38 @@ float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
     float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
+// film is lower.
+float3 mx_film_turned(float3 f0, float3 f, float ior)
+{
+    return (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * f, 0.0));
+}
+
+float3 mx_film_schlick_facing(float3 f0, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float3 r = -mx_film_turned(f0, f0, ior);
+    return clamp(mul(float3(mx_film_x(a, float2(r.x, 0.0), d), mx_film_y(a, float2(r.y, 0.0), d),
+        mx_film_z(a, float2(r.z, 0.0), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel_facing_2(float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick_facing(n, film, film_ior);
+    return n;
 }
 
 float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
@@ -292,25 +327,25 @@ float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
     return lerp(f0, float3(1.0, 1.0, 1.0), x3 * x * x) - bend * (cosine * x3 * x3);
 }
 
-// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour.
 float3 mx_film_schlick(float cosine, float3 f0, float3 bend, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
     float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
     float2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.012566372 * ior * c * film;
-    float3 r = (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
-        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), 0.0));
-    float2 re = float2(-r.x, r.x);
-    float x = mx_film_channel(a, re, float2(0.0, 0.0),
-        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, re, float2(0.0, 0.0), d, float3(2.2399, 0.153868, -0.0045282)));
-    re = float2(-r.y, r.y);
-    float y = mx_film_channel(a, re, float2(0.0, 0.0),
-        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(1.7953, 1.000222, -0.0093046)));
-    re = float2(-r.z, r.z);
-    return clamp(mul(float3(x, y, mx_film_channel(a, re, float2(0.0, 0.0),
-        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(2.2084, 1.001122, -0.0066121)))),
+    float3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, bend), ior);
+    return clamp(mul(0.5 * float3(mx_film_x(a.x, float2(-r.x, 0.0), d) + mx_film_x(a.y, float2(r.x, 0.0), d),
+        mx_film_y(a.x, float2(-r.y, 0.0), d) + mx_film_y(a.y, float2(r.y, 0.0), d), mx_film_z(a.x, float2(-r.z, 0.0), d)
+        + mx_film_z(a.y, float2(r.z, 0.0), d)),
         float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
         0.0, 1.0);
 }
@@ -320,6 +355,35 @@ float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
     if (film > 0.0)
         return mx_film_schlick(cosine, n, k, film, film_ior);
     return mx_fresnel_schlick(cosine, n, k);
+}
+
+// A film on a permittivity.
+float3 mx_film_index(float cosine, float3 re, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float2 across = float2(c, 0.0);
+    float2 below = float2(re.x, 0.0) / (ior * ior);
+    float2 u = mx_fresnel_refract(c, below.x, below.y);
+    float x = mx_film_x(a.x, mx_film_amplitude(across, u), d) + mx_film_x(a.y, mx_film_amplitude(c * below, u), d);
+    below = float2(re.y, 0.0) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float y = mx_film_y(a.x, mx_film_amplitude(across, u), d) + mx_film_y(a.y, mx_film_amplitude(c * below, u), d);
+    below = float2(re.z, 0.0) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float z = mx_film_z(a.x, mx_film_amplitude(across, u), d) + mx_film_z(a.y, mx_film_amplitude(c * below, u), d);
+    return clamp(mul(0.5 * float3(x, y, z),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n * n, film, film_ior);
+    return (float3)mx_fresnel_dielectric(cosine, n.x);
 }
 
 float3 mx_subsurface_light(float3 falloff, float cos_l)
@@ -364,42 +428,39 @@ float2 mx_map_point(float3 d)
     return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float level)
+// Albedo of what the lobe scatters more than once, relative to `color`.
+float3 mx_fujii_multiple(float3 color, float mean)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
-        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+    return color * mean / (1.0 - color * max(1.0 - mean, 0.0));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
-float3 mx_refract_sphere(float3 v, float3 h, float ior)
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
 {
-    float3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    float3 v = float3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
+        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-float4 mx_ggx_sample_at(mx_GgxSamples s, float3 h, float shrink, float spread, float refract_ior)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float level)
 {
-    float cosine = dot(s.v, h);
-    float3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
-    if (refract_ior > 0.0) {
-        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
-        weight = 0.5 / s.v.z;
-    }
-    return float4(weight * mx_filtered_light(mul(l, s.to_map), spread * spread * s.level),
-        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -410,87 +471,42 @@ float3 mx_ggx_cap(float2 around, float depth, float3 top)
     return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-float4 mx_ggx_sample(mx_GgxSamples s, float2 around, float depth, float refract_ior)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 {
-    float3 cap = mx_ggx_cap(around, depth, s.top);
+    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     float3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+    float spread = shrink * dot(cap, cap);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, float3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 {
-    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float3 stretch = float3(lobe.alpha, 1.0);
-    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
-        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return float4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(mul(l, s.to_map), facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
-// A function for each interface: what has nothing left to choose needs no version of its own.
-float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float3 V, float limit, float refract_ior, float ior)
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        float f = mx_fresnel_dielectric(light.w, ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// Any other: on a colour, or what it lets through.
-float3 mx_ggx_gather_film(mx_GgxLobe lobe, float3 V, float limit, float3 n, float3 k, float film, float film_ior)
+// The light that comes through it and a solid sphere of an index behind it.
+float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_film_schlick(light.w, n, k, film, film_ior) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
-}
-
-float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float3 V, float limit, float3 f0, float3 bend)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_fresnel_schlick(light.w, f0, bend) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
-}
-
-// A film on an index of refraction, reflection alone: what most films are.
-float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float3 V, float limit, float3 n, float film, float film_ior)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_film_index(light.w, n, film, film_ior) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
-}
-
-// Albedo of what the lobe scatters more than once, relative to `color`.
-float3 mx_fujii_multiple(float3 color, float mean)
-{
-    return color * mean / (1.0 - color * max(1.0 - mean, 0.0));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 h = facet.h * sqrt(facet.shrink);
+    return float4(s.weight * 0.5 / s.v.z
+        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.level), clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main(
@@ -532,7 +548,7 @@ void main(
     float3 reflection_throughput = (float3)(1.0 - product * reflection_scale);
     float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
     float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
-    float3 reflection_film_scale = lerp(mx_fresnel(1.0, (float3)ior, film_thickness, thin_film_ior),
+    float3 reflection_film_scale = lerp(mx_fresnel_facing((float3)ior, film_thickness, thin_film_ior),
         float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
     float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
@@ -577,27 +593,26 @@ void main(
     float3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     float coating_product = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
     float3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
     float metal_film_weight = SR_open_pbr_surface_specular_weight
         * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
-    float3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
-    float3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
-    float3 schlick_bend = lerp(n, float3(1.0, 1.0, 1.0), 0.4626644) * (float3(1.0, 1.0, 1.0) - limited_specular_color)
-        * 17.651384;
+    float3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
     float3 metal_film_product = (difference
-        * lerp(mx_fresnel(1.0, n, schlick_bend, film_thickness, thin_film_ior), float3(1.0, 1.0, 1.0), 0.04761905)
+        * lerp(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), float3(1.0, 1.0, 1.0), 0.04761905)
         + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, X, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
+    float3 schlick_bend = lerp(fresnel_facing, float3(1.0, 1.0, 1.0), 0.4626644)
+        * (float3(1.0, 1.0, 1.0) - limited_specular_color) * 17.651384;
     float metal_bare_weight = SR_open_pbr_surface_specular_weight
         * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
-    float3 metal_bare_product = (difference
-        * lerp(mx_fresnel_schlick(1.0, n, schlick_bend), float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0))
-        * (substrate_weight * metal_bare_weight);
+    float3 metal_bare_product = (difference * lerp(fresnel_facing, float3(1.0, 1.0, 1.0), 0.04761905)
+        + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_bare_weight);
     bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
     float3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
     float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
-    float3 reflection_product = limited_specular_color * (substrate_weight * reflection_weight);
+    float3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
     float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
     float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
@@ -617,60 +632,63 @@ void main(
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // sheet_front, sheet_back
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         float3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         float3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        float3 directional_light_to_light = -u_lightData[i].direction;
-        float3 L = type == 1 ? directional_light_to_light : to_light;
+        float3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
         float v_dot_l = dot(V, L);
         float s = v_dot_l - cos_v * cos_l;
         float greater = max(cos_l, cos_v);
         float3 sheet_front_response = sheet_front_product * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
+        color += directional_light_light
+            * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
         // fuzz
         if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
+            color += directional_light_light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat_weight > 0.0)
-            color += light * (coating_product
-                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
+            color += directional_light_light
+                * (coating_product * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += light * (metal_film_product
-                * (ggx_light * mx_fresnel(cosine, n, schlick_bend, film_thickness, thin_film_ior)));
+            color += directional_light_light
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += light * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, n, schlick_bend)));
+            color += directional_light_light
+                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend)));
         // reflection_film
         if (reflection_film_visible)
-            color += light * (reflection_film_product
+            color += directional_light_light
+                * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, (float3)ior, film_thickness, thin_film_ior)));
         // reflection
         if (reflection_weight > 0.0)
-            color += light * (reflection_scale * reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
+            color += directional_light_light * (reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
         // scatter
         if (scatter_weight > 0.0)
-            color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+            color += directional_light_light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
         // diffuse
         if (diffuse_weight > 0.0) {
             float diffuse_s = s / greater;
             float3 diffuse_product_2 = fujii_multiple
                 * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l, base_diffuse_roughness), 1e-8)
                 / diffuse_greater_2);
-            color += light * (diffuse_product
-                * (cos_l / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
-                + diffuse_product_2)));
+            color += directional_light_light
+                * (diffuse_product * (cos_l / 3.1415927
+                * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum + diffuse_product_2)));
         }
     }
     // environment
@@ -680,48 +698,9 @@ void main(
         mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
     float2 fit = base_diffuse_roughness * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076)
         + base_diffuse_roughness * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
-    float3 sheet_front_response_2 = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
-    float3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response_2;
+    float3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    float3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
     color += envLightIntensity * (scatter_product * part) + sum;
-    // coating
-    if (coat_weight > 0.0)
-        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, V, 1.0, 0.0, coat_ior);
-    // metal_film
-    float filmed = film_thickness > 0.0 ? 1.0 : 0.0;
-    float limit = film_thickness > 0.0 ? 0.0 : 1.0;
-    if (metal_film_weight > 0.0) {
-        float3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, schlick_bend, film_thickness,
-            thin_film_ior);
-        float3 metal_film_bare = mx_ggx_gather_schlick(lobe, V, limit, n, schlick_bend);
-        color += metal_film_product * (film_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
-    }
-    // metal_bare
-    if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, schlick_bend);
-    // reflection_film
-    if (reflection_film_visible) {
-        float3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, (float3)ior,
-            film_thickness, thin_film_ior);
-        float3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, V, limit, 0.0, ior);
-        color += reflection_film_product
-            * (film_thickness > 0.0 ? reflection_film_ggx_gather_film_index : reflection_film_bare);
-    }
-    // reflection
-    if (reflection_weight > 0.0)
-        color += reflection_scale * (reflection_product * mx_ggx_gather_dielectric(lobe, V, 1.0, 0.0, ior));
-    // refraction
-    if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
-        float3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, 1.0, ior, ior);
-        float3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? float3(1.0, 1.0, 1.0)
-            : SR_open_pbr_surface_transmission_color, 0.0);
-        float3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
-            / SR_open_pbr_surface_transmission_depth;
-        float3 refraction_product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
-            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : float3(0.0, 0.0, 0.0))) * tint;
-        float3 refraction_product_2 = ggx_refraction
-            * ((u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0)) * refraction_product);
-        color += body_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight) * refraction_product_2;
-    }
     // sheet_back
     if (scaled_sheet_weight > 0.0)
         color += envLightIntensity * (sheet_back_product
@@ -731,6 +710,89 @@ void main(
     if (diffuse_weight > 0.0)
         color += envLightIntensity * (lerp(mx_fujii_multiple(base_positive, mean), float3(1.0, 1.0, 1.0),
             diffuse_fujii_albedo) * (diffuse_product * part));
+    // coating
+    if (coat_weight > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, X, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (coating_product * mx_fresnel_dielectric(coating_light.w, coat_ior));
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // metal_film, metal_bare, reflection_film, reflection
+    mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
+    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+        if (film_thickness > 0.0) {
+            float3 reflection_film_vector = (float3)(ior * ior);
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product
+                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend, film_thickness,
+                        thin_film_ior) * metal_film_ggx_reflected.xyz);
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend));
+                // reflection_film
+                if (reflection_film_visible)
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_film_index(metal_film_ggx_reflected.w, reflection_film_vector, film_thickness,
+                        thin_film_ior));
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.xyz * mx_fresnel_dielectric(metal_film_ggx_reflected.w, ior));
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                float3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing,
+                    schlick_bend) * metal_film_ggx_reflected.xyz;
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product * metal_bare_product_2;
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product * metal_bare_product_2;
+                // reflection_film
+                float3 reflection_product_2 = metal_film_ggx_reflected.xyz
+                    * mx_fresnel_dielectric(metal_film_ggx_reflected.w, ior);
+                if (reflection_film_visible)
+                    color += reflection_film_product * reflection_product_2;
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product * reflection_product_2;
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
+    }
+    // refraction
+    if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
+        float3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? float3(1.0, 1.0, 1.0)
+            : SR_open_pbr_surface_transmission_color, 0.0);
+        float3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
+            / SR_open_pbr_surface_transmission_depth;
+        float3 refraction_product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
+            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : float3(0.0, 0.0, 0.0))) * tint;
+        float3 refraction_product_2 = (u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0)) * refraction_product;
+        float3 refraction_product_3 = body_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight)
+            * refraction_product_2;
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+            color += refraction_product_3
+                * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, ior)) * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
     // opacity
     if (SR_open_pbr_surface_geometry_opacity < u_alphaThreshold)
         discard;

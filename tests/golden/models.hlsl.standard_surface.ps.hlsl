@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     float3 N;
+    float cosine;
     float3 x;
     float2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     float3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    float3 h;
+    float shrink;
     float level;
 };
 cbuffer PublicUniforms : register(b1)
@@ -94,10 +100,11 @@ struct VertexData {
     float3 tangentWorld : TEXCOORD2;
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float3 x, float2 alpha, float masking)
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
 {
     mx_GgxLobe made;
     made.N = N;
+    made.cosine = cosine;
     made.x = x;
     made.alpha = alpha;
     made.masking = masking;
@@ -120,6 +127,15 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     return made;
 }
 
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float level)
+{
+    mx_GgxFacet made;
+    made.h = h;
+    made.shrink = shrink;
+    made.level = level;
+    return made;
+}
+
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(float cosine, float ior)
 {
@@ -129,80 +145,78 @@ float mx_fresnel_dielectric(float cosine, float ior)
     return 0.5 * dot(r, r);
 }
 
-// A channel after interference, the mean of both polarisations.
-float mx_film_channel(float2 a, float2 re, float2 im, float2 terms)
+// A channel of one polarisation after interference.
+float mx_film_channel(float a, float2 r, float terms)
 {
-    float2 r23 = re * re + im * im;
-    float2 t = 1.0 - a * a;
-    float2 even = t * t * r23 / (1.0 - a * a * r23);
-    float2 both = a * a + even + 2.0 * (even - t) * terms;
-    return 0.5 * (both.x + both.y);
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
 }
 
 // Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
-// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
-float2 mx_film_terms(float2 a, float2 re, float2 im, float d, float3 gauss)
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(float a, float2 r, float d, float3 gauss)
 {
     float c = cos(gauss.x * d);
     float s = sin(gauss.x * d);
     float decay = exp(gauss.z * d * d);
-    float2 x = re * c - im * s;
-    float2 y = re * s + im * c;
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
     return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-float2 mx_fresnel_refract(float cosine, float n, float k)
+float mx_film_z(float a, float2 r, float d)
 {
-    float t = n * n - k * k + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
+}
+
+// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+float2 mx_film_amplitude(float2 x, float2 u)
+{
+    return float2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
+}
+
+// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+float2 mx_fresnel_refract(float cosine, float re, float im)
+{
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
     return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
 }
 
-// Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
-void mx_film_base(float cosine, float n, float k, out float2 re, out float2 im)
+float mx_film_y(float a, float2 r, float d)
 {
-    float2 u = mx_fresnel_refract(cosine, n, k);
-    float2 x = cosine * float2(1.0, n * n - k * k);
-    float2 y = float2(0.0, 2.0 * cosine * n * k);
-    float2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
-    re = (x * x + y * y - dot(u, u)) / norm;
-    im = 2.0 * (y * u.x - x * u.y) / norm;
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.7953, 1.000222, -0.0093046)));
 }
 
-// Amplitudes of the film's own interface.
-float2 mx_film_amplitudes(float cosine, float inside, float ior)
+float mx_film_x(float a, float2 r, float d)
 {
-    float2 x = float2(cosine, ior * cosine);
-    float2 u = float2(ior * inside, inside);
-    return (x - u) / (x + u);
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, float3(2.2399, 0.153868, -0.0045282)));
 }
 
-// A film on the index n + ik.
-float3 mx_film_index(float cosine, float3 n, float3 k, float film, float film_ior)
+// Facing the viewer both polarisations are alike.
+float3 mx_film_index_facing(float3 re, float3 im, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    float2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    float2 re;
-    float2 im;
-    mx_film_base(c, n.x / ior, k.x / ior, re, im);
-    float x = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, re, im, d, float3(2.2399, 0.153868, -0.0045282)));
-    mx_film_base(c, n.y / ior, k.y / ior, re, im);
-    float y = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(1.7953, 1.000222, -0.0093046)));
-    mx_film_base(c, n.z / ior, k.z / ior, re, im);
-    float z = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(2.2084, 1.001122, -0.0066121)));
-    return clamp(mul(float3(x, y, z), float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949,
-        -0.4706338, 0.0885814, 1.0093968)), 0.0, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float2 across = float2(1.0, 0.0);
+    float3 r = re / (ior * ior);
+    float3 i = im / (ior * ior);
+    return clamp(mul(float3(mx_film_x(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.x, i.x)), d),
+        mx_film_y(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.y, i.y)), d),
+        mx_film_z(a, mx_film_amplitude(float2(1.0, 0.0), mx_fresnel_refract(1.0, r.z, i.z)), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
 }
 
-float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+float3 mx_fresnel_facing(float3 n, float film, float film_ior)
 {
     if (film > 0.0)
-        return mx_film_index(cosine, n, float3(0.0, 0.0, 0.0), film, film_ior);
-    return (float3)mx_fresnel_dielectric(cosine, n.x);
+        return mx_film_index_facing(n * n, float3(0.0, 0.0, 0.0), film, film_ior);
+    return (float3)mx_fresnel_dielectric(1.0, n.x);
 }
 
 // Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
@@ -237,18 +251,12 @@ float3 mx_rotate3d(float3 v, float angle, float3 axis)
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(float cosine, float area)
-{
-    return sqrt(lerp(cosine * cosine, 1.0, area));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
-    return make_mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha,
-        mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -258,11 +266,11 @@ float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
     float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
@@ -281,20 +289,56 @@ float mx_fresnel_ratio(float2 x, float2 u)
     return dot(x - u, x - u) / dot(x + u, x + u);
 }
 
-// Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
-// perpendicular part, (n + ik)^2 times the cosine in the parallel part.
-float mx_fresnel_conductor(float cosine, float n, float k)
+// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
+// perpendicular part, the permittivity times the cosine in the parallel part.
+float mx_fresnel_conductor(float cosine, float re, float im)
 {
-    float2 u = mx_fresnel_refract(cosine, n, k);
-    return 0.5 * (mx_fresnel_ratio(float2(cosine, 0.0), u)
-        + mx_fresnel_ratio(cosine * float2(n * n - k * k, 2.0 * n * k), u));
+    float2 u = mx_fresnel_refract(cosine, re, im);
+    return 0.5 * (mx_fresnel_ratio(float2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * float2(re, im), u));
 }
 
 // One channel after the other, which needs a third of the registers.
-float3 mx_fresnel_conductor(float cosine, float3 n, float3 k)
+float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
 {
-    return float3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
-        mx_fresnel_conductor(cosine, n.z, k.z));
+    return float3(mx_fresnel_conductor(cosine, re.x, im.x), mx_fresnel_conductor(cosine, re.y, im.y),
+        mx_fresnel_conductor(cosine, re.z, im.z));
+}
+
+float3 mx_fresnel_facing(float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index_facing(n, k, film, film_ior);
+    return mx_fresnel_conductor(1.0, n, k);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a permittivity.
+float3 mx_film_index(float cosine, float3 re, float3 im, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float2 across = float2(c, 0.0);
+    float2 below = float2(re.x, im.x) / (ior * ior);
+    float2 u = mx_fresnel_refract(c, below.x, below.y);
+    float x = mx_film_x(a.x, mx_film_amplitude(across, u), d) + mx_film_x(a.y, mx_film_amplitude(c * below, u), d);
+    below = float2(re.y, im.y) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float y = mx_film_y(a.x, mx_film_amplitude(across, u), d) + mx_film_y(a.y, mx_film_amplitude(c * below, u), d);
+    below = float2(re.z, im.z) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float z = mx_film_z(a.x, mx_film_amplitude(across, u), d) + mx_film_z(a.y, mx_film_amplitude(c * below, u), d);
+    return clamp(mul(0.5 * float3(x, y, z),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
 }
 
 float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
@@ -302,6 +346,13 @@ float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
     if (film > 0.0)
         return mx_film_index(cosine, n, k, film, film_ior);
     return mx_fresnel_conductor(cosine, n, k);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n * n, float3(0.0, 0.0, 0.0), film, film_ior);
+    return (float3)mx_fresnel_dielectric(cosine, n.x);
 }
 
 float3 mx_subsurface_light(float3 falloff, float cos_l)
@@ -337,42 +388,33 @@ float2 mx_map_point(float3 d)
     return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float level)
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
-        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
-}
-
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
-float3 mx_refract_sphere(float3 v, float3 h, float ior)
-{
-    float3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    float3 v = float3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
+        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(lerp(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-float4 mx_ggx_sample_at(mx_GgxSamples s, float3 h, float shrink, float spread, float refract_ior)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float level)
 {
-    float cosine = dot(s.v, h);
-    float3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
-    if (refract_ior > 0.0) {
-        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
-        weight = 0.5 / s.v.z;
-    }
-    return float4(weight * mx_filtered_light(mul(l, s.to_map), spread * spread * s.level),
-        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -383,67 +425,42 @@ float3 mx_ggx_cap(float2 around, float depth, float3 top)
     return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-float4 mx_ggx_sample(mx_GgxSamples s, float2 around, float depth, float refract_ior)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 {
-    float3 cap = mx_ggx_cap(around, depth, s.top);
+    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     float3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+    float spread = shrink * dot(cap, cap);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, float3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 {
-    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float3 stretch = float3(lobe.alpha, 1.0);
-    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
-        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return float4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(mul(l, s.to_map), facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
-// A function for each interface: what has nothing left to choose needs no version of its own.
-float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float3 V, float limit, float refract_ior, float ior)
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        float f = mx_fresnel_dielectric(light.w, ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// A film on an index of refraction, reflection alone: what most films are.
-float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float3 V, float limit, float3 n, float3 k, float film, float film_ior)
+// The light that comes through it and a solid sphere of an index behind it.
+float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_film_index(light.w, n, k, film, film_ior) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
-}
-
-float3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float3 V, float limit, float3 n, float3 k)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    float2 around = float2(1.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        float4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
-        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
-    }
-    return samples.weight * sum;
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 h = facet.h * sqrt(facet.shrink);
+    return float4(s.weight * 0.5 / s.v.z
+        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.level), clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main(
@@ -473,7 +490,7 @@ void main(
     float cos_v = max(absolute, 1e-8);
     float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
     float difference = 1.0 / albedo.x - 1.0;
-    float3 reflection_scale = lerp(mx_fresnel(1.0, (float3)specular_IOR, thin_film_thickness, thin_film_IOR),
+    float3 reflection_scale = lerp(mx_fresnel_facing((float3)specular_IOR, thin_film_thickness, thin_film_IOR),
         float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
     float fresnel_bare = mx_fresnel_dielectric(1.0, coat_IOR);
     float2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
@@ -500,7 +517,6 @@ void main(
     float r2 = SR_standard_surface_diffuse_roughness * SR_standard_surface_diffuse_roughness;
     float2 ab = r2 * float2(-0.5, 0.45) / (r2 + float2(0.33, 0.09)) + float2(1.0, 0.0);
     float s = 1.0 / max(SR_standard_surface_sheen_roughness, 0.005);
-    float v_dot_nf = dot(V, Nf);
     float3 fuzz_product = SR_standard_surface_sheen_color * (body_weight * (SR_standard_surface_sheen * opaque_weight));
     float3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
     float thin = float(SR_standard_surface_thin_walled);
@@ -508,15 +524,18 @@ void main(
     float3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
     float3 tangent_direction = normalize(vd.tangentWorld);
     float3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, coat_tangent, V);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
+    bool metal_visible = SR_standard_surface_metalness > 0.0;
     float3 metal_ior, metal_extinction;
     mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
         * SR_standard_surface_specular_color, metal_ior, metal_extinction);
-    float3 metal_scale = difference * lerp(mx_fresnel(1.0, metal_ior, metal_extinction, thin_film_thickness,
-        thin_film_IOR), float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0);
+    float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
+    float3 im = metal_extinction * (metal_ior * 2.0);
+    float3 metal_scale = difference * lerp(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR),
+        float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0);
     float3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
     float3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, specular_tangent, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
     bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
     float3 reflection_weight = clamped_coat_tint
         * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
@@ -529,45 +548,46 @@ void main(
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // fuzz, translucent, diffuse
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         float3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         float3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        float3 directional_light_to_light = -u_lightData[i].direction;
-        float3 L = type == 1 ? directional_light_to_light : to_light;
+        float3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
         float v_dot_l = dot(V, L);
         float3 diffuse_response = diffuse_product
             * (cos_l / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l, 0.0) / max(cos_l, cos_v)));
-        float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
+        float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
         float fuzz_product_2 = cos_l * ((s + 2.0)
             * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
         float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
-        color += light * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
+        color += directional_light_light
+            * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat > 0.0)
-            color += light * (coat * coating_scale
-                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_IOR)));
+            color += directional_light_light
+                * (coat * coating_scale * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_IOR)));
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
-        if (SR_standard_surface_metalness > 0.0)
-            color += light * (metal_product
-                * (ggx_light * mx_fresnel(cosine, metal_ior, metal_extinction, thin_film_thickness, thin_film_IOR)));
+        if (metal_visible)
+            color += directional_light_light
+                * (metal_product * (ggx_light * mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR)));
         // reflection
         if (reflection_visible)
-            color += light * (reflection_product
-                * (ggx_light * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR)));
+            color += directional_light_light
+                * (reflection_product * (ggx_light
+                * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR)));
         // scatter
         if (scatter_weight > 0.0)
-            color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+            color += directional_light_light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
     }
     // environment
     // fuzz, scatter, diffuse
@@ -576,45 +596,79 @@ void main(
     float2 fit = SR_standard_surface_diffuse_roughness
         * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
         * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
-    float3 diffuse_response_2 = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
-    float3 fuzz_response_2 = fuzz_product * part * (sheen_albedo * u_envLightIntensity);
-    color += diffuse_response_2 + (fuzz_response_2 + u_envLightIntensity * (scatter_product * part));
-    // coating
-    if (coat > 0.0)
-        color += coat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, V, 1.0, 0.0, coat_IOR);
-    // metal
-    float filmed = thin_film_thickness > 0.0 ? 1.0 : 0.0;
-    float limit = thin_film_thickness > 0.0 ? 0.0 : 1.0;
-    if (SR_standard_surface_metalness > 0.0) {
-        float3 metal_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, metal_ior, metal_extinction,
-            thin_film_thickness, thin_film_IOR);
-        float3 metal_bare = mx_ggx_gather_conductor(lobe, V, limit, metal_ior, metal_extinction);
-        color += metal_product * (thin_film_thickness > 0.0 ? metal_ggx_gather_film_index : metal_bare);
-    }
-    // reflection
-    if (reflection_visible) {
-        float3 reflection_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, (float3)specular_IOR,
-            float3(0.0, 0.0, 0.0), thin_film_thickness, thin_film_IOR);
-        float3 reflection_bare = mx_ggx_gather_dielectric(lobe, V, limit, 0.0, specular_IOR);
-        color += reflection_product * (thin_film_thickness > 0.0 ? reflection_ggx_gather_film_index : reflection_bare);
-    }
-    // refraction
-    if (SR_standard_surface_transmission * dielectric_weight > 0.0) {
-        float3 tint = max(SR_standard_surface_transmission_color, 0.0);
-        float transmission_blurred = lerp(clamp(SR_standard_surface_specular_roughness
-            + SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
-        mx_GgxLobe refraction_lobe = mx_ggx_lobe(mx_roughness_anisotropy(transmission_blurred,
-            SR_standard_surface_specular_anisotropy), Nf, specular_tangent, V);
-        float3 ggx_refraction = mx_ggx_gather_dielectric(refraction_lobe, V, 1.0, specular_IOR, specular_IOR);
-        float3 dielectric_bsdf_transmission = tint * (u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0))
-            * ggx_refraction;
-        color += dielectric_bsdf_transmission * (body_weight * (SR_standard_surface_transmission * dielectric_weight));
-    }
+    float3 diffuse_response = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    float3 fuzz_response = fuzz_product * part * (sheen_albedo * u_envLightIntensity);
+    color += diffuse_response + (fuzz_response + u_envLightIntensity * (scatter_product * part));
     // translucent
     if (translucent_weight > 0.0)
         color += u_envLightIntensity * (translucent_product
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
             mx_map_point(normalize(mul(float4(-Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz);
+    // coating
+    if (coat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (coat * coating_scale * mx_fresnel_dielectric(coating_light.w, coat_IOR));
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // metal, reflection
+    if (metal_visible || reflection_visible) {
+        mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
+        if (thin_film_thickness > 0.0) {
+            float3 reflection_vector = (float3)(specular_IOR * specular_IOR);
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal
+                float4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                if (metal_visible)
+                    color += metal_product
+                        * (mx_film_index(metal_ggx_reflected.w, re, im, thin_film_thickness, thin_film_IOR)
+                        * metal_ggx_reflected.xyz);
+                // reflection
+                if (reflection_visible)
+                    color += reflection_product
+                        * (metal_ggx_reflected.xyz
+                        * mx_film_index(metal_ggx_reflected.w, reflection_vector, float3(0.0, 0.0, 0.0),
+                        thin_film_thickness, thin_film_IOR));
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal
+                float4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                if (metal_visible)
+                    color += metal_product
+                        * (mx_fresnel_conductor(metal_ggx_reflected.w, re, im) * metal_ggx_reflected.xyz);
+                // reflection
+                if (reflection_visible)
+                    color += reflection_product
+                        * (metal_ggx_reflected.xyz * mx_fresnel_dielectric(metal_ggx_reflected.w, specular_IOR));
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
+    }
+    // refraction
+    if (SR_standard_surface_transmission * dielectric_weight > 0.0) {
+        float3 tint = max(SR_standard_surface_transmission_color, 0.0);
+        float3 refraction_tint = tint * (u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0));
+        float3 refraction_product = refraction_tint
+            * (body_weight * (SR_standard_surface_transmission * dielectric_weight));
+        float transmission_blurred = lerp(clamp(SR_standard_surface_specular_roughness
+            + SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
+        mx_GgxSamples samples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
+            SR_standard_surface_specular_anisotropy), N, specular_tangent, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, specular_IOR, i, turn);
+            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, specular_IOR))
+                * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
     // opacity
     float opacity_grey = dot(SR_standard_surface_opacity, float3(0.2722287, 0.6740818, 0.0536895));
     if (opacity_grey < u_alphaThreshold)

@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     vec3 N;
+    float cosine;
     vec3 x;
     vec2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float shrink;
     float level;
 };
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
@@ -90,78 +96,75 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
+// A channel of one polarisation after interference.
+float mx_film_channel(const float a, const vec2 r, const float terms)
 {
-    float x = 1.0 - cosine;
-    return mix(f0, f90, x * x * x * x * x);
-}
-
-// A channel after interference, the mean of both polarisations.
-float mx_film_channel(const vec2 a, const vec2 re, const vec2 terms)
-{
-    vec2 r23 = re * re;
-    vec2 t = vec2(1.0) - a * a;
-    vec2 even = t * t * r23 / (vec2(1.0) - a * a * r23);
-    vec2 both = a * a + even + 2.0 * (even - t) * terms;
-    return 0.5 * (both.x + both.y);
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
 }
 
 // Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
-// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
-vec2 mx_film_terms(const vec2 a, const vec2 re, const float d, const vec3 gauss)
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(const float a, const vec2 r, const float d, const vec3 gauss)
 {
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
     float decay = exp(gauss.z * d * d);
-    vec2 x = re * cos(gauss.x * d);
-    vec2 y = re * sin(gauss.x * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
     return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// Amplitudes of the film's own interface.
-vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+float mx_film_z(const float a, const vec2 r, const float d)
 {
-    vec2 x = vec2(cosine, ior * cosine);
-    vec2 u = vec2(ior * inside, inside);
-    return (x - u) / (x + u);
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(2.2084, 1.001122, -0.0066121)));
 }
 
-// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
-vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const float film, const float film_ior)
+float mx_film_y(const float a, const vec2 r, const float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(1.7953, 1.000222, -0.0093046)));
+}
+
+float mx_film_x(const float a, const vec2 r, const float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, vec3(2.2399, 0.153868, -0.0045282)));
+}
+
+// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
+// film is lower.
+vec3 mx_film_turned(const vec3 f0, const vec3 f, const float ior)
+{
+    return (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * f, vec3(0.0)));
+}
+
+vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    vec2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
-        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, f90), vec3(0.0)));
-    vec2 re = vec2(-r.x, r.x);
-    float x = mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, re, d, vec3(2.2399, 0.153868, -0.0045282)));
-    re = vec2(-r.y, r.y);
-    float y = mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(1.7953, 1.000222, -0.0093046)));
-    re = vec2(-r.z, r.z);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    vec3 r = -mx_film_turned(f0, f0, ior);
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * vec3(x, y, mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(2.2084, 1.001122, -0.0066121)))),
-        vec3(0.0), vec3(1.0));
+        1.0093968) * vec3(mx_film_x(a, vec2(r.x, 0.0), d), mx_film_y(a, vec2(r.y, 0.0), d),
+        mx_film_z(a, vec2(r.z, 0.0), d)), vec3(0.0), vec3(1.0));
 }
 
-vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)
+vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
-        return mx_film_schlick(cosine, n, f90, film, film_ior);
-    return mx_fresnel_schlick(cosine, n, f90);
+        return mx_film_schlick_facing(n, film, film_ior);
+    return n;
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(const float cosine, const float area)
-{
-    return sqrt(mix(cosine * cosine, 1.0, area));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -171,11 +174,11 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -194,6 +197,41 @@ vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
+{
+    float x = 1.0 - cosine;
+    return mix(f0, f90, x * x * x * x * x);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+{
+    vec2 x = vec2(cosine, ior * cosine);
+    vec2 u = vec2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour.
+vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    vec2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    vec3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, f90), ior);
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * (0.5 * vec3(mx_film_x(a.x, vec2(-r.x, 0.0), d) + mx_film_x(a.y, vec2(r.x, 0.0), d),
+        mx_film_y(a.x, vec2(-r.y, 0.0), d) + mx_film_y(a.y, vec2(r.y, 0.0), d), mx_film_z(a.x, vec2(-r.z, 0.0), d)
+        + mx_film_z(a.y, vec2(r.z, 0.0), d))), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, f90, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, f90);
+}
+
 // The point of the picture for a unit direction in it.
 vec2 mx_map_point(const vec3 d)
 {
@@ -208,42 +246,32 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
-}
-
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
-vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
-{
-    vec3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread,
-    const float refract_ior)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
 {
-    float cosine = dot(s.v, h);
-    vec3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
-    if (refract_ior > 0.0) {
-        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
-        weight = 0.5 / s.v.z;
-    }
-    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
-        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -254,68 +282,42 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
     return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
-// A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float refract_ior, const float ior)
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        float f = mx_fresnel_dielectric(light.w, ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
+    vec3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const vec3 f90,
-    const float film, const float film_ior)
+// The light that comes through it and a solid sphere of an index behind it.
+vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_film_schlick(light.w, n, f90, film, film_ior) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
-}
-
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 f0, const vec3 f90)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 h = facet.h * sqrt(facet.shrink);
+    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.level),
+        clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -327,7 +329,8 @@ void main()
     // SR_gltf_pbr
     vec3 Nf = faceforward(N, -V, N);
     float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
-    vec3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
+    vec3 fresnel_facing = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0),
+        0.0);
     vec3 f90 = vec3(max(SR_gltf_pbr_specular, 0.0));
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
     vec2 specular_roughness = clamp(vec2(mix(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
@@ -336,14 +339,14 @@ void main()
     float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
-    vec3 product = mix(n, f90, albedo.y) * albedo.x;
+    vec3 product = mix(fresnel_facing, f90, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
-    vec3 reflection_scale = difference * mix(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905) + vec3(1.0);
+    vec3 reflection_scale = difference * mix(fresnel_facing, f90, 0.04761905) + vec3(1.0);
     float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
     float iridescence_thickness = SR_gltf_pbr_iridescence_thickness;
     float iridescence_ior = SR_gltf_pbr_iridescence_ior;
-    vec3 reflection_film_scale = mix(mx_fresnel(1.0, n, f90, iridescence_thickness, iridescence_ior), f90, 0.04761905)
-        * difference + vec3(1.0);
+    vec3 reflection_film_scale = mix(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior), f90,
+        0.04761905) * difference + vec3(1.0);
     float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
     float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
@@ -358,23 +361,21 @@ void main()
     float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
         SR_gltf_pbr_iridescence) * substrate_weight;
     float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
-    vec3 diffuse_product = SR_gltf_pbr_base_color
-        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
+    float diffuse_weight = dielectric_weight * (1.0 - SR_gltf_pbr_transmission);
+    vec3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight);
     vec3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), Nf, X, V);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), N, X, V);
     float s = 1.0 / max(sheen_rough, 0.005);
-    float v_dot_nf = dot(V, Nf);
     vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
     float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
-    vec3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
+    vec3 fresnel_facing_2 = max(SR_gltf_pbr_base_color, 0.0);
     vec3 metal_film_product = (difference
-        * mix(mx_fresnel(1.0, limited_base_color, vec3(1.0), iridescence_thickness, iridescence_ior), vec3(1.0),
-        0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
+        * mix(mx_fresnel_facing(fresnel_facing_2, iridescence_thickness, iridescence_ior), vec3(1.0), 0.04761905)
+        + vec3(1.0)) * (substrate_weight * metal_film_weight);
     vec3 specular_tangent = mx_rotate3d(X, radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
-    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, Nf, specular_tangent, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
     float metal_bare_weight = SR_gltf_pbr_metallic * (1.0 - SR_gltf_pbr_iridescence);
-    vec3 metal_bare_product = (difference
-        * mix(mx_fresnel_schlick(1.0, limited_base_color, vec3(1.0)), vec3(1.0), 0.04761905) + vec3(1.0))
+    vec3 metal_bare_product = (difference * mix(fresnel_facing_2, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
     bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
     vec3 reflection_film_product = reflection_film_scale
@@ -384,92 +385,136 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
-        color += light * (cos_l / 3.1415927 * diffuse_product);
+        color += directional_light_light * (cos_l / 3.1415927 * diffuse_product);
         // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0)
-            color += light * (SR_gltf_pbr_clearcoat * coating_scale
+            color += directional_light_light
+                * (SR_gltf_pbr_clearcoat * coating_scale
                 * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
         // fuzz
         if (sheen_weight > 0.0) {
-            float scaled_along = (l_dot_nf + v_dot_nf) * (l_dot_nf + v_dot_nf);
+            float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
             float fuzz_product_2 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
                 / 6.2831855);
-            color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
+            color += directional_light_light
+                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
         }
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += light * (metal_film_product
-                * (ggx_light * mx_fresnel(cosine, limited_base_color, vec3(1.0), iridescence_thickness,
-                iridescence_ior)));
+            color += directional_light_light
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing_2, vec3(1.0), iridescence_thickness, iridescence_ior)));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += light * (metal_bare_product
-                * (ggx_light * mx_fresnel_schlick(cosine, limited_base_color, vec3(1.0))));
+            color += directional_light_light
+                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing_2, vec3(1.0))));
         // reflection_film
         if (reflection_film_visible)
-            color += light * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, n, f90, iridescence_thickness, iridescence_ior)));
+            color += directional_light_light
+                * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, iridescence_thickness, iridescence_ior)));
         // reflection
         if (reflection_weight > 0.0)
-            color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
+            color += directional_light_light
+                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90)));
     }
     // environment
-    // diffuse
-    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
-    color += u_envLightIntensity * (diffuse_product * part);
-    // coating
-    if (SR_gltf_pbr_clearcoat > 0.0)
-        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, V, 0.0, 1.5);
     // fuzz
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
     if (sheen_weight > 0.0)
         color += fuzz_product * part * (sheen_albedo * u_envLightIntensity);
-    // metal_film
-    float filmed = iridescence_thickness > 0.0 ? 1.0 : 0.0;
-    float limit = iridescence_thickness > 0.0 ? 0.0 : 1.0;
-    if (metal_film_weight > 0.0) {
-        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, limited_base_color, vec3(1.0),
-            iridescence_thickness, iridescence_ior);
-        vec3 metal_film_bare = mx_ggx_gather_schlick(lobe, V, limit, limited_base_color, vec3(1.0));
-        color += metal_film_product * (iridescence_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
+    // diffuse
+    if (diffuse_weight > 0.0)
+        color += u_envLightIntensity * (diffuse_product * part);
+    // coating
+    if (SR_gltf_pbr_clearcoat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), N, X, V);
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            vec4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (SR_gltf_pbr_clearcoat * coating_scale
+                * mx_fresnel_dielectric(coating_light.w, 1.5));
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
     }
-    // metal_bare
-    if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, limited_base_color, vec3(1.0));
-    // reflection_film
-    if (reflection_film_visible) {
-        vec3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, f90, iridescence_thickness,
-            iridescence_ior);
-        vec3 reflection_film_bare = mx_ggx_gather_schlick(lobe, V, limit, n, f90);
-        color += reflection_film_product
-            * (iridescence_thickness > 0.0 ? reflection_film_ggx_gather_film : reflection_film_bare);
+    // metal_film, metal_bare, reflection_film, reflection
+    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
+    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+        if (iridescence_thickness > 0.0) {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product
+                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0),
+                        iridescence_thickness, iridescence_ior) * metal_film_ggx_reflected.xyz);
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0)));
+                // reflection_film
+                if (reflection_film_visible)
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90, iridescence_thickness,
+                        iridescence_ior));
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90));
+                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film, metal_bare
+                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                vec3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0))
+                    * metal_film_ggx_reflected.xyz;
+                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
+                // reflection_film
+                vec3 reflection_product_2 = metal_film_ggx_reflected.xyz
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90);
+                if (reflection_film_visible)
+                    color += reflection_film_product * reflection_product_2;
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product * reflection_product_2;
+                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
     }
-    // reflection
-    if (reflection_weight > 0.0)
-        color += reflection_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, f90);
     // refraction
     if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
-        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
-        vec3 dielectric_bsdf_transmission = limited_base_color * (u_refractionTwoSided ? limited_base_color : vec3(1.0))
-            * ggx_refraction;
-        color += dielectric_bsdf_transmission * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+        vec3 refraction_tint = fresnel_facing_2 * (u_refractionTwoSided ? fresnel_facing_2 : vec3(1.0));
+        vec3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
+            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_gltf_pbr_ior))
+                * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
     }
     // opacity
     float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;

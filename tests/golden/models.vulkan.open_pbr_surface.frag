@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     vec3 N;
+    float cosine;
     vec3 x;
     vec2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float shrink;
     float level;
 };
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
@@ -119,80 +125,77 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-// A channel after interference, the mean of both polarisations.
-float mx_film_channel(const vec2 a, const vec2 re, const vec2 im, const vec2 terms)
+// A channel of one polarisation after interference.
+float mx_film_channel(const float a, const vec2 r, const float terms)
 {
-    vec2 r23 = re * re + im * im;
-    vec2 t = vec2(1.0) - a * a;
-    vec2 even = t * t * r23 / (vec2(1.0) - a * a * r23);
-    vec2 both = a * a + even + 2.0 * (even - t) * terms;
-    return 0.5 * (both.x + both.y);
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
 }
 
 // Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
-// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
-vec2 mx_film_terms(const vec2 a, const vec2 re, const vec2 im, const float d, const vec3 gauss)
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(const float a, const vec2 r, const float d, const vec3 gauss)
 {
     float c = cos(gauss.x * d);
     float s = sin(gauss.x * d);
     float decay = exp(gauss.z * d * d);
-    vec2 x = re * c - im * s;
-    vec2 y = re * s + im * c;
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
     return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
+float mx_film_x(const float a, const vec2 r, const float d)
 {
-    float t = n * n - k * k + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, vec3(2.2399, 0.153868, -0.0045282)));
+}
+
+// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+vec2 mx_film_amplitude(const vec2 x, const vec2 u)
+{
+    return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
+}
+
+// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
+{
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
     return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
-// Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
-void mx_film_base(const float cosine, const float n, const float k, out vec2 re, out vec2 im)
+float mx_film_y(const float a, const vec2 r, const float d)
 {
-    vec2 u = mx_fresnel_refract(cosine, n, k);
-    vec2 x = cosine * vec2(1.0, n * n - k * k);
-    vec2 y = vec2(0.0, 2.0 * cosine * n * k);
-    vec2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
-    re = (x * x + y * y - dot(u, u)) / norm;
-    im = 2.0 * (y * u.x - x * u.y) / norm;
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(1.7953, 1.000222, -0.0093046)));
 }
 
-// Amplitudes of the film's own interface.
-vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+float mx_film_z(const float a, const vec2 r, const float d)
 {
-    vec2 x = vec2(cosine, ior * cosine);
-    vec2 u = vec2(ior * inside, inside);
-    return (x - u) / (x + u);
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(2.2084, 1.001122, -0.0066121)));
 }
 
-// A film on the index n + ik.
-vec3 mx_film_index(const float cosine, const vec3 n, const float film, const float film_ior)
+// Facing the viewer both polarisations are alike.
+vec3 mx_film_index_facing(const vec3 re, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    vec2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    vec2 re;
-    vec2 im;
-    mx_film_base(c, n.x / ior, 0.0 / ior, re, im);
-    float x = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, re, im, d, vec3(2.2399, 0.153868, -0.0045282)));
-    mx_film_base(c, n.y / ior, 0.0 / ior, re, im);
-    float y = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(1.7953, 1.000222, -0.0093046)));
-    mx_film_base(c, n.z / ior, 0.0 / ior, re, im);
-    float z = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(2.2084, 1.001122, -0.0066121)));
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    vec2 across = vec2(1.0, 0.0);
+    vec3 r = re / (ior * ior);
+    vec3 i = vec3(0.0) / (ior * ior);
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * vec3(x, y, z), vec3(0.0), vec3(1.0));
+        1.0093968) * vec3(mx_film_x(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.x, i.x)), d),
+        mx_film_y(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.y, i.y)), d),
+        mx_film_z(a, mx_film_amplitude(vec2(1.0, 0.0), mx_fresnel_refract(1.0, r.z, i.z)), d)), vec3(0.0), vec3(1.0));
 }
 
-vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)
+vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
-        return mx_film_index(cosine, n, film, film_ior);
-    return vec3(mx_fresnel_dielectric(cosine, n.x));
+        return mx_film_index_facing(n * n, film, film_ior);
+    return vec3(mx_fresnel_dielectric(1.0, n.x));
 }
 
 // Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
@@ -223,17 +226,12 @@ float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, 
     return max(w.z, 0.0) / 3.1415927 * scale * scale;
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(const float cosine, const float area)
-{
-    return sqrt(mix(cosine * cosine, 1.0, area));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -243,11 +241,37 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
+// film is lower.
+vec3 mx_film_turned(const vec3 f0, const vec3 f, const float ior)
+{
+    return (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * f, vec3(0.0)));
+}
+
+vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    vec3 r = -mx_film_turned(f0, f0, ior);
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * vec3(mx_film_x(a, vec2(r.x, 0.0), d), mx_film_y(a, vec2(r.y, 0.0), d),
+        mx_film_z(a, vec2(r.z, 0.0), d)), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel_facing_2(const vec3 n, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick_facing(n, film, film_ior);
+    return n;
 }
 
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
@@ -257,24 +281,26 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
     return mix(f0, vec3(1.0), x3 * x * x) - bend * (cosine * x3 * x3);
 }
 
-// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
+// Amplitudes of the film's own interface: perpendicular, parallel.
+vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+{
+    vec2 x = vec2(cosine, ior * cosine);
+    vec2 u = vec2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour.
 vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 bend, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
     float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
     vec2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.012566372 * ior * c * film;
-    vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
-        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), vec3(0.0)));
-    vec2 re = vec2(-r.x, r.x);
-    float x = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, re, vec2(0.0), d, vec3(2.2399, 0.153868, -0.0045282)));
-    re = vec2(-r.y, r.y);
-    float y = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.7953, 1.000222, -0.0093046)));
-    re = vec2(-r.z, r.z);
+    vec3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, bend), ior);
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * vec3(x, y, mx_film_channel(a, re, vec2(0.0),
-        mx_film_terms(a, re, vec2(0.0), d, vec3(2.2084, 1.001122, -0.0066121)))), vec3(0.0), vec3(1.0));
+        1.0093968) * (0.5 * vec3(mx_film_x(a.x, vec2(-r.x, 0.0), d) + mx_film_x(a.y, vec2(r.x, 0.0), d),
+        mx_film_y(a.x, vec2(-r.y, 0.0), d) + mx_film_y(a.y, vec2(r.y, 0.0), d), mx_film_z(a.x, vec2(-r.z, 0.0), d)
+        + mx_film_z(a.y, vec2(r.z, 0.0), d))), vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
@@ -282,6 +308,34 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film
     if (film > 0.0)
         return mx_film_schlick(cosine, n, k, film, film_ior);
     return mx_fresnel_schlick(cosine, n, k);
+}
+
+// A film on a permittivity.
+vec3 mx_film_index(const float cosine, const vec3 re, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    vec2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    vec2 across = vec2(c, 0.0);
+    vec2 below = vec2(re.x, 0.0) / (ior * ior);
+    vec2 u = mx_fresnel_refract(c, below.x, below.y);
+    float x = mx_film_x(a.x, mx_film_amplitude(across, u), d) + mx_film_x(a.y, mx_film_amplitude(c * below, u), d);
+    below = vec2(re.y, 0.0) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float y = mx_film_y(a.x, mx_film_amplitude(across, u), d) + mx_film_y(a.y, mx_film_amplitude(c * below, u), d);
+    below = vec2(re.z, 0.0) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float z = mx_film_z(a.x, mx_film_amplitude(across, u), d) + mx_film_z(a.y, mx_film_amplitude(c * below, u), d);
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * (0.5 * vec3(x, y, z)), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n * n, film, film_ior);
+    return vec3(mx_fresnel_dielectric(cosine, n.x));
 }
 
 vec3 mx_subsurface_light(const vec3 falloff, const float cos_l)
@@ -326,42 +380,38 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+// Albedo of what the lobe scatters more than once, relative to `color`.
+vec3 mx_fujii_multiple(const vec3 color, const float mean)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+    return color * mean / (vec3(1.0) - color * max(1.0 - mean, 0.0));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
-vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
-    vec3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread,
-    const float refract_ior)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
 {
-    float cosine = dot(s.v, h);
-    vec3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
-    if (refract_ior > 0.0) {
-        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
-        weight = 0.5 / s.v.z;
-    }
-    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
-        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -372,90 +422,42 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
     return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
-// A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float limit, const float refract_ior,
-    const float ior)
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        float f = mx_fresnel_dielectric(light.w, ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
+    vec3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const vec3 k,
-    const float film, const float film_ior)
+// The light that comes through it and a solid sphere of an index behind it.
+vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_film_schlick(light.w, n, k, film, film_ior) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
-}
-
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 f0, const vec3 bend)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_fresnel_schlick(light.w, f0, bend) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
-}
-
-// A film on an index of refraction, reflection alone: what most films are.
-vec3 mx_ggx_gather_film_index(const mx_GgxLobe lobe, const vec3 V, const float limit, const vec3 n, const float film,
-    const float film_ior)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_film_index(light.w, n, film, film_ior) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
-}
-
-// Albedo of what the lobe scatters more than once, relative to `color`.
-vec3 mx_fujii_multiple(const vec3 color, const float mean)
-{
-    return color * mean / (vec3(1.0) - color * max(1.0 - mean, 0.0));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 h = facet.h * sqrt(facet.shrink);
+    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.level),
+        clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -495,7 +497,7 @@ void main()
     vec3 reflection_throughput = vec3(1.0 - product * reflection_scale);
     float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
     float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
-    vec3 reflection_film_scale = mix(mx_fresnel(1.0, vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
+    vec3 reflection_film_scale = mix(mx_fresnel_facing(vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
         * difference + vec3(1.0);
     float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
@@ -540,25 +542,25 @@ void main()
     vec3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     float coating_product = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
     vec3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
     float metal_film_weight = SR_open_pbr_surface_specular_weight
         * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
-    vec3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
-    vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
-    vec3 schlick_bend = mix(n, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
+    vec3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
     vec3 metal_film_product = (difference
-        * mix(mx_fresnel(1.0, n, schlick_bend, film_thickness, thin_film_ior), vec3(1.0), 0.04761905) + vec3(1.0))
+        * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_film_weight);
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, X, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
+    vec3 schlick_bend = mix(fresnel_facing, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
     float metal_bare_weight = SR_open_pbr_surface_specular_weight
         * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
-    vec3 metal_bare_product = (difference * mix(mx_fresnel_schlick(1.0, n, schlick_bend), vec3(1.0), 0.04761905)
-        + vec3(1.0)) * (substrate_weight * metal_bare_weight);
+    vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
+        * (substrate_weight * metal_bare_weight);
     bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
     vec3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
     float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
-    vec3 reflection_product = limited_specular_color * (substrate_weight * reflection_weight);
+    vec3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
     float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
     vec3 subsurface_falloff = vec3(-2.0)
@@ -578,60 +580,63 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // sheet_front, sheet_back
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
         float v_dot_l = dot(V, L);
         float s = v_dot_l - cos_v * cos_l;
         float greater = max(cos_l, cos_v);
         vec3 sheet_front_response = sheet_front_product * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
+        color += directional_light_light
+            * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
         // fuzz
         if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
+            color += directional_light_light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat_weight > 0.0)
-            color += light * (coating_product
-                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
+            color += directional_light_light
+                * (coating_product * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += light * (metal_film_product
-                * (ggx_light * mx_fresnel(cosine, n, schlick_bend, film_thickness, thin_film_ior)));
+            color += directional_light_light
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += light * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, n, schlick_bend)));
+            color += directional_light_light
+                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend)));
         // reflection_film
         if (reflection_film_visible)
-            color += light * (reflection_film_product
+            color += directional_light_light
+                * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, thin_film_ior)));
         // reflection
         if (reflection_weight > 0.0)
-            color += light * (reflection_scale * reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
+            color += directional_light_light * (reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
         // scatter
         if (scatter_weight > 0.0)
-            color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+            color += directional_light_light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
         // diffuse
         if (diffuse_weight > 0.0) {
             float diffuse_s = s / greater;
             vec3 diffuse_product_2 = fujii_multiple
                 * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l, base_diffuse_roughness), 1e-8)
                 / diffuse_greater_2);
-            color += light * (diffuse_product
-                * (cos_l / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
-                + diffuse_product_2)));
+            color += directional_light_light
+                * (diffuse_product * (cos_l / 3.1415927
+                * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum + diffuse_product_2)));
         }
     }
     // environment
@@ -640,47 +645,9 @@ void main()
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
     vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
         * vec2(1.4385, 2.0315)) + vec2(1.0);
-    vec3 sheet_front_response_2 = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
-    vec3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response_2;
+    vec3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    vec3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
     color += envLightIntensity * (scatter_product * part) + sum;
-    // coating
-    if (coat_weight > 0.0)
-        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, V, 1.0, 0.0, coat_ior);
-    // metal_film
-    float filmed = film_thickness > 0.0 ? 1.0 : 0.0;
-    float limit = film_thickness > 0.0 ? 0.0 : 1.0;
-    if (metal_film_weight > 0.0) {
-        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, V, filmed, n, schlick_bend, film_thickness,
-            thin_film_ior);
-        vec3 metal_film_bare = mx_ggx_gather_schlick(lobe, V, limit, n, schlick_bend);
-        color += metal_film_product * (film_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
-    }
-    // metal_bare
-    if (metal_bare_weight > 0.0)
-        color += metal_bare_product * mx_ggx_gather_schlick(lobe, V, 1.0, n, schlick_bend);
-    // reflection_film
-    if (reflection_film_visible) {
-        vec3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, V, filmed, vec3(ior),
-            film_thickness, thin_film_ior);
-        vec3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, V, limit, 0.0, ior);
-        color += reflection_film_product
-            * (film_thickness > 0.0 ? reflection_film_ggx_gather_film_index : reflection_film_bare);
-    }
-    // reflection
-    if (reflection_weight > 0.0)
-        color += reflection_scale * (reflection_product * mx_ggx_gather_dielectric(lobe, V, 1.0, 0.0, ior));
-    // refraction
-    if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
-        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, V, 1.0, ior, ior);
-        vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
-            : SR_open_pbr_surface_transmission_color, 0.0);
-        vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
-            / SR_open_pbr_surface_transmission_depth;
-        vec3 refraction_product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
-            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
-        vec3 refraction_product_2 = ggx_refraction * ((u_refractionTwoSided ? tint : vec3(1.0)) * refraction_product);
-        color += body_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight) * refraction_product_2;
-    }
     // sheet_back
     if (scaled_sheet_weight > 0.0)
         color += envLightIntensity * (sheet_back_product
@@ -689,6 +656,89 @@ void main()
     if (diffuse_weight > 0.0)
         color += envLightIntensity * (mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
             * (diffuse_product * part));
+    // coating
+    if (coat_weight > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, X, V);
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            vec4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (coating_product * mx_fresnel_dielectric(coating_light.w, coat_ior));
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // metal_film, metal_bare, reflection_film, reflection
+    mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
+    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+        if (film_thickness > 0.0) {
+            vec3 reflection_film_vector = vec3(ior * ior);
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product
+                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend, film_thickness,
+                        thin_film_ior) * metal_film_ggx_reflected.xyz);
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend));
+                // reflection_film
+                if (reflection_film_visible)
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_film_index(metal_film_ggx_reflected.w, reflection_film_vector, film_thickness,
+                        thin_film_ior));
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.xyz * mx_fresnel_dielectric(metal_film_ggx_reflected.w, ior));
+                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                vec3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend)
+                    * metal_film_ggx_reflected.xyz;
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product * metal_bare_product_2;
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product * metal_bare_product_2;
+                // reflection_film
+                vec3 reflection_product_2 = metal_film_ggx_reflected.xyz
+                    * mx_fresnel_dielectric(metal_film_ggx_reflected.w, ior);
+                if (reflection_film_visible)
+                    color += reflection_film_product * reflection_product_2;
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product * reflection_product_2;
+                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
+    }
+    // refraction
+    if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
+        vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
+            : SR_open_pbr_surface_transmission_color, 0.0);
+        vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
+            / SR_open_pbr_surface_transmission_depth;
+        vec3 refraction_product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
+            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
+        vec3 refraction_product_2 = (u_refractionTwoSided ? tint : vec3(1.0)) * refraction_product;
+        vec3 refraction_product_3 = body_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight)
+            * refraction_product_2;
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+            color += refraction_product_3
+                * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, ior)) * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
     // opacity
     if (SR_open_pbr_surface_geometry_opacity < u_alphaThreshold)
         discard;

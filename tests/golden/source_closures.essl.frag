@@ -94,14 +94,14 @@ void main()
     }
     // environment
     // soft
-    ClosureData soft_closure_data_2 = ClosureData(3, vec3(0.0), V_direction, direction, vd_positionWorld, 1.0);
-    BSDF soft_2 = BSDF(vec3(0.0), vec3(1.0));
-    soft_bsdf(soft_closure_data_2, 0.8, vec3(0.5), direction, 1, soft_2);
+    ClosureData soft_closure_data = ClosureData(3, vec3(0.0), V_direction, direction, vd_positionWorld, 1.0);
+    BSDF soft = BSDF(vec3(0.0), vec3(1.0));
+    soft_bsdf(soft_closure_data, 0.8, vec3(0.5), direction, 1, soft);
     ClosureData closure_data = ClosureData(2, vec3(0.0), V_direction, direction, vd_positionWorld, 1.0);
     VDF smoke = VDF(vec3(0.0), vec3(1.0));
     smoke_vdf(closure_data, vec3(0.5), smoke);
-    BSDF soft_3 = BSDF(vec3(0.0), vec3(1.0));
-    soft_bsdf(closure_data, 0.8, vec3(0.5), direction, 1, soft_3);
-    color += soft_2.response + exp(log(max(smoke.throughput, 1e-6))) * soft_3.response;
+    BSDF soft_2 = BSDF(vec3(0.0), vec3(1.0));
+    soft_bsdf(closure_data, 0.8, vec3(0.5), direction, 1, soft_2);
+    color += soft.response + exp(log(max(smoke.throughput, 1e-6))) * soft_2.response;
     out1 = vec4(color, 1.0);
 }

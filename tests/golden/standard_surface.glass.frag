@@ -3,6 +3,7 @@
 
 struct mx_GgxLobe {
     vec3 N;
+    float cosine;
     vec3 x;
     vec2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float shrink;
     float level;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
@@ -59,16 +65,11 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(const float cosine)
-{
-    return sqrt(mix(cosine * cosine, 1.0, 1e-8));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
-    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), vec2(0.0001), mx_ggx_masking(max(dot(N, V), 1e-8)));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.0001),
+        sqrt(cosine * cosine + 1e-8 * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -78,11 +79,11 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -92,6 +93,27 @@ float mx_fresnel_dielectric(const float cosine)
     vec2 a = cosine * vec2(1.0, 2.3104);
     vec2 r = (a - g) / (a + g);
     return 0.5 * dot(r, r);
+}
+
+mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 X, const vec3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(N, X, V);
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
 // The point of the picture for a unit direction in it.
@@ -115,37 +137,6 @@ vec3 mx_filtered_light(const vec3 d, const float level)
     return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
-vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
-{
-    vec3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
-float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
-{
-    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
-}
-
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread,
-    const float refract_ior)
-{
-    float cosine = dot(s.v, h);
-    vec3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
-    if (refract_ior > 0.0) {
-        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
-        weight = 0.5 / s.v.z;
-    }
-    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
-        clamp(cosine * sqrt(shrink), 1e-8, 1.0));
-}
-
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
 // Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
 // cap is below its top, `top` = v + z.
@@ -154,40 +145,42 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
     return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth, const float refract_ior)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
-// A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const vec3 V, const float refract_ior)
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+vec3 mx_refract_sphere(const vec3 v, const vec3 h)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        float f = mx_fresnel_dielectric(light.w);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
+    vec3 inside = refract(-v, h, 0.65789473);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), 1.52);
+}
+
+// The light that comes through it and a solid sphere of an index behind it.
+vec4 mx_ggx_transmitted(const mx_GgxSamples s, const int i, const vec2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 h = facet.h * sqrt(facet.shrink);
+    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h), facet.level),
+        clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -200,30 +193,42 @@ void main()
     float c = max(abs(dot(direction, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.0001 / (c + 0.0001), c);
     float scale = (1.0 / albedo.x - 1.0) * 0.08817142 + 1.0;
-    mx_GgxLobe lobe = mx_ggx_lobe(faceforward(direction, -V, direction), normalize(vd.tangentWorld), V);
+    vec3 coat_tangent = normalize(vd.tangentWorld);
+    mx_GgxLobe lobe = mx_ggx_lobe(direction, coat_tangent, V);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // reflection
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float fresnel = mx_fresnel_dielectric(sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0)));
-        float reflection_response = scale * mx_ggx_light(lobe, V, L) * fresnel;
-        color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * reflection_response;
+        color += directional_light_light * (scale * mx_ggx_light(lobe, V, L) * fresnel);
     }
     // environment
     // reflection
-    color += scale * mx_ggx_gather_dielectric(lobe, V, 0.0);
+    mx_GgxSamples samples = mx_ggx_samples(direction, coat_tangent, V);
+    vec2 turn = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        vec4 reflection_light = mx_ggx_reflected(samples, i, turn);
+        color += scale * mx_fresnel_dielectric(reflection_light.w) * reflection_light.xyz;
+        turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+    }
     // refraction
     float one_minus_ggx_reflectance = 1.0 - mix(0.042579994, 1.0, albedo.y) * albedo.x * scale;
-    color += one_minus_ggx_reflectance * mx_ggx_gather_dielectric(lobe, V, 1.52);
+    vec2 turn_2 = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, i, turn_2);
+        color += refraction_ggx_transmitted.xyz
+            * (one_minus_ggx_reflectance * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w)));
+        turn_2 = turn_2 * -0.7373689 + vec2(-turn_2.y, turn_2.x) * 0.6754903;
+    }
     out1 = vec4(color, 1.0);
 }

@@ -61,18 +61,16 @@ void main(
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         float3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         float3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        float3 directional_light_to_light = -u_lightData[i].direction;
-        float3 L = type == 1 ? directional_light_to_light : to_light;
+        float3 light = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float cos_l = max(dot(L, N), 1e-8);
         float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.36 / max(cos_l, cos_v) + 0.73913044;
         color += light * (cos_l / 3.1415927 * float3(0.5, 0.25, 0.15) * diffuse_sum);

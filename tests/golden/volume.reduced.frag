@@ -38,18 +38,16 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // smoke
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        float smoke_d = dot(V, type == 1 ? directional_light_to_light : to_light) * 0.8 + 1.16;
+        vec3 light = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float smoke_d = dot(V, type == 1 ? -u_lightData[i].direction : to_light) * 0.8 + 1.16;
         color += light * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product);
     }
     out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));

@@ -148,9 +148,9 @@ static void test_light_layout(void)
 /* Statements in short: "var a lights{ b acc } out", where a and b are the names of LETs. */
 static const char *describe(struct fixture *f, const struct effect_list *statements)
 {
-    static const char *const kinds[] = {"var",     "acc",     "assign",   "out", "position",
-                                        "if{",     "lights{", "samples{", "}",   "comment",
-                                        "discard", "let",     "result"};
+    static const char *const kinds[] = {"var", "acc",     "assign",   "out",  "position",
+                                        "if{", "lights{", "samples{", "next", "}else{",
+                                        "}",   "comment", "discard",  "let",  "result"};
     struct text out;
     text_init(&out, &f->arena);
     for (uint32_t i = 0; i < statements->len; i++) {
@@ -247,6 +247,10 @@ SCHEDULE_TEST(condition_in_lights, "lights{ if{ acc } }",
               effect(f, EFFECT_LIGHTS, 0, 0); effect(f, EFFECT_IF, 0, c);
               accumulate(f, light_direction(f)); effect(f, EFFECT_END, 0, 0);
               effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(both_sides_of_a_choice, "a if{ acc }else{ b acc acc }", ir_ref a = dear(f, "a");
+              ir_ref b = dear(f, "b"); effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL));
+              accumulate(f, a); effect(f, EFFECT_ELSE, 0, 0); accumulate(f, op2(f, IR_MUL, a, b));
+              accumulate(f, op1(f, IR_SQRT, b)); effect(f, EFFECT_END, 0, 0);)
 SCHEDULE_TEST(derivative_out_of_if, "a if{ acc }", ir_ref b = dear(f, "b"); name(f, "a");
               ir_ref a = op1(f, IR_DFDX, b); name(f, "");
               effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL));
@@ -286,6 +290,7 @@ static void test_schedule(void)
     used_twice();
     cheap_twice();
     sinks_into_if();
+    both_sides_of_a_choice();
     before_first_if();
     out_of_lights();
     out_of_lights_into_if();

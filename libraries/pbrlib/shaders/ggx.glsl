@@ -16,7 +16,7 @@ float mx_ggx_distribution(vec3 e, float area)
 // Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
 float mx_ggx_masking(float cosine, float area)
 {
-    return sqrt(mix(cosine * cosine, 1.0, area));
+    return sqrt(cosine * cosine + area * (1.0 - cosine * cosine)); // mix() would keep 1 - area in a register
 }
 
 // What an interface does with light: a sum of these.
@@ -40,19 +40,20 @@ vec3 mx_ggx_local(mat3 frame, vec3 V)
     return max(V * frame, vec3(-1.0, -1.0, MX_EPSILON));
 }
 
-// The lobe as lights see it: five numbers beside the normal.
+// The lobe as lights see it: five numbers beside the normal and its cosine.
 struct mx_GgxLobe {
     vec3 N;        // faces the viewer
+    float cosine;  // of the viewer
     vec3 x;        // unit tangent
     vec2 alpha;    // roughness along x and across
     float masking; // of the viewer
 };
 
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(vec2 roughness, vec3 N, vec3 X, vec3 V)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
-    return mx_GgxLobe(N, mx_tangent(N, X), alpha, mx_ggx_masking(max(dot(N, V), MX_EPSILON), alpha.x * alpha.y));
+    float cosine = mx_view_cosine(N, V);
+    return mx_GgxLobe(mx_facing(N, V), cosine, mx_tangent(N, X), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor of the reflection
@@ -94,10 +95,10 @@ vec2 mx_ggx_albedo(vec2 roughness, float c)
 }
 
 // Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
-vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
+vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
 {
     // 1/21: the hemispherical mean of Schlick's curve with exponent 5
-    return 1.0 + mix(mx_fresnel(1.0, model, n, k, f90, exponent, film, film_ior), f90, 1.0 / 21.0)
+    return 1.0 + mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, 1.0 / 21.0)
                * (1.0 / albedo.x - 1.0);
 }
 
@@ -109,7 +110,7 @@ vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, string model, vec3 n, ve
     vec3 f = option_integrator == 0
         ? mix(mx_fresnel_f0(model, n, k), f90, albedo.y)
         : mx_fresnel(max(1.0 - pow(albedo.y, 0.2), MX_EPSILON), model, n, k, f90, exponent, film, film_ior);
-    return f * albedo.x * mx_ggx_compensation(albedo, model, n, k, f90, exponent, film, film_ior);
+    return f * albedo.x * mx_ggx_compensation(albedo, model, n, k, f90, film, film_ior);
 }
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
@@ -127,12 +128,11 @@ float mx_ggx_light(mx_GgxLobe lobe, vec3 V, vec3 L)
     vec3 H = V + L;
     vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_v = max(dot(lobe.N, V), MX_EPSILON);
     float cos_l = max(dot(lobe.N, L), MX_EPSILON);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
-    return square * square * cos_l / (2.0 * MX_PI * area * e * e * (cos_v * mx_ggx_masking(cos_l, area) + cos_l * lobe.masking));
+    return square * square * cos_l / (2.0 * MX_PI * area * e * e * (lobe.cosine * mx_ggx_masking(cos_l, area) + cos_l * lobe.masking));
 }
 
 // ---- masking by direction -------------------------------------------------------------------------------------------
@@ -159,9 +159,9 @@ float mx_ggx_smith_lobe(vec2 roughness, mat3 frame, vec3 V, vec3 L)
 vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                  float film_ior)
 {
-    return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, exponent, film, film_ior)
+    return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior)
          * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
-                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_facing(N, V), X, V), V, L))
+                                   : mx_ggx_light(mx_ggx_lobe(roughness, N, X, V), V, L))
          * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior);
 }
 
@@ -182,7 +182,7 @@ vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, strin
     vec3 h = mx_facing(N, V);
     vec2 alpha = mx_ggx_alpha(roughness);
     vec2 albedo = mx_ggx_albedo(roughness, mx_view_cosine(N, V));
-    vec3 f = mix(mx_fresnel(1.0, model, n, k, f90, exponent, film, film_ior), f90, albedo.y) * albedo.x;
+    vec3 f = mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, albedo.y) * albedo.x;
     float a = sqrt(alpha.x * alpha.y);
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
         f = mix(mx_fresnel(mx_view_cosine(N, V), model, n, k, f90, exponent, film, film_ior), f, sqrt(a));
@@ -200,7 +200,7 @@ vec3 mx_ggx_cap(vec2 around, float depth, vec3 top)
     return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-// The lobe as samples of the environment see it.
+// The lobe as samples of the environment see it. Lobes that agree in it share their samples.
 struct mx_GgxSamples {
     mat3 to_map;   // from the frame into the environment's picture
     vec3 stretch;  // roughness along x and y, 1
@@ -213,191 +213,100 @@ struct mx_GgxSamples {
     float level;   // where their mip levels begin
 };
 
-mx_GgxSamples mx_ggx_samples(mx_GgxLobe lobe, vec3 V)
+mx_GgxSamples mx_ggx_samples(vec2 roughness, vec3 N, vec3 X, vec3 V)
 {
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = mx_ggx_local(frame, V);
-    float area = lobe.alpha.x * lobe.alpha.y;
+    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float share = option_environment == 2 ? 1.0 / float(max(u_envRadianceSamples, 1)) : 0.0;
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, top, share * top.z,
-                         option_environment == 2 ? weight * u_envLightIntensity : 0.0,
-                         option_environment == 2
-                             ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)) : 0.0);
+    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, top, share * top.z, weight * u_envLightIntensity,
+                         weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)));
 }
 
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level over that of the
-// first. A visible normal weighs G2 / G1 where it reflects, and 1 / G1 where it refracts.
-vec4 mx_ggx_sample_at(mx_GgxSamples s, vec3 h, float shrink, float spread, float refract_ior)
-{
-    float cosine = dot(s.v, h);
-    vec3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, MX_EPSILON);
-    float weight = cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l);
-    if (refract_ior > 0.0)
-    {
-        l = mx_refract_sphere(s.v, h * sqrt(shrink), refract_ior);
-        weight = 0.5 / s.v.z;
-    }
-    return vec4(weight * mx_filtered_light(s.to_map * l, spread * spread * s.level),
-                clamp(cosine * sqrt(shrink), MX_EPSILON, 1.0));
-}
+// A facet by its normal.
+struct mx_GgxFacet {
+    vec3 h;       // of any length
+    float shrink; // 1 over the square of its length
+    float level;  // of the mip level of its sample
+};
 
-vec4 mx_ggx_sample(mx_GgxSamples s, vec2 around, float depth, float refract_ior)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before, by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap), refract_ior);
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before.
-const mat2 MX_GOLDEN_TURN = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
-
-// A function for each interface: what has nothing left to choose needs no version of its own.
-vec3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, float ior)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it. A visible normal weighs G2 / G1.
+vec4 mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
-    {
-        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        float f = mx_fresnel_dielectric(light.w, ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = MX_GOLDEN_TURN * around;
-    }
-    return samples.weight * sum;
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, MX_EPSILON);
+    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+                    * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), MX_EPSILON, 1.0));
 }
 
-vec3 mx_ggx_gather_conductor(mx_GgxLobe lobe, vec3 V, float limit, vec3 n, vec3 k)
+// The light that comes through it and a solid sphere of an index behind it. A visible normal weighs 1 / G1.
+vec4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
-    {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
-        around = MX_GOLDEN_TURN * around;
-    }
-    return samples.weight * sum;
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 h = facet.h * sqrt(facet.shrink);
+    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.level),
+                clamp(dot(s.v, h), MX_EPSILON, 1.0));
 }
 
-vec3 mx_ggx_gather_schlick(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, vec3 f0, vec3 bend, vec3 f90, float exponent)
+// The same with `--integrator path`: wherever light meets the other side of the sphere as much is reflected as on its way in, f, since the
+// angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets all leave at once, as MaterialX does.
+vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
+                  float film_ior)
 {
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
-    {
-        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        vec3 f = mx_fresnel_schlick(light.w, f0, bend, f90, exponent);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = MX_GOLDEN_TURN * around;
-    }
-    return samples.weight * sum;
+    vec4 light = mx_ggx_transmitted(s, ior, i, turn);
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 h = facet.h * sqrt(facet.shrink);
+    vec3 inside = refract(-s.v, h, 1.0 / ior);
+    vec3 turned = reflect(-s.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
+    vec3 f = mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
+    return (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
+         * mix(light.xyz, s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * turned, facet.level), f / (1.0 + f));
 }
 
-vec3 mx_ggx_gather(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent)
-{
-    if (model == "dielectric")
-        return mx_ggx_gather_dielectric(lobe, V, limit, refract_ior, n.x);
-    return model == "conductor" ? mx_ggx_gather_conductor(lobe, V, limit, n, k)
-                                : mx_ggx_gather_schlick(lobe, V, limit, refract_ior, n, k, f90, exponent);
-}
-
-// A film on an index of refraction, reflection alone: what most films are.
-vec3 mx_ggx_gather_film_index(mx_GgxLobe lobe, vec3 V, float limit, vec3 n, vec3 k, float film, float film_ior)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
-    {
-        vec4 light = mx_ggx_sample(samples, around, depth, 0.0);
-        sum += mx_film_index(light.w, n, k, film, film_ior) * light.xyz;
-        around = MX_GOLDEN_TURN * around;
-    }
-    return samples.weight * sum;
-}
-
-// Any other: on a colour, or what it lets through.
-vec3 mx_ggx_gather_film(mx_GgxLobe lobe, vec3 V, float limit, float refract_ior, bool is_index, vec3 n, vec3 k, vec3 f90, float exponent,
-                        float film, float film_ior)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < limit * samples.top.z; depth += samples.step)
-    {
-        vec4 light = mx_ggx_sample(samples, around, depth, refract_ior);
-        vec3 f = is_index ? mx_film_index(light.w, n, k, film, film_ior)
-                          : mx_film_schlick(light.w, n, k, f90, exponent, film, film_ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
-        around = MX_GOLDEN_TURN * around;
-    }
-    return samples.weight * sum;
-}
-
-// What goes through a solid sphere with `--integrator path`: wherever it meets the other side as much is reflected as on its way in, f, since
-// the angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets all leave at once, as MaterialX does.
-vec3 mx_ggx_gather_solid(mx_GgxLobe lobe, vec3 V, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
-                         float film_ior)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step)
-    {
-        vec3 cap = mx_ggx_cap(around, depth, samples.top);
-        vec3 h = cap * samples.stretch;
-        float shrink = 1.0 / dot(h, h);
-        float spread = shrink * dot(cap, cap);
-        vec4 light = mx_ggx_sample_at(samples, h, shrink, spread, ior);
-        h *= sqrt(shrink);
-        vec3 inside = refract(-samples.v, h, 1.0 / ior);
-        vec3 turned = reflect(-samples.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
-        vec3 f = mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
-        sum += (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
-             * mix(light.xyz, 0.5 / samples.v.z * mx_filtered_light(samples.to_map * turned, spread * spread * samples.level),
-                   f / (1.0 + f));
-        around = MX_GOLDEN_TURN * around;
-    }
-    return samples.weight * sum;
-}
-
-// What the lobe reflects of all directions.
-vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
+// Sample i of what the lobe reflects of all directions. A choice that all samples make alike stands here, where the compiler sees it.
+vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                         float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
-    vec3 scale = mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, exponent, film, film_ior);
+    vec3 scale = mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior);
     if (option_environment == 1)
         return scale * mx_ggx_prefiltered(roughness, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-    // A loop that no pixel needs is over at once, a branch that none takes may not be: both loops stand side by side, one of them empty.
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
-    float filmed = film > 0.0 ? 1.0 : 0.0;
-    vec3 bare = mx_ggx_gather(lobe, V, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent);
-    if (model == "schlick")
-        return scale * (film > 0.0 ? mx_ggx_gather_film(lobe, V, filmed, 0.0, false, n, k, f90, exponent, film, film_ior) : bare);
-    return scale * (film > 0.0 ? mx_ggx_gather_film_index(lobe, V, filmed, n, k, film, film_ior) : bare);
+    vec4 light = mx_ggx_reflected(mx_ggx_samples(roughness, N, X, V), i, turn);
+    return scale * (film > 0.0 ? mx_fresnel_film(light.w, model, n, k, f90, exponent, film, film_ior)
+                               : mx_fresnel_bare(light.w, model, n, k, f90, exponent))
+         * light.xyz;
 }
 
-// What it refracts.
-vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90,
+// Sample i of what it refracts.
+vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90,
                        float exponent, float film, float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
     if (option_environment == 1)
         return mx_ggx_prefiltered(roughness, N, V, ior, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
+    mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
     if (option_integrator == 1)
-        return mx_ggx_gather_solid(lobe, V, ior, mode, model, n, k, f90, exponent, film, film_ior);
-    return film > 0.0 ? mx_ggx_gather_film(lobe, V, film > 0.0 ? 1.0 : 0.0, ior, model != "schlick", n, k, f90, exponent, film, film_ior)
-                      : mx_ggx_gather(lobe, V, film > 0.0 ? 0.0 : 1.0, ior, model, n, k, f90, exponent);
+        return mx_ggx_solid(samples, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior);
+    vec4 light = mx_ggx_transmitted(samples, ior, i, turn);
+    return (1.0 - (film > 0.0 ? mx_fresnel_film(light.w, model, n, k, f90, exponent, film, film_ior)
+                              : mx_fresnel_bare(light.w, model, n, k, f90, exponent)))
+         * light.xyz;
 }

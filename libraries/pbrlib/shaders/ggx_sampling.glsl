@@ -96,7 +96,7 @@ void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, 
     if (is_reflected)
     {
         weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
-               * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), model, n, k, f90, exponent, film, film_ior);
+               * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), model, n, k, f90, film, film_ior);
         pdf = 0.25 * share;
     }
     else

@@ -226,7 +226,7 @@ void mx_chiang_hair_bsdf_sample(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float 
 // A rough dielectric stands in for the lobes where they are not sampled.
 vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT,
                                      vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V,
-                                     int sample_index)
+                                     int sample_index, vec2 sample_turn)
 {
     if (option_integrator == 1 && option_environment == 2)
     {
@@ -237,5 +237,6 @@ vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, f
         return mx_lobe_light(L, weight, pdf);
     }
     return (tint_R + tint_TT + tint_TRT) / 3.0 * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, N, curve_direction,
-                                                                    V, "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, 0.0, 1.0);
+                                                                    V, sample_index, sample_turn, "dielectric", vec3(ior), vec3(0.0),
+                                                                    vec3(1.0), 0.0, 0.0, 1.0);
 }

@@ -35,21 +35,22 @@ vec3 mx_dielectric_bsdf_eval(vec3 tint, float ior, vec2 roughness, bool retroref
 }
 
 vec3 mx_dielectric_bsdf_environment(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
-                                    string distribution, string scatter_mode, vec3 V)
+                                    string distribution, string scatter_mode, vec3 V, int sample_index, vec2 sample_turn)
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return max(tint, 0.0) * mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, "dielectric", vec3(ior), vec3(0.0),
-                                               vec3(1.0), 0.0, film, film_ior);
+    return max(tint, 0.0) * mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, sample_index, sample_turn,
+                                               "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_transmission(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
-                                     string distribution, string scatter_mode, vec3 V)
+                                     string distribution, string scatter_mode, vec3 V, int sample_index, vec2 sample_turn)
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_refraction(roughness, N, X, V, ior, mx_ggx_mode(scatter_mode), "dielectric", vec3(ior),
-                                                                  vec3(0.0), vec3(1.0), 0.0, film, film_ior);
+    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_refraction(roughness, N, X, V, sample_index, sample_turn, ior,
+                                                                  mx_ggx_mode(scatter_mode), "dielectric", vec3(ior), vec3(0.0), vec3(1.0),
+                                                                  0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -104,27 +105,35 @@ float mx_dielectric_bsdf_pdf(vec3 tint, float ior, vec2 roughness, bool retroref
 vec3 mx_conductor_bsdf_eval(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
                             string distribution, vec3 V, vec3 L)
 {
-    return mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L, "conductor", ior, extinction, vec3(1.0), 0.0, film,
+    vec3 re, im;
+    mx_permittivity(ior, extinction, re, im);
+    return mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L, "conductor", re, im, vec3(1.0), 0.0, film,
                        film_ior);
 }
 
 vec3 mx_conductor_bsdf_environment(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N,
-                                   vec3 X, string distribution, vec3 V)
+                                   vec3 X, string distribution, vec3 V, int sample_index, vec2 sample_turn)
 {
-    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, "conductor", ior, extinction, vec3(1.0), 0.0, film,
-                              film_ior);
+    vec3 re, im;
+    mx_permittivity(ior, extinction, re, im);
+    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, sample_index, sample_turn,
+                              "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_conductor_bsdf_albedo(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
                               string distribution, vec3 V)
 {
-    return mx_ggx_reflectance(roughness, N, V, "conductor", ior, extinction, vec3(1.0), 0.0, film, film_ior);
+    vec3 re, im;
+    mx_permittivity(ior, extinction, re, im);
+    return mx_ggx_reflectance(roughness, N, V, "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
 }
 
 void mx_conductor_bsdf_sample(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
                               string distribution, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
-    mx_ggx_scatter(roughness, N, X, V, xi, 1.0, MX_REFLECTS, "conductor", ior, extinction, vec3(1.0), 0.0, film, film_ior, L, weight, pdf);
+    vec3 re, im;
+    mx_permittivity(ior, extinction, re, im);
+    mx_ggx_scatter(roughness, N, X, V, xi, 1.0, MX_REFLECTS, "conductor", re, im, vec3(1.0), 0.0, film, film_ior, L, weight, pdf);
     if (retroreflective && dot(N, V) * dot(N, L) > 0.0)
         L = reflect(-L, N);
 }
@@ -132,7 +141,9 @@ void mx_conductor_bsdf_sample(vec3 ior, vec3 extinction, vec2 roughness, bool re
 float mx_conductor_bsdf_pdf(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
                             string distribution, vec3 V, vec3 L)
 {
-    return mx_ggx_pdf(roughness, N, X, mx_lobe_view(retroreflective, N, V, L), L, 1.0, MX_REFLECTS, "conductor", ior, extinction, vec3(1.0),
+    vec3 re, im;
+    mx_permittivity(ior, extinction, re, im);
+    return mx_ggx_pdf(roughness, N, X, mx_lobe_view(retroreflective, N, V, L), L, 1.0, MX_REFLECTS, "conductor", re, im, vec3(1.0),
                       0.0, film, film_ior);
 }
 
@@ -148,11 +159,12 @@ vec3 mx_generalized_schlick_bsdf_eval(vec3 color0, vec3 color82, vec3 color90, f
 }
 
 vec3 mx_generalized_schlick_bsdf_environment(vec3 color0, vec3 color82, vec3 color90, float exponent, vec2 roughness, bool retroreflective,
-                                             float film, float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V)
+                                             float film, float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V,
+                                             int sample_index, vec2 sample_turn)
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, "schlick", max(color0, 0.0),
+    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, sample_index, sample_turn, "schlick", max(color0, 0.0),
                               mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 
@@ -164,11 +176,13 @@ float mx_schlick_index(vec3 color0)
 }
 
 vec3 mx_generalized_schlick_bsdf_transmission(vec3 color0, vec3 color82, vec3 color90, float exponent, vec2 roughness, bool retroreflective,
-                                              float film, float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V)
+                                              float film, float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V,
+                                             int sample_index, vec2 sample_turn)
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_ggx_refraction(roughness, N, X, V, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick", max(color0, 0.0),
+    return mx_ggx_refraction(roughness, N, X, V, sample_index, sample_turn, mx_schlick_index(color0),
+                             mx_ggx_mode(scatter_mode), "schlick", max(color0, 0.0),
                              mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 

@@ -53,7 +53,7 @@ vec3 mx_sheen_bsdf_eval(vec3 color, float roughness, vec3 N, string mode, vec3 V
 
     // Distribution of Conty and Kulla, equation 2, over the smooth denominator of Neubelt and Pettineo 2013
     float cos_l = max(dot(Nf, L), MX_EPSILON);
-    float along = dot(Nf, L) + dot(Nf, V); // the half vector's, before it is scaled to length 1
+    float along = dot(Nf, L) + cos_v; // the half vector's, before it is scaled to length 1
     float s = 1.0 / max(roughness, 0.005);
     float d = (2.0 + s) * pow(clamp(1.0 - along * along / max(2.0 + 2.0 * dot(L, V), MX_EPSILON), 0.0, 1.0), 0.5 * s) / (2.0 * MX_PI);
     return color * (d * cos_l / (4.0 * (cos_l + cos_v - cos_l * cos_v)));

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The loops over the samples of the environment. Parts that share a call or a texture read of a
+ * sample share a loop; other parts have their own, because a loop for all parts would keep the
+ * values of all of them in registers.
+ *
+ *     metal, reflection: equal roughness and frame    one loop, each sample is read once
+ *     coat                                            a loop of its own
+ *
+ * A choice that all samples of a loop make alike stands outside: for example film or none. A GPU
+ * computes one side of it, and a processor that masks branches ends a loop that no pixel needs
+ * after one round.
+ */
+#include "closure/closure_priv.h"
+
+#include <assert.h>
+
+/* ---- Which parts share a loop ---- */
+
+static bool is_dear_in_loop(const struct ir_graph *g, ir_ref ref)
+{
+    const unsigned wanted = IR_NODE_LOOP | IR_NODE_DEAR;
+    return (ir_get(g, ref)->flags & wanted) == wanted;
+}
+
+static uint32_t leader_of(uint32_t *leaders, uint32_t part)
+{
+    while (leaders[part] != part)
+        part = leaders[part] = leaders[leaders[part]];
+    return part;
+}
+
+/* The first part leads. */
+static void join(uint32_t *leaders, uint32_t a, uint32_t b)
+{
+    a = leader_of(leaders, a);
+    b = leader_of(leaders, b);
+    leaders[a < b ? b : a] = a < b ? a : b;
+}
+
+/* The condition of a choice between expressions of a sample, the same for all samples; 0: none. */
+static ir_ref choice_of(const struct ir_graph *g, ir_ref ref)
+{
+    if (ir_get(g, ref)->op != IR_SELECT || ir_get(g, ir_arg(g, ref, 0))->flags & IR_NODE_LOOP)
+        return 0;
+    bool is_dear = is_dear_in_loop(g, ir_arg(g, ref, 1)) || is_dear_in_loop(g, ir_arg(g, ref, 2));
+    return is_dear ? ir_arg(g, ref, 0) : 0;
+}
+
+/* Operands precede their node, so one downward pass finds what the parts share. */
+static void find_shared(struct shader *shader, const struct closure_parts *list, uint32_t *leaders,
+                        ir_ref *choices)
+{
+    const struct ir_graph *g = shader->graph;
+    ir_ref last = 0;
+    for (uint32_t i = 0; i < list->parts.len; i++) {
+        ir_ref value = list->parts.items[i].value;
+        last = value > last ? value : last;
+        leaders[i] = i;
+    }
+    uint32_t *owners = ARENA_ARRAY(shader->arena, uint32_t, last + 1); /* part + 1 */
+    for (uint32_t i = 0; i < list->parts.len; i++) {
+        uint32_t *owner = &owners[list->parts.items[i].value];
+        if (*owner)
+            join(leaders, *owner - 1, i);
+        *owner = i + 1;
+    }
+    for (ir_ref ref = last; ref > 0; ref--) {
+        if (!owners[ref])
+            continue;
+        uint32_t part = owners[ref] - 1;
+        ir_ref choice = choice_of(g, ref);
+        if (choice && (!choices[part] || choice < choices[part]))
+            choices[part] = choice;
+        const ir_ref *args = ir_args(g, ref);
+        for (uint32_t i = 0; i < ir_get(g, ref)->num_args; i++) {
+            if (!is_dear_in_loop(g, args[i]))
+                continue;
+            if (owners[args[i]])
+                join(leaders, owners[args[i]] - 1, part);
+            owners[args[i]] = part + 1;
+        }
+    }
+}
+
+void closure_find_sample_loops(struct shader *shader, const struct closure_parts *list,
+                               struct closure_sample_loops *out)
+{
+    uint32_t count = list->parts.len;
+    uint32_t *leaders = ARENA_ARRAY(shader->arena, uint32_t, count + 1),
+             *loops = ARENA_ARRAY(shader->arena, uint32_t, count + 1);
+    ir_ref *choices = ARENA_ARRAY(shader->arena, ir_ref, count + 1);
+    find_shared(shader, list, leaders, choices);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t leader = leader_of(leaders, i);
+        assert(leader <= i);
+        if (leader == i) {
+            loops[i] = out->loops.len;
+            vec_push(shader->arena, &out->loops, (struct closure_sample_loop){0});
+        }
+        struct closure_sample_loop *loop = &out->loops.items[loops[leader]];
+        vec_push(shader->arena, &loop->list.parts, list->parts.items[i]);
+        if (!loop->choice)
+            loop->choice = choices[i];
+    }
+}
+
+/* ---- The turn of samples ---- */
+
+static bool reads_turn(struct shader *shader, ir_ref value)
+{
+    const struct ir_graph *g = shader->graph;
+    const uint8_t *needed = ir_mark(g, &value, 1, shader->arena);
+    for (ir_ref ref = 1; ref <= value; ref++)
+        if (needed[ref] && ir_get(g, ref)->op == IR_SAMPLE
+            && ir_get(g, ref)->attr == IR_SAMPLE_TURN)
+            return true;
+    return false;
+}
+
+struct closure_turn closure_turn_of_samples(struct shader *shader, const struct closure_parts *list)
+{
+    enum { COS, SIN };
+    static const float golden[] = {-0.73736888f, 0.67549029f}; /* of the golden angle */
+    struct ir_graph *g = shader->graph;
+    bool any = false;
+    for (uint32_t i = 0; i < list->parts.len && !any; i++)
+        any = reads_turn(shader, list->parts.items[i].value);
+    if (!any)
+        return (struct closure_turn){0};
+    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f),
+           turn = ir_build(g, IR_SAMPLE, IR_TYPE_VEC2, IR_SAMPLE_TURN, NULL, 0);
+    ir_ref y = ir_component(g, turn, 1), x = ir_component(g, turn, 0);
+    ir_ref left = ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){ir_op1(g, IR_NEG, y), x}, 2);
+    ir_ref along = ir_op2(g, IR_MUL, turn, ir_const_float(g, golden[COS]));
+    ir_ref across = ir_op2(g, IR_MUL, left, ir_const_float(g, golden[SIN]));
+    ir_ref next = ir_op2(g, IR_ADD, along, across);
+    return (struct closure_turn){ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){one, zero}, 2), next};
+}
+
+ir_ref closure_gathered(struct shader *shader, ir_ref value)
+{
+    struct ir_graph *g = shader->graph;
+    assert(ir_type_of(g, value) == IR_TYPE_VEC3);
+    if (!(ir_get(g, value)->flags & IR_NODE_LOOP))
+        return value;
+    uint32_t sum = shader_add_local(shader, STR_gathered, IR_TYPE_VEC3);
+    ir_ref nothing = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    struct closure_parts parts = {0};
+    vec_push(shader->arena, &parts.parts, (struct closure_part){.value = value});
+    struct closure_turn turn = closure_turn_of_samples(shader, &parts);
+    uint32_t loop = shader->num_sample_loops++;
+    value = closure_in_loop(shader, value, loop);
+    turn.next = closure_in_loop(shader, turn.next, loop);
+    struct effect effects[] = {{.kind = EFFECT_VAR, .index = sum, .value = nothing},
+                               {.kind = EFFECT_SAMPLES, .value = turn.first},
+                               {.kind = EFFECT_ACCUMULATE, .index = sum, .value = value},
+                               {.kind = EFFECT_NEXT, .value = turn.next},
+                               {.kind = EFFECT_END}};
+    for (unsigned i = 0; i < sizeof effects / sizeof *effects; i++)
+        if (effects[i].kind != EFFECT_NEXT || turn.next)
+            shader_effect(shader, STAGE_PIXEL, effects[i]);
+    return ir_build(g, IR_LOCAL, IR_TYPE_VEC3, sum, NULL, 0);
+}

@@ -1,0 +1,244 @@
+#version 450
+// M · surfacematerial · mxgen 0.1 · glsl · reduced · 1 closure · 0 textures
+
+struct mx_GgxLobe {
+    vec3 N;
+    float cosine;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    mat3 to_map;
+    vec3 stretch;
+    float area;
+    vec3 v;
+    float masking;
+    vec3 top;
+    float step;
+    float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float shrink;
+    float level;
+};
+uniform vec3 u_viewPosition = vec3(0.0);
+uniform int u_numActiveLightSources = 0;
+uniform mat4 u_envMatrix = mat4(-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+uniform int u_envRadianceMips = 1;
+uniform int u_envRadianceSamples = 16;
+uniform float u_envLightIntensity = 1.0;
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+uniform LightData u_lightData[3];
+uniform sampler2D u_envRadiance;
+in VertexData {
+    vec3 positionWorld;
+    vec3 normalWorld;
+    vec3 tangentWorld;
+} vd;
+out vec4 out1;
+
+const float M_PI = 3.1415926535897932;
+float mx_square(float a) { return a * a; }
+vec2 mx_square(vec2 a) { return a * a; }
+vec3 mx_square(vec3 a) { return a * a; }
+struct BSDF { vec3 response; vec3 throughput; };
+struct ClosureData { int closureType; vec3 L; vec3 V; vec3 N; vec3 P; float occlusion; };
+// Included by several files, in the shader once.
+#define HALF_PI (M_PI * 0.5)
+
+float shape(float x)
+{
+    return mx_square(x) * HALF_PI;
+}
+
+
+vec3 facing(vec3 N, vec3 V)
+{
+    return dot(N, V) < 0.0 ? -N : N;
+}
+
+
+// Fog over a lobe: what it adds does not come from the lobe, so it must count once and not with each sample of the lobe.
+void fogged_bsdf(ClosureData closureData, BSDF base, float fog, inout BSDF bsdf)
+{
+    bsdf.throughput = base.throughput;
+    bsdf.response = base.response * (1.0 - fog) + vec3(fog * 0.1);
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(const mat4 m, const float x)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.05, 0.0025, 0.000125));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+vec2 mx_ggx_albedo_fit(const float u, const float c)
+{
+    float x = clamp(1.0 - c - 0.05 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+{
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.05),
+        sqrt(cosine * cosine + 0.0025 * (1.0 - cosine * cosine)));
+}
+
+mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 X, const vec3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(N, X, V);
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+}
+
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
+{
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+}
+
+// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
+// mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float level)
+{
+    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
+{
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+}
+
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
+{
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    vec3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.level);
+}
+
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(const float cosine)
+{
+    float g = sqrt(max(2.25 + cosine * cosine - 1.0, 0.0));
+    vec2 a = cosine * vec2(1.0, 2.25);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+void main()
+{
+    vec3 gathered = vec3(0.0);
+    vec3 N = normalize(vd.normalWorld);
+    vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    float c = max(abs(dot(N, V)), 1e-8);
+    vec2 albedo = mx_ggx_albedo_fit(0.05 / (c + 0.05), c);
+    float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
+    vec3 X = normalize(vd.tangentWorld);
+    mx_GgxSamples gloss_ggx_samples = mx_ggx_samples(N, X, V);
+    vec2 turn = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        vec4 light = mx_ggx_reflected(gloss_ggx_samples, i, turn);
+        gathered += scale * mx_fresnel_dielectric(light.w) * light.xyz;
+        turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+    }
+    vec3 color = vec3(0.0);
+    // lights
+    mx_GgxLobe lobe = mx_ggx_lobe(N, X, V);
+    vec3 dielectric_bsdf_throughput = vec3(1.0 - scale * (albedo.x * mix(0.04, 1.0, albedo.y)));
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // fogged
+        int type = u_lightData[i].type;
+        vec3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
+        ClosureData closure_data = ClosureData(1, L, V, N, vd.positionWorld, 1.0);
+        float fresnel = mx_fresnel_dielectric(sqrt(clamp(dot(L, V) * 0.5 + 0.5, 1e-8, 1.0)));
+        BSDF vector = BSDF(vec3(scale * mx_ggx_light(lobe, V, L) * fresnel), dielectric_bsdf_throughput);
+        BSDF fogged = BSDF(vec3(0.0), vec3(1.0));
+        fogged_bsdf(closure_data, vector, 0.25, fogged);
+        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * fogged.response;
+    }
+    // environment
+    // fogged
+    ClosureData closure_data = ClosureData(3, vec3(0.0), V, N, vd.positionWorld, 1.0);
+    BSDF fogged = BSDF(vec3(0.0), vec3(1.0));
+    fogged_bsdf(closure_data, BSDF(gathered, dielectric_bsdf_throughput), 0.25, fogged);
+    color += fogged.response;
+    out1 = vec4(color, 1.0);
+}
