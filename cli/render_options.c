@@ -60,6 +60,10 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
         {"as-drawn", 0, ARG_FLAG, NULL,
          "path tracing with one bounce and without shadows, for comparison with the raster",
          &options->as_drawn, ARG_MORE},
+        {"show", 0, ARG_TEXT, "slots|weights",
+         "of a stage, colours by slot instead of the materials: of the slot with the greatest "
+         "weight, or blended by weight",
+         &options->show},
         {"turntable", 0, ARG_SIZE, "N",
          "renders N pictures from around, with a number before the extension of FILE",
          &options->frames, .low = 1, .high = 10000},

@@ -11,6 +11,7 @@ struct render_options {
     struct arg_list settings, environments;
     size_t samples, frame, frames, paths, bounces;
     bool path_trace, as_drawn;
+    const char *show; /* NULL: the materials */
 };
 
 #define RENDER_OPTIONS_DEFAULTS \
@@ -19,7 +20,7 @@ struct render_options {
         .samples = 32, .frame = 33, .paths = 256, .bounces = 32 \
     }
 
-enum { MAX_RENDER_ARGS = 28 };
+enum { MAX_RENDER_ARGS = 29 };
 
 /* Fills the table of options, which refers to the values; returns the number of options. */
 size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_ARGS]);

@@ -3,6 +3,7 @@
 
 #include "render/inputs.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,8 +13,11 @@
 struct draw_canvas {
     struct gpu *gpu;
     uint32_t width, height;
-    struct gpu_image color, depth;
-    struct gpu_buffer readback;
+    struct gpu_image depth;
+    uint32_t num_outputs; /* the colour is the first */
+    enum draw_output kinds[DRAW_MAX_OUTPUTS];
+    struct gpu_image outputs[DRAW_MAX_OUTPUTS];
+    struct gpu_buffer readbacks[DRAW_MAX_OUTPUTS];
 };
 
 /* The buffers of an object. */
@@ -33,6 +37,41 @@ struct draw_program {
 
 /* ---- Resources ---- */
 
+static VkFormat format_of(enum draw_output kind)
+{
+    return kind == DRAW_WHOLE ? VK_FORMAT_R32_SINT : COLOR_FORMAT;
+}
+
+bool draw_add_output(struct draw_canvas *canvas, enum draw_output kind)
+{
+    uint32_t i = canvas->num_outputs;
+    size_t texel = kind == DRAW_WHOLE ? sizeof(int32_t) : 4 * sizeof(float);
+    assert(i < DRAW_MAX_OUTPUTS);
+    canvas->kinds[i] = kind;
+    canvas->num_outputs = i + 1;
+    return gpu_create_image(canvas->gpu, format_of(kind), canvas->width, canvas->height, 0, 1,
+                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                            VK_IMAGE_ASPECT_COLOR_BIT, &canvas->outputs[i])
+           && gpu_create_buffer(canvas->gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
+                                (size_t)canvas->width * canvas->height * texel,
+                                &canvas->readbacks[i]);
+}
+
+void draw_read_output(const struct draw_canvas *canvas, uint32_t location, float *out_pixels)
+{
+    const struct gpu_buffer *readback = &canvas->readbacks[location];
+    size_t pixels = (size_t)canvas->width * canvas->height;
+    assert(location < canvas->num_outputs);
+    if (canvas->kinds[location] != DRAW_WHOLE) {
+        memcpy(out_pixels, readback->mapped, readback->size);
+        return;
+    }
+    for (size_t i = 0; i < pixels; ++i) {
+        out_pixels[4 * i] = (float)((const int32_t *)readback->mapped)[i];
+        out_pixels[4 * i + 1] = out_pixels[4 * i + 2] = out_pixels[4 * i + 3] = 0;
+    }
+}
+
 struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t height)
 {
     struct draw_canvas *canvas = calloc(1, sizeof *canvas);
@@ -41,14 +80,10 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
         return NULL;
     }
     *canvas = (struct draw_canvas){.gpu = gpu, .width = width, .height = height};
-    if (gpu_create_image(gpu, COLOR_FORMAT, width, height, 0, 1,
-                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                         VK_IMAGE_ASPECT_COLOR_BIT, &canvas->color)
+    if (draw_add_output(canvas, DRAW_BLENDED)
         && gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1,
                             VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT,
-                            &canvas->depth)
-        && gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
-                             (size_t)width * height * 4 * sizeof(float), &canvas->readback))
+                            &canvas->depth))
         return canvas;
     draw_close_canvas(canvas);
     return NULL;
@@ -58,9 +93,11 @@ void draw_close_canvas(struct draw_canvas *canvas)
 {
     if (!canvas)
         return;
-    gpu_destroy_buffer(canvas->gpu, &canvas->readback);
+    for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
+        gpu_destroy_buffer(canvas->gpu, &canvas->readbacks[i]);
+        gpu_destroy_image(canvas->gpu, &canvas->outputs[i]);
+    }
     gpu_destroy_image(canvas->gpu, &canvas->depth);
-    gpu_destroy_image(canvas->gpu, &canvas->color);
     free(canvas);
 }
 
@@ -160,13 +197,6 @@ static const VkPipelineMultisampleStateCreateInfo samples = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
     .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
 };
-static const VkFormat color_format = COLOR_FORMAT;
-static const VkPipelineRenderingCreateInfo rendering = {
-    .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-    .colorAttachmentCount = 1,
-    .pColorAttachmentFormats = &color_format,
-    .depthAttachmentFormat = DEPTH_FORMAT,
-};
 
 static bool create_pipeline(struct draw_program *program, const struct draw_canvas *canvas)
 {
@@ -198,11 +228,22 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
         .depthTestEnable = VK_TRUE,
         .depthWriteEnable = !draw->blend,
         .depthCompareOp = VK_COMPARE_OP_LESS};
-    const VkPipelineColorBlendAttachmentState blend = premultiplied_blending(draw->blend);
+    VkPipelineColorBlendAttachmentState blends[DRAW_MAX_OUTPUTS];
+    VkFormat formats[DRAW_MAX_OUTPUTS];
+    for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
+        blends[i] = premultiplied_blending(draw->blend && canvas->kinds[i] == DRAW_BLENDED);
+        formats[i] = format_of(canvas->kinds[i]);
+    }
     const VkPipelineColorBlendStateCreateInfo blending = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = 1,
-        .pAttachments = &blend};
+        .attachmentCount = canvas->num_outputs,
+        .pAttachments = blends};
+    const VkPipelineRenderingCreateInfo rendering = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+        .colorAttachmentCount = canvas->num_outputs,
+        .pColorAttachmentFormats = formats,
+        .depthAttachmentFormat = DEPTH_FORMAT,
+    };
     const VkGraphicsPipelineCreateInfo info = {.sType =
                                                    VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                                .pNext = &rendering,
@@ -225,16 +266,19 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
 
 static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer commands)
 {
-    gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
-                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    VkRenderingAttachmentInfo colors[DRAW_MAX_OUTPUTS];
+    for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
+        gpu_image_barrier(commands, canvas->outputs[i].image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+                          VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+        colors[i] =
+            (VkRenderingAttachmentInfo){.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                        .imageView = canvas->outputs[i].view,
+                                        .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                        .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    }
     gpu_image_barrier(commands, canvas->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1,
                       VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-    const VkRenderingAttachmentInfo color = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                             .imageView = canvas->color.view,
-                                             .imageLayout =
-                                                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                             .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                             .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     const VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                              .imageView = canvas->depth.view,
                                              .imageLayout =
@@ -245,8 +289,8 @@ static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer co
     const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
                                   .renderArea = {{0, 0}, {canvas->width, canvas->height}},
                                   .layerCount = 1,
-                                  .colorAttachmentCount = 1,
-                                  .pColorAttachments = &color,
+                                  .colorAttachmentCount = canvas->num_outputs,
+                                  .pColorAttachments = colors,
                                   .pDepthAttachment = &depth};
     vkCmdBeginRendering(commands, &info);
 }
@@ -307,13 +351,16 @@ static void record(const struct draw_canvas *canvas, const struct call *calls, s
     for (size_t i = 0; i < count; ++i)
         record_call(&calls[i], commands);
     vkCmdEndRendering(commands);
-    gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
-                      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                    .imageExtent = {canvas->width, canvas->height, 1}};
-    vkCmdCopyImageToBuffer(commands, canvas->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           canvas->readback.buffer, 1, &copy);
+    for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
+        gpu_image_barrier(commands, canvas->outputs[i].image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                          VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                        .imageExtent = {canvas->width, canvas->height, 1}};
+        vkCmdCopyImageToBuffer(commands, canvas->outputs[i].image,
+                               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, canvas->readbacks[i].buffer, 1,
+                               &copy);
+    }
 }
 
 static void update(struct draw_program *program)
@@ -341,7 +388,7 @@ bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs
     free(calls);
     if (!good || !gpu_end(canvas->gpu, commands))
         return false;
-    memcpy(out_pixels, canvas->readback.mapped, canvas->readback.size);
+    draw_read_output(canvas, 0, out_pixels);
     return true;
 }
 

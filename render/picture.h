@@ -9,6 +9,7 @@
 #include "cli/cli.h"
 #include "cli/names.h"
 #include "cli/outputs.h"
+#include "render/aovs.h"
 #include "render/render.h"
 #include "render/studio.h"
 #include "render/trace.h"
@@ -35,6 +36,9 @@ struct painter {
     uint32_t width, height;
     unsigned oversampling;      /* samples per pixel and axis */
     struct trace_options trace; /* no paths: use the rasteriser */
+    bool wants_aovs;            /* of one picture */
+    struct aovs aovs;           /* of the last picture; aovs_finish frees it */
+    size_t first_aov, num_aovs; /* those that are drawn together */
 };
 
 struct subject {
@@ -78,7 +82,7 @@ void painting_aim(struct painting *painting);
 bool painting_draw(struct painting *painting, struct image *out);
 void painting_close(struct painting *painting);
 
-/* Open, draw and close. */
+/* Open, draw and close, for AOVs again and again. */
 bool picture_draw(struct painter *painter, const struct subject *subjects, size_t count,
                   struct image *out);
 

@@ -16,9 +16,8 @@ ir_ref closure_encoded(struct ir_graph *graph, ir_ref color);
  */
 ir_ref closure_through(struct shader *shader, const struct closure_host *host, ir_ref leaf);
 
-/* occlusion.c: the part of the environment's light that reaches the point, by the host's map. */
-ir_ref closure_occlusion(struct shader *shader, bool flips_v);
-/* The part of the first light that reaches the shaded point, by the host's shadow map. */
+/* occlusion.c: the part of the first light that reaches the shaded point, by the host's shadow map.
+ */
 ir_ref closure_shadow(struct shader *shader, const struct closure_host *host);
 
 /* describe.c: writes the weight of a leaf as an expression, with the names of inputs and nodes. */
