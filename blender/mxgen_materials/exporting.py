@@ -10,7 +10,7 @@ import bpy
 import mxgen
 
 from .losses import Loss
-from .mapping import EXPORTED, MODELS, SHADER, weight_of
+from .mapping import EXPORTED, MODELS, SHADER, ior_of, specular_of
 
 #: sockets that only matter if another one is above 0
 NEEDS = {"Anisotropic Rotation": "Anisotropic", "Sheen Tint": "Sheen", "Clearcoat Roughness": "Clearcoat", "Transmission Roughness": "Transmission",
@@ -98,14 +98,16 @@ class _Exporter:
     # ---- The shader ----
 
     def value(self, shader: mxgen.Draft, node: bpy.types.Node, socket: bpy.types.NodeSocket, name: str) -> None:
-        kind = TYPES[socket.type]
+        kind, scale = TYPES[socket.type], self.model.scales.get(socket.name, 1)
         if socket.is_linked:
             source = self.source(socket)
             if source is not None:
                 shader.connect(name, source)
+                if scale != 1:
+                    self.lose(socket.name, f"the texture is not scaled: 1 in Blender is {scale:g} in the document")
                 return
         if kind == "float":
-            shader.value(name, float(socket.default_value), kind)
+            shader.value(name, scale * float(socket.default_value), kind)
         elif kind == "color3":
             shader.value(name, [float(x) for x in socket.default_value[:3]], kind)
 
@@ -118,7 +120,6 @@ class _Exporter:
         sockets, plain = node.inputs, lambda socket: float(sockets[socket].default_value)
         for socket, input_name in self.model.sockets.items():
             self.value(shader, node, sockets[socket], input_name)
-        weight, _ = self.model.specular
         for socket in ("Specular", "Sheen Tint", "Specular Tint", "Anisotropic Rotation", "Transmission Roughness", "Subsurface IOR", "Subsurface Anisotropy"):
             needed = NEEDS.get(socket)
             if sockets[socket].is_linked:
@@ -126,15 +127,24 @@ class _Exporter:
             elif socket not in ("Specular", "Subsurface IOR") and plain(socket) != 0 and (needed is None or plain(needed) != 0 or sockets[needed].is_linked):
                 if socket != "Sheen Tint":
                     self.lose(socket, f"OpenPBR has no such input; the value was {plain(socket):g}")
-        shader.value(weight, weight_of(plain("Specular"), plain("IOR")), "float")
-        if plain("IOR") == 1 and plain("Specular") > 0:
-            self.lose("Specular", "an index of refraction of 1 reflects nothing in OpenPBR")
         radius = [float(x) for x in sockets["Subsurface Radius"].default_value]
         greatest = max(*radius, 1e-6)
         shader.value(self.model.radius[0], greatest, "float").value(self.model.radius[1], [x / greatest for x in radius], "color3")
-        shader.value("coat_ior", 1.5, "float") # the clearcoat of the Principled BSDF
+        # The clearcoat of the Principled BSDF takes no light from the layers below.
+        shader.value("coat_ior", 1.5, "float").value("coat_darkening", 0.0, "float")
+        self.specular(shader, sockets)
         self.tints(shader, sockets)
         self.edit.add("surfacematerial", name, "material").connect("surfaceshader", shader)
+
+    def specular(self, shader: mxgen.Draft, sockets: bpy.types.NodeInputs) -> None:
+        """The index of refraction for the reflectance of "Specular". The weight stays 1, because OpenPBR's scales metals, too."""
+        specular, ior = float(sockets["Specular"].default_value), float(sockets["IOR"].default_value)
+        transmission = sockets["Transmission"]
+        if not transmission.is_linked and transmission.default_value == 0:
+            shader.value(self.model.specular[1], ior_of(specular), "float")
+        elif transmission.is_linked or transmission.default_value < 1:
+            if abs(specular_of(1, ior) - specular) > 1e-3:
+                self.lose("Specular", f"with transmission the index of refraction counts; the value was {specular:g}")
 
     def tints(self, shader: mxgen.Draft, sockets: bpy.types.NodeInputs) -> None:
         """The Principled BSDF takes the colours of transmitted light and of sheen from the base colour."""

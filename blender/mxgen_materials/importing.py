@@ -27,6 +27,7 @@ class _Importer:
         self.tree = material.node_tree
         self.tree.nodes.clear()
         self.bsdf = self.tree.nodes.new("ShaderNodeBsdfPrincipled")
+        self.bsdf.distribution = "MULTI_GGX" # keeps energy, as the models of MaterialX do
         output = self.tree.nodes.new("ShaderNodeOutputMaterial")
         output.location.x = 300
         self.tree.links.new(self.bsdf.outputs["BSDF"], output.inputs["Surface"])
@@ -48,7 +49,7 @@ class _Importer:
         if element.connection is not None:
             self.lose(name, "a texture or graph cannot be a factor here; its default counts")
             return self.default(name)
-        return element.value
+        return element.value if element.value is not None else self.default(name)
 
     # ---- Sockets ----
 
@@ -85,7 +86,9 @@ class _Importer:
         mode = source.child("uaddressmode")
         node.extension = EXTENSIONS.get(str(mode.value) if mode is not None else "periodic", "REPEAT")
         tiling = source.child("uvtiling")
-        if tiling is not None and tiling.value != (1.0, 1.0):
+        if tiling is not None and tiling.value is None:
+            self.lose(what, "the tiling comes from a graph; the texture is not tiled")
+        elif tiling is not None and tiling.value != (1.0, 1.0):
             mapping, place = self.tree.nodes.new("ShaderNodeMapping"), self.tree.nodes.new("ShaderNodeTexCoord")
             mapping.inputs["Scale"].default_value = (*tiling.value, 1.0)
             self.tree.links.new(place.outputs["UV"], mapping.inputs["Vector"])
@@ -140,7 +143,10 @@ class _Importer:
     def convert_socket(self, name: str, input_name: str) -> None:
         socket, element = self.bsdf.inputs[name], self.shader.child(input_name)
         if element is not None and element.connection is not None:
-            if not self.connect(element, socket):
+            if self.connect(element, socket):
+                if name in self.model.scales:
+                    self.lose(input_name, f"the texture is not scaled: 1 in Blender is {self.model.scales[name]:g} in the document")
+            else:
                 self.lose(input_name, "the graph has no counterpart: only images and normal maps are converted")
                 value = self.default(input_name)
                 if value is not None:
@@ -152,7 +158,10 @@ class _Importer:
         factor = self.constant(self.model.factors[name]) if name in self.model.factors else 1.0
         if factor not in (1.0, None):
             value = tuple(x * factor for x in value) if isinstance(value, tuple) else value * factor
-        self.set_socket(socket, value)
+        scale = self.model.scales.get(name, 1)
+        if scale != 1 and value > scale:
+            self.lose(input_name, f"the socket reflects as much as the value {scale:g} at most; the value was {value:g}")
+        self.set_socket(socket, min(value / scale, 1) if scale != 1 else value)
 
     # ---- The shader ----
 
@@ -186,6 +195,7 @@ class _Importer:
             scale, colour = (self.constant(name) for name in model.radius)
             self.bsdf.inputs["Subsurface Radius"].default_value = tuple(scale * x for x in colour)
             handled |= set(model.radius)
+        handled |= self.colour_layers()
         for element in self.shader.inputs:
             if element.name in handled or self.has_no_effect(element):
                 continue
@@ -193,9 +203,41 @@ class _Importer:
                 self.lose(element.name, "the Principled BSDF has no such socket")
             elif not _same(element.value, self.default(element.name)):
                 self.lose(element.name, f"the Principled BSDF has no such socket; the value was {element.get('value')}")
+        self.lose_defaults()
         alpha = self.bsdf.inputs["Alpha"]
         if alpha.is_linked or alpha.default_value < 1:
             self.material.blend_method = "BLEND"
+
+
+    def colour_layers(self) -> set[str]:
+        """The Principled BSDF has one colour for what lies below the coat: that of the transmitted light where all is transmitted, and
+        otherwise that of the base; the coat multiplies it. Returns the inputs that it then has."""
+        colour, handled = self.bsdf.inputs["Base Color"], set()
+        for layer, beginning in ("Transmission", "transmission_"), ("Clearcoat", "coat_"):
+            weight_name, tint_name = self.model.sockets.get(layer, ""), f"{beginning}color"
+            weight, tint = self.shader.child(weight_name), self.shader.child(tint_name)
+            if weight is None or weight.connection is not None or tint_name not in self.ports or (tint is not None and tint.connection is not None):
+                continue
+            amount, value = self.constant(weight_name), self.constant(tint_name)
+            if layer == "Transmission" and amount == 1:
+                for link in list(colour.links):
+                    self.tree.links.remove(link)
+                self.set_socket(colour, value)
+                handled.add(tint_name)
+            elif layer == "Clearcoat" and not colour.is_linked:
+                self.set_socket(colour, tuple(x * (1 - amount + amount * y) for x, y in zip(colour.default_value, value)))
+                handled.add(tint_name)
+        return handled
+
+    def lose_defaults(self) -> None:
+        """The inputs whose default differs from the value that the Principled BSDF has built in, where their layer is there."""
+        for name, implied in self.model.implied.items():
+            beginning = next(beginning for beginning in self.model.weights if name.startswith(beginning))
+            weight = self.shader.child(self.model.weights[beginning])
+            there = weight is not None and (weight.connection is not None or weight.value != 0)
+            default = self.default(name)
+            if there and self.shader.child(name) is None and isinstance(implied, float) and not _same(default, implied):
+                self.lose(name, f"the Principled BSDF has no such socket; the default is {default:g}, and Blender's {implied:g}")
 
 
 def _load(path: str, space: str) -> bpy.types.Image | None:

@@ -15,6 +15,8 @@ class Model(NamedTuple):
     sockets: dict[str, str]
     #: socket: input that the value is multiplied by
     factors: dict[str, str]
+    #: socket: value of the input at which the lobe reflects as much as that of the socket at 1
+    scales: dict[str, float]
     #: weight and index of refraction of the dielectric: together the socket "Specular"
     specular: tuple[str, str] | None
     #: scale and colour of the radius below the surface; the socket is their product
@@ -35,7 +37,7 @@ STANDARD_SURFACE = Model(
         "Sheen": "sheen", "Clearcoat": "coat", "Clearcoat Roughness": "coat_roughness", "Emission": "emission_color",
         "Emission Strength": "emission", "Normal": "normal", "Clearcoat Normal": "coat_normal", "Tangent": "tangent",
     },
-    factors={"Base Color": "base"}, specular=("specular", "specular_IOR"), radius=("subsurface_scale", "subsurface_radius"),
+    factors={"Base Color": "base"}, scales={"Clearcoat": 0.25, "Sheen": 0.06}, specular=("specular", "specular_IOR"), radius=("subsurface_scale", "subsurface_radius"),
     means={"Alpha": "opacity"},
     weights={"transmission_": "transmission", "sheen_": "sheen", "coat_": "coat", "subsurface_": "subsurface"},
     implied={"coat_IOR": 1.5, "transmission_color": "base_color"})
@@ -48,11 +50,11 @@ OPEN_PBR = Model(
         "Emission": "emission_color", "Emission Strength": "emission_luminance", "Alpha": "geometry_opacity", "Normal": "geometry_normal",
         "Clearcoat Normal": "geometry_coat_normal", "Tangent": "geometry_tangent",
     },
-    factors={"Base Color": "base_weight"}, specular=("specular_weight", "specular_ior"),
+    factors={"Base Color": "base_weight"}, scales={"Clearcoat": 0.25, "Sheen": 0.1}, specular=("specular_weight", "specular_ior"),
     radius=("subsurface_radius", "subsurface_radius_scale"), means={},
     weights={"transmission_": "transmission_weight", "fuzz_": "fuzz_weight", "coat_": "coat_weight", "subsurface_": "subsurface_weight",
              "thin_film_": "thin_film_weight"},
-    implied={"coat_ior": 1.5, "transmission_color": "base_color"})
+    implied={"coat_ior": 1.5, "coat_darkening": 0.0, "transmission_color": "base_color"})
 
 GLTF_PBR = Model(
     sockets={
@@ -60,7 +62,7 @@ GLTF_PBR = Model(
         "Clearcoat": "clearcoat", "Clearcoat Roughness": "clearcoat_roughness", "Emission": "emissive", "Emission Strength": "emissive_strength",
         "Alpha": "alpha", "Normal": "normal", "Clearcoat Normal": "clearcoat_normal",
     },
-    factors={}, specular=("specular", "ior"), radius=None, means={},
+    factors={}, scales={"Clearcoat": 0.25}, specular=("specular", "ior"), radius=None, means={},
     weights={"sheen_": "sheen_color", "iridescence_": "iridescence"}, implied={})
 
 PREVIEW_SURFACE = Model(
@@ -68,7 +70,7 @@ PREVIEW_SURFACE = Model(
         "Base Color": "diffuseColor", "Metallic": "metallic", "Roughness": "roughness", "IOR": "ior", "Clearcoat": "clearcoat",
         "Clearcoat Roughness": "clearcoatRoughness", "Emission": "emissiveColor", "Alpha": "opacity", "Normal": "normal",
     },
-    factors={}, specular=None, radius=None, means={}, weights={}, implied={})
+    factors={}, scales={"Clearcoat": 0.25}, specular=None, radius=None, means={}, weights={}, implied={})
 
 MODELS = {"standard_surface": STANDARD_SURFACE, "open_pbr_surface": OPEN_PBR, "gltf_pbr": GLTF_PBR, "UsdPreviewSurface": PREVIEW_SURFACE}
 
@@ -86,6 +88,7 @@ def specular_of(weight: float, ior: float) -> float:
     return weight * frontal(ior) / 0.08
 
 
-def weight_of(specular: float, ior: float) -> float:
-    """The weight whose product with the reflectance of `ior` is that of the socket."""
-    return specular * 0.08 / frontal(ior) if ior != 1 else 0.0
+def ior_of(specular: float) -> float:
+    """The index of refraction of a dielectric with the reflectance of the socket "Specular"."""
+    root = (specular * 0.08) ** 0.5
+    return (1 + root) / (1 - root)

@@ -9,6 +9,6 @@ trap 'rm -rf "$work"' EXIT
 PYTHONPATH=$package PATH=$(dirname "$program"):$PATH HOME=$work blender --background --factory-startup --python-use-system-env --python-exit-code 1 \
     --python "$root/tests/blender/addon.py" -- "$root" "$program" "$work" >"$work/log" 2>&1
 status=$?
-grep -v '^Info:\|^Blender \|^$' "$work/log"
+grep -v '^Info:\|^Blender \|^Fra:\|^Saved: \| Time: \|^$' "$work/log"
 grep -q '^blender: ' "$work/log" || exit 1
 exit $status
