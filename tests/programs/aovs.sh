@@ -124,6 +124,12 @@ check 'mattes in PNG' exits 2 picture --look L --mattes -o x.png
 check 'tell why' grep -q 'only EXR files have channels' err
 check 'without a stage' exits 2 "$render" look.mtlx --show slots -o x.png
 
+# What the look hides is not drawn.
+sed 's|<look name="L">|&<visibility geom="/a/floor" vistype="camera" visible="false"/>|' look.mtlx >hidden.mtlx
+check 'visibility' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L -o hidden.exr
+check 'hides' reads hidden.exr A 0.5 0.9 0 0
+check 'all of it' eval 'sed -i "s|geom=\"/a/floor\" vistype=\"camera\"|geom=\"/\"|" hidden.mtlx; exits 1 "$render" hidden.mtlx --stage stage.usda -s 16 --look L -o no.exr && grep -q "empty-mesh" err'
+
 # More AOVs than attachments: drawn again and again.
 {
     echo '<materialx version="1.39"><surface_unlit name="S" type="surfaceshader"/>'
