@@ -124,6 +124,17 @@ check 'mattes in PNG' exits 2 picture --look L --mattes -o x.png
 check 'tell why' grep -q 'only EXR files have channels' err
 check 'without a stage' exits 2 "$render" look.mtlx --show slots -o x.png
 
+# The hash picks layers as often as their weights say: the mean of a picture is that of all layers, within 1 %.
+sed 's|<look name="L">|&<visibility geom="/a/wall" visible="false"/>|' look.mtlx >floor.mtlx
+for slots in blend stochastic; do
+    check "$slots" exits 0 "$render" floor.mtlx --stage stage.usda --camera /a/down -q --look L --mattes --slots $slots -s 192 -o $slots.exr
+done
+for channel in R v matte.000 matte.050; do
+    mean=$(python3 "$here/exr.py" blend.exr $channel mean)
+    check "the mean of $channel" reads stochastic.exr $channel mean "$mean" "$(awk -v m="$mean" 'BEGIN { print m / 100 }')"
+done
+check 'and picks' test "$(md5sum <blend.exr)" != "$(md5sum <stochastic.exr)"
+
 # What the look hides is not drawn.
 sed 's|<look name="L">|&<visibility geom="/a/floor" vistype="camera" visible="false"/>|' look.mtlx >hidden.mtlx
 check 'visibility' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L -o hidden.exr
