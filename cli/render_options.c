@@ -63,9 +63,10 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
          "path tracing with one bounce and without shadows, for comparison with the raster",
          &options->as_drawn, ARG_MORE},
         {"show", 0, ARG_TEXT, "WHAT",
-         "for --pipeline deferred: draws what is stored; classes, bytes, closures, coverage, "
-         "transmittance or properties",
-         &options->shown, ARG_MORE},
+         "draws something else than the materials. Of a stage, colours by slot: slots, of the slot "
+         "with the greatest weight; or weights, blended by weight. With --pipeline deferred, what "
+         "is stored: classes, bytes, closures, coverage, transmittance or properties",
+         &options->show, ARG_MORE},
         {"turntable", 0, ARG_SIZE, "N",
          "renders N pictures from around, with a number before the extension of FILE",
          &options->frames, .low = 1, .high = 10000},

@@ -7,10 +7,11 @@
 
 struct render_options {
     const char *output, *copy, *element, *look, *size, *mesh, *camera, *scene, *background,
-        *missing_texture, *baked, *stage, *purpose, *shown;
+        *missing_texture, *baked, *stage, *purpose;
     struct arg_list settings, environments;
     size_t samples, frame, frames, paths, bounces;
     bool path_trace, as_drawn, list;
+    const char *show; /* NULL: the materials */
 };
 
 #define RENDER_OPTIONS_DEFAULTS \

@@ -227,6 +227,36 @@ static json_t *list_programs(const struct stacks *s)
     return list;
 }
 
+/* The facts of a primitive, by kind: "tokens":[{"name":"Id",...}]. */
+static void put_facts(const struct stacks *s, uint32_t primitive, FILE *out)
+{
+    static const char *const keys[] = {[MXG_FACT_GEOMPROP] = "geomprops",
+                                       [MXG_FACT_TOKEN] = "tokens",
+                                       [MXG_FACT_PROPERTY] = "properties",
+                                       [MXG_FACT_VISIBILITY] = "visibility"};
+    uint32_t num = mxg_bindings_num_facts(s->bindings, primitive);
+    for (size_t k = 0; num && k < sizeof keys / sizeof *keys; ++k) {
+        json_t *list = json_array();
+        for (uint32_t i = 0; i < num; ++i) {
+            mxg_fact fact = {sizeof fact};
+            mxg_bindings_fact(s->bindings, primitive, i, &fact);
+            if (fact.kind != (mxg_fact_kind)k)
+                continue;
+            json_t *item = json_object();
+            json_set_text(item, "name", fact.name);
+            json_set_text(item, "type", fact.type);
+            json_set_text(item, "value", fact.value);
+            json_set_text(item, "target", fact.target);
+            json_array_append_new(list, item);
+        }
+        if (json_array_size(list)) {
+            fprintf(out, ",\"%s\":", keys[k]);
+            json_dumpf(list, out, JSON_COMPACT);
+        }
+        json_decref(list);
+    }
+}
+
 /* A line for each primitive, written at once: a scene may have a million of them. */
 static void put_primitives(const struct stacks *s, FILE *out)
 {
@@ -245,7 +275,9 @@ static void put_primitives(const struct stacks *s, FILE *out)
         char *name = stack_name(s, mxg_bindings_stack(s->bindings, i));
         fputs(i ? ",\n    {\"path\":" : "\n    {\"path\":", out);
         json_dumpf(text, out, JSON_ENCODE_ANY | JSON_COMPACT);
-        fprintf(out, ",\"stack\":\"%s\"}", name);
+        fprintf(out, ",\"stack\":\"%s\"", name);
+        put_facts(s, i, out);
+        fputs("}", out);
         json_decref(text);
         free(name);
     }

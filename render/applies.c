@@ -39,6 +39,13 @@ static const struct {
     {"mesh", FACT_NO_STAGE, "the stage has the meshes"},
     {"turntable", FACT_NO_STAGE, "a turntable shows one element"},
     {"set", FACT_NO_STAGE, "a stage has many shaders; change the document"},
+    {"show", FACT_SHOWN, "only a stage has slots"},
+    {"mattes", FACT_STAGE, "only a stage has slots"},
+    {"mattes", FACT_CHANNELS, "only EXR files have channels for the AOVs"},
+    {"aovs", FACT_CHANNELS, "only EXR files have channels for the AOVs"},
+    {"aovs", FACT_ONE_PICTURE, "sheets and turntables have no AOVs"},
+    {"max-outputs", 0, "AOVs are drawn as many as the device has attachments for"},
+    {"ambient-occlusion", FACT_RASTER, "--path-trace traces it"},
     {"purpose", FACT_STAGE, "only a stage has bindings for purposes"},
 };
 

@@ -20,6 +20,8 @@ enum render_fact {
     FACT_NO_LOOK = 1 << 10,
     FACT_STAGE = 1 << 11, /* --stage */
     FACT_NO_STAGE = 1 << 12,
+    FACT_SHOWN = 1 << 14,    /* --show has what it draws */
+    FACT_CHANNELS = 1 << 13, /* a file is EXR, with channels for AOVs */
 };
 
 /* False after a message about the first option that does not apply. */

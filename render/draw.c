@@ -4,6 +4,7 @@
 #include "render/inputs.h"
 #include "render/stored.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,8 +14,11 @@
 struct draw_canvas {
     struct gpu *gpu;
     uint32_t width, height;
-    struct gpu_image color, depth;
-    struct gpu_buffer readback;
+    struct gpu_image depth;
+    uint32_t num_outputs; /* the colour is the first */
+    enum draw_output kinds[DRAW_MAX_OUTPUTS];
+    struct gpu_image outputs[DRAW_MAX_OUTPUTS];
+    struct gpu_buffer readbacks[DRAW_MAX_OUTPUTS];
     struct stored *stored; /* NULL: no program stores */
 };
 
@@ -36,6 +40,43 @@ struct draw_program {
 
 /* ---- Resources ---- */
 
+static VkFormat format_of(enum draw_output kind)
+{
+    return kind == DRAW_WHOLE ? VK_FORMAT_R32_SINT : COLOR_FORMAT;
+}
+
+bool draw_add_output(struct draw_canvas *canvas, enum draw_output kind)
+{
+    uint32_t i = canvas->num_outputs;
+    size_t texel = kind == DRAW_WHOLE ? sizeof(int32_t) : 4 * sizeof(float);
+    assert(i < DRAW_MAX_OUTPUTS);
+    canvas->kinds[i] = kind;
+    canvas->num_outputs = i + 1;
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    if (i == 0)
+        usage |= VK_IMAGE_USAGE_STORAGE_BIT; /* the passes of stored.h write the colour */
+    return gpu_create_image(canvas->gpu, format_of(kind), canvas->width, canvas->height, 0, 1,
+                            usage, VK_IMAGE_ASPECT_COLOR_BIT, &canvas->outputs[i])
+           && gpu_create_buffer(canvas->gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
+                                (size_t)canvas->width * canvas->height * texel,
+                                &canvas->readbacks[i]);
+}
+
+void draw_read_output(const struct draw_canvas *canvas, uint32_t location, float *out_pixels)
+{
+    const struct gpu_buffer *readback = &canvas->readbacks[location];
+    size_t pixels = (size_t)canvas->width * canvas->height;
+    assert(location < canvas->num_outputs);
+    if (canvas->kinds[location] != DRAW_WHOLE) {
+        memcpy(out_pixels, readback->mapped, readback->size);
+        return;
+    }
+    for (size_t i = 0; i < pixels; ++i) {
+        out_pixels[4 * i] = (float)((const int32_t *)readback->mapped)[i];
+        out_pixels[4 * i + 1] = out_pixels[4 * i + 2] = out_pixels[4 * i + 3] = 0;
+    }
+}
+
 struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t height)
 {
     struct draw_canvas *canvas = calloc(1, sizeof *canvas);
@@ -44,16 +85,11 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
         return NULL;
     }
     *canvas = (struct draw_canvas){.gpu = gpu, .width = width, .height = height};
-    if (gpu_create_image(gpu, COLOR_FORMAT, width, height, 0, 1,
-                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT
-                             | VK_IMAGE_USAGE_STORAGE_BIT,
-                         VK_IMAGE_ASPECT_COLOR_BIT, &canvas->color)
+    if (draw_add_output(canvas, DRAW_BLENDED)
         && gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1,
                             VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                 | VK_IMAGE_USAGE_SAMPLED_BIT,
-                            VK_IMAGE_ASPECT_DEPTH_BIT, &canvas->depth)
-        && gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
-                             (size_t)width * height * 4 * sizeof(float), &canvas->readback))
+                            VK_IMAGE_ASPECT_DEPTH_BIT, &canvas->depth))
         return canvas;
     draw_close_canvas(canvas);
     return NULL;
@@ -61,8 +97,8 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
 
 struct stored *draw_store(struct draw_canvas *canvas, uint32_t words)
 {
-    canvas->stored = stored_open(canvas->gpu, canvas->width, canvas->height, words, &canvas->color,
-                                 &canvas->depth);
+    canvas->stored = stored_open(canvas->gpu, canvas->width, canvas->height, words,
+                                 &canvas->outputs[0], &canvas->depth);
     return canvas->stored;
 }
 
@@ -71,9 +107,11 @@ void draw_close_canvas(struct draw_canvas *canvas)
     if (!canvas)
         return;
     stored_close(canvas->stored);
-    gpu_destroy_buffer(canvas->gpu, &canvas->readback);
+    for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
+        gpu_destroy_buffer(canvas->gpu, &canvas->readbacks[i]);
+        gpu_destroy_image(canvas->gpu, &canvas->outputs[i]);
+    }
     gpu_destroy_image(canvas->gpu, &canvas->depth);
-    gpu_destroy_image(canvas->gpu, &canvas->color);
     free(canvas);
 }
 
@@ -197,6 +235,14 @@ static const struct {
     [WAY_CUT] = {0, 2, VK_COMPARE_OP_LESS, true},
     [WAY_STORED] = {1 + STORED_TARGETS, 2, VK_COMPARE_OP_EQUAL, false},
 };
+enum {
+    MAX_TARGETS = DRAW_MAX_OUTPUTS > 1 + STORED_TARGETS ? DRAW_MAX_OUTPUTS : 1 + STORED_TARGETS
+};
+
+static uint32_t num_targets_of(const struct draw_canvas *canvas, enum draw_way way)
+{
+    return way == WAY_LIT ? canvas->num_outputs : ways[way].num_targets;
+}
 
 static bool create_pipeline(struct draw_program *program, const struct draw_canvas *canvas,
                             enum draw_way way, VkPipeline *out)
@@ -229,21 +275,23 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
         .depthTestEnable = VK_TRUE,
         .depthWriteEnable = ways[way].writes_depth && !draw->blend,
         .depthCompareOp = ways[way].compare};
-    VkPipelineColorBlendAttachmentState blends[1 + STORED_TARGETS];
-    VkFormat formats[1 + STORED_TARGETS];
-    for (unsigned i = 0; i < 1 + STORED_TARGETS; ++i) {
-        blends[i] = premultiplied_blending(draw->blend);
-        formats[i] = stored_target_format(i);
+    VkPipelineColorBlendAttachmentState blends[MAX_TARGETS];
+    VkFormat formats[MAX_TARGETS];
+    uint32_t num_targets = num_targets_of(canvas, way);
+    for (uint32_t i = 0; i < num_targets; ++i) {
+        bool blends_here = way != WAY_LIT || canvas->kinds[i] == DRAW_BLENDED;
+        blends[i] = premultiplied_blending(draw->blend && blends_here);
+        formats[i] = way == WAY_LIT ? format_of(canvas->kinds[i]) : stored_target_format(i);
     }
     const VkPipelineRenderingCreateInfo rendering = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-        .colorAttachmentCount = ways[way].num_targets,
+        .colorAttachmentCount = num_targets,
         .pColorAttachmentFormats = formats,
         .depthAttachmentFormat = DEPTH_FORMAT,
     };
     const VkPipelineColorBlendStateCreateInfo blending = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = ways[way].num_targets,
+        .attachmentCount = num_targets,
         .pAttachments = blends};
     const VkGraphicsPipelineCreateInfo info = {.sType =
                                                    VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
@@ -281,13 +329,14 @@ static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer co
                             enum draw_way way, VkAttachmentLoadOp load,
                             VkAttachmentLoadOp load_depth)
 {
-    VkRenderingAttachmentInfo targets[1 + STORED_TARGETS];
-    for (unsigned i = 0; i < ways[way].num_targets; ++i)
+    VkRenderingAttachmentInfo targets[MAX_TARGETS];
+    for (uint32_t i = 0; i < num_targets_of(canvas, way); ++i)
         targets[i] = (VkRenderingAttachmentInfo){
             .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-            .imageView = way == WAY_LIT ? canvas->color.view : stored_target(canvas->stored, i),
+            .imageView =
+                way == WAY_LIT ? canvas->outputs[i].view : stored_target(canvas->stored, i),
             .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
-            .loadOp = load,
+            .loadOp = way == WAY_LIT && i > 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : load,
             .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     const VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                              .imageView = canvas->depth.view,
@@ -298,7 +347,7 @@ static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer co
     const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
                                   .renderArea = {{0, 0}, {canvas->width, canvas->height}},
                                   .layerCount = 1,
-                                  .colorAttachmentCount = ways[way].num_targets,
+                                  .colorAttachmentCount = num_targets_of(canvas, way),
                                   .pColorAttachments = targets,
                                   .pDepthAttachment = &depth};
     vkCmdBeginRendering(commands, &info);
@@ -392,8 +441,9 @@ static void record(const struct draw_canvas *canvas, const struct call *calls, s
                    VkCommandBuffer commands)
 {
     VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
-                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    for (uint32_t i = 0; i < canvas->num_outputs; ++i)
+        gpu_image_barrier(commands, canvas->outputs[i].image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+                          VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
     gpu_image_barrier(commands, canvas->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1,
                       VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
     if (canvas->stored) {
@@ -403,12 +453,15 @@ static void record(const struct draw_canvas *canvas, const struct call *calls, s
     }
     begin_rendering(canvas, commands, WAY_LIT, load, load);
     record_calls(canvas, calls, count, WAY_LIT, commands);
-    gpu_image_barrier(commands, canvas->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
-                      VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                    .imageExtent = {canvas->width, canvas->height, 1}};
-    vkCmdCopyImageToBuffer(commands, canvas->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           canvas->readback.buffer, 1, &copy);
+    for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
+        gpu_image_barrier(commands, canvas->outputs[i].image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+                          VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                        .imageExtent = {canvas->width, canvas->height, 1}};
+        vkCmdCopyImageToBuffer(commands, canvas->outputs[i].image,
+                               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, canvas->readbacks[i].buffer, 1,
+                               &copy);
+    }
 }
 
 static void update(struct draw_program *program)
@@ -436,7 +489,7 @@ bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs
     free(calls);
     if (!good || !gpu_end(canvas->gpu, commands))
         return false;
-    memcpy(out_pixels, canvas->readback.mapped, canvas->readback.size);
+    draw_read_output(canvas, 0, out_pixels);
     return true;
 }
 

@@ -73,6 +73,18 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
 struct stored *draw_store(struct draw_canvas *canvas, uint32_t words);
 void draw_close_canvas(struct draw_canvas *canvas);
 
+/* How the fragments of a further output are put together. */
+enum draw_output {
+    DRAW_BLENDED, /* floats, which blend as the colour does */
+    DRAW_FLOATS,  /* floats; the last fragment counts */
+    DRAW_WHOLE    /* one integer; the last fragment counts */
+};
+#define DRAW_MAX_OUTPUTS 8 /* with the colour; every device has so many attachments */
+/* Adds an output at the next location, from 1 on; before draw_open. false: see gpu->reason. */
+bool draw_add_output(struct draw_canvas *canvas, enum draw_output kind);
+/* The RGBA floats of output `location` of the last frame, top row first; an integer is red. */
+void draw_read_output(const struct draw_canvas *canvas, uint32_t location, float *out_pixels);
+
 /* Compiles the program and uploads its inputs; NULL: see gpu->reason. `draw` must outlive it. */
 struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *draw);
 

@@ -15,6 +15,13 @@
 extern "C" {
 #endif
 
+/* A further channel of a picture, which only EXR files have: one float per pixel. */
+struct image_plane {
+    const char *name;    /* "albedo.R" */
+    const float *values; /* each `stride` floats behind the one before */
+    size_t stride;
+};
+
 /* Four channels, rows from the top. Grey fills red, green and blue; a missing alpha is 1. */
 struct image {
     uint32_t width, height;
@@ -32,6 +39,8 @@ struct image {
      * more; the reader replaced these components by 0
      */
     uint64_t num_bad;
+    const struct image_plane *planes; /* of a float picture without levels */
+    uint32_t num_planes;
 };
 
 /*

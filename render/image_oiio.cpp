@@ -256,6 +256,27 @@ OIIO::ImageSpec describe(const struct image &image, const OIIO::ImageOutput &out
     return spec;
 }
 
+/* The picture and its planes, channel by channel. */
+bool write_planes(OIIO::ImageOutput &output, const std::string &path, const struct image &image)
+{
+    OIIO::ImageSpec spec = describe(image, output);
+    size_t pixels = static_cast<size_t>(image.width) * image.height,
+           channels = 4 + image.num_planes;
+    std::vector<float> values(pixels * channels);
+    const float *color = static_cast<const float *>(image.pixels);
+    spec.nchannels = static_cast<int>(channels);
+    for (uint32_t i = 0; i < image.num_planes; ++i)
+        spec.channelnames.push_back(image.planes[i].name);
+    for (size_t i = 0; i < pixels; ++i) {
+        float *out = &values[i * channels];
+        std::copy(color + 4 * i, color + 4 * i + 4, out);
+        for (uint32_t k = 0; k < image.num_planes; ++k)
+            out[4 + k] = image.planes[k].values[i * image.planes[k].stride];
+    }
+    return output.open(path, spec) && output.write_image(spec.format, values.data())
+           && output.close();
+}
+
 bool write_pixels(OIIO::ImageOutput &output, const std::string &path, const struct image &image)
 {
     OIIO::ImageSpec spec = describe(image, output);
@@ -292,7 +313,10 @@ bool write_file(const std::string &path, const struct image &image, char *reason
     auto output = OIIO::ImageOutput::create(path);
     if (!output)
         return fail(reason, capacity, OIIO::geterror());
-    return write_pixels(*output, path, image) || fail(reason, capacity, output->geterror());
+    bool has_planes = image.num_planes && output->supports("nchannels");
+    bool good =
+        has_planes ? write_planes(*output, path, image) : write_pixels(*output, path, image);
+    return good || fail(reason, capacity, output->geterror());
 }
 
 } // namespace

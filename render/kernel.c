@@ -128,13 +128,20 @@ void kernel_values(const struct kernel *kernel, uint32_t object, float (*out)[4]
 
 /* ---- Source ---- */
 
+/* "occlusion:90,1e+38": ambient occlusion in a cone of half this angle, up to a distance. */
+static bool reads_occlusion(const mxg_variable *variable, double *out_angle, double *out_distance)
+{
+    return sscanf(variable->semantic, "occlusion:%lf,%lf", out_angle, out_distance) == 2;
+}
+
 static void append_fill(struct source *source, const mxg_result *result)
 {
     uint32_t attributes = 0;
     append(source,
            "vec3 dx_point, dy_point, dx_normal, dy_normal;\nvec2 dx_texcoord, dy_texcoord;\n"
            "mat4 to_object; // of the object at the hit\n"
-           "vec4 hit_value(uint i);\n\n");
+           "vec4 hit_value(uint i);\n"
+           "float trace_occlusion(vec3 normal, vec3 view, float angle, float limit);\n\n");
     append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, "
                    "vec3 view, vec4 random,\n"
                    "                      vec4 light, vec3 moved)\n{\n");
@@ -146,7 +153,12 @@ static void append_fill(struct source *source, const mxg_result *result)
         char line[256];
         const char *value = hit_value(variable.name);
         bool is_vector = strncmp(variable.type, "vec", 3) == 0;
-        if (value)
+        double angle, distance;
+        if (reads_occlusion(&variable, &angle, &distance))
+            snprintf(line, sizeof line,
+                     "    vd.%s = trace_occlusion(normal, view, float(%.9g), float(%.9g));\n",
+                     variable.name, angle, distance);
+        else if (value)
             snprintf(line, sizeof line, "    vd.%s = %s;\n", variable.name, value);
         else if (is_attribute(&variable))
             snprintf(line, sizeof line, "    vd.%s = %s(hit_value(%uu)%s);\n", variable.name,
@@ -158,14 +170,46 @@ static void append_fill(struct source *source, const mxg_result *result)
     append(source, "}\n\n");
 }
 
-static bool compile(struct kernel *kernel)
+/*
+ * Adds the AOVs of the first hit to those of its pixel; an integer is that of the first sample,
+ * because it has no mean.
+ */
+static void append_aovs(struct source *source, const mxg_result *result, const struct aovs *aovs)
+{
+    char line[256];
+    snprintf(line, sizeof line,
+             "#define NUM_AOVS %zu\nvoid keep_aovs(uint pixel, bool is_first)\n{\n",
+             aovs ? aovs->len : 0);
+    append(source, line);
+    for (size_t i = 0; aovs && i < aovs->len; ++i) {
+        mxg_variable variable;
+        if (!aovs_find(&aovs->items[i], result, &variable))
+            continue;
+        const char *type = variable.type, *rest = strcmp(type, "vec4") == 0   ? ""
+                                                  : strcmp(type, "vec3") == 0 ? ", 0.0"
+                                                  : strcmp(type, "vec2") == 0 ? ", 0.0, 0.0"
+                                                                              : ", 0.0, 0.0, 0.0";
+        bool is_whole = aovs_is_whole(&aovs->items[i]);
+        snprintf(line, sizeof line, "%s    aov_film[pixel * NUM_AOVS + %zu] %s vec4(%s%s);\n",
+                 is_whole ? "    if (is_first)\n    " : "", i, is_whole ? "=" : "+=", variable.name,
+                 rest);
+        append(source, line);
+    }
+    append(source, "}\n\n");
+}
+
+static bool compile(struct kernel *kernel, const struct aovs *aovs)
 {
     struct source source = {0};
-    char line[64];
+    char line[160];
     append(&source, mxg_result_source(kernel->bind->result, MXG_STAGE_PIXEL, NULL));
     append_fill(&source, kernel->bind->result);
-    snprintf(line, sizeof line, "#define TRACER_SET %u\n", kernel->inputs.num_sets);
+    snprintf(line, sizeof line,
+             "#define TRACER_SET %u\n"
+             "layout(set = TRACER_SET, binding = 8, std430) buffer Aovs { vec4 aov_film[]; };\n",
+             kernel->inputs.num_sets);
     append(&source, line);
+    append_aovs(&source, kernel->bind->result, aovs);
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
     append(&source, kernel->info.displaced ? "#define DISPLACED\n" : "");
@@ -240,9 +284,9 @@ bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, stru
 }
 
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
-                    uint32_t push_size)
+                    uint32_t push_size, const struct aovs *aovs)
 {
-    return compile(kernel) && create_pipeline(gpu, kernel, set_layout, push_size);
+    return compile(kernel, aovs) && create_pipeline(gpu, kernel, set_layout, push_size);
 }
 
 void kernel_close(struct gpu *gpu, struct kernel *kernel)

@@ -15,8 +15,10 @@
 #include "render/stage_picture.h"
 
 #include <math.h>
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #define OVERSAMPLING 2 /* samples per pixel and axis */
@@ -47,6 +49,17 @@ struct job {
 };
 
 /* ---- Arguments ---- */
+
+/* True if a file of one picture has channels for AOVs. */
+static bool writes_channels(const struct job *job)
+{
+    const char *const files[] = {job->options.output, job->options.copy};
+    for (size_t i = 0; i < 2; ++i)
+        if (files[i] && strlen(files[i]) > 4
+            && strcasecmp(files[i] + strlen(files[i]) - 4, ".exr") == 0)
+            return true;
+    return false;
+}
 
 /* "512" or "640x480" */
 static bool parse_size(struct job *job)
@@ -134,15 +147,31 @@ static bool names_camera(const struct job *job)
     return job->options.stage && job->options.camera && *job->options.camera == '/';
 }
 
-/* The number of the debug view; false: there is none of this name. */
+/* True if --show draws colours by slot, and not a view of what is stored. */
+static bool shows_slots(const struct job *job)
+{
+    return job->options.show && job->painter.shown == UINT32_MAX;
+}
+
+/* --show: of a stage, or of what the deferred pipeline stores. false: there is no such view. */
 static bool parse_view(struct job *job)
 {
+    enum { OF_SLOTS = 2, MAX_VIEWS = 16 };
+    const char *views[MAX_VIEWS + 1] = {"slots", "weights"};
+    for (size_t i = 0; pass_views[i]; ++i) {
+        assert(OF_SLOTS + i < MAX_VIEWS);
+        views[OF_SLOTS + i] = pass_views[i];
+    }
     job->painter.shown = UINT32_MAX;
-    if (!job->options.shown)
+    if (!job->options.show)
         return true;
-    job->painter.shown = (uint32_t)find_word("show", job->options.shown, pass_views);
+    size_t view = find_word("show", job->options.show, views);
     job->painter.exposure = 1;
-    return pass_views[job->painter.shown];
+    if (view >= OF_SLOTS)
+        job->painter.shown = (uint32_t)(view - OF_SLOTS);
+    else
+        mxg_options_set(job->cli.options, "mattes", "true");
+    return views[view] != NULL;
 }
 
 static bool parse(struct job *job)
@@ -175,6 +204,12 @@ static bool parse(struct job *job)
     }
     if (!parse_view(job))
         return false;
+    /* AOVs are drawn as many as the device has attachments for, again and again */
+    mxg_options_set(job->cli.options, "max-outputs", "64");
+    if (!args_is_given(&job->cli.parser, "aovs") && !shows_slots(job) && !writes_channels(job))
+        mxg_options_set(job->cli.options, "aovs", "none");
+    if (!args_is_given(&job->cli.parser, "ambient-occlusion")) /* there is no map of a stage */
+        mxg_options_set(job->cli.options, "ambient-occlusion", "primvar");
     /* the device's samplers have neither arbitrary border colours nor cubic filters */
     if (!args_is_given(&job->cli.parser, "texture-modes"))
         mxg_options_set(job->cli.options, "texture-modes", "shared");
@@ -319,6 +354,7 @@ static void report_progress(const struct job *job, size_t done, size_t count, co
 static void draw_one(struct job *job, const struct subject *subject)
 {
     struct image picture;
+    job->painter.wants_aovs = writes_channels(job);
     if (picture_draw(&job->painter, subject, 1, &picture)) {
         picture_write(&job->painter, job->options.output, &picture);
         if (job->options.copy)
@@ -355,13 +391,24 @@ static void draw_turntable(struct job *job, const struct subject *subject)
     painting_close(&painting);
 }
 
+static void print_slot(void *user_data, const char *slot, const unsigned char color[3])
+{
+    const struct job *job = user_data;
+    if (!job->cli.quiet)
+        fprintf(stderr, "slot %s: #%02x%02x%02x\n", slot, color[0], color[1], color[2]);
+}
+
 static void draw_stage(struct job *job, const mxg_document *document, const char *path)
 {
     struct stage_subjects subjects;
     struct image picture = {0};
+    const char *show = shows_slots(job) ? job->options.show : NULL;
+    job->painter.wants_aovs = show || writes_channels(job);
     if (stage_subjects_make(&job->painter, &job->stage, document, path, job->options.look,
                             &subjects)
         && picture_draw(&job->painter, subjects.items, subjects.len, &picture)) {
+        if (show)
+            aovs_show(&job->painter.aovs, strcmp(show, "weights") == 0, &picture, print_slot, job);
         picture_write(&job->painter, job->options.output, &picture);
         if (job->options.copy)
             picture_write(&job->painter, job->options.copy, &picture);
@@ -692,7 +739,9 @@ static unsigned find_facts(const struct job *job, bool is_grid, bool is_one)
            | fact(is_one && !options->frames, FACT_ONE_PICTURE) | fact(!options->frames, FACT_STILL)
            | fact(options->path_trace, FACT_TRACED) | fact(!options->path_trace, FACT_RASTER)
            | fact(is_sampled(job), FACT_SAMPLED) | fact(!options->look, FACT_NO_LOOK)
-           | fact(options->stage, FACT_STAGE) | fact(!options->stage, FACT_NO_STAGE);
+           | fact(writes_channels(job), FACT_CHANNELS) | fact(options->stage, FACT_STAGE)
+           | fact(!options->stage, FACT_NO_STAGE)
+           | fact(options->stage || !shows_slots(job), FACT_SHOWN);
 }
 
 /* mxgen render --stage FILE --list */
@@ -778,6 +827,7 @@ int main(int argc, char **argv)
     cli_finish(&job.cli);
     args_free(&job.found);
     names_finish(&job.painter.told_textures);
+    aovs_finish(&job.painter.aovs);
     outputs_finish(&job.files);
     free_values(job.values, job.options.settings.len);
     free(job.options.settings.items);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), TRACER_SET and, where they
-// hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
+// A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), TRACER_SET
+// and, where they hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
 // kernel runs.
@@ -33,7 +33,7 @@ layout(set = TRACER_SET, binding = 4, std430) readonly buffer Objects { Object o
 layout(set = TRACER_SET, binding = 5, std430) readonly buffer Values { vec4 values[]; };
 layout(set = TRACER_SET, binding = 6, std430) buffer Paths { Path paths[]; };
 layout(set = TRACER_SET, binding = 7, std430) buffer Waiting { uint waiting[]; }; // how many paths wait for each shader
-layout(set = TRACER_SET, binding = 8) uniform sampler2D environment_map;
+layout(set = TRACER_SET, binding = 9) uniform sampler2D environment_map;
 layout(push_constant) uniform Camera {
     vec4 eye, right, up, forward;  // a ray through (x, y), each from -1 to 1, goes along forward + x * right + y * up
     vec4 environment[3];           // columns: from the world to the map
@@ -235,6 +235,29 @@ void find_differentials(Corner a, Corner b, Corner c, vec3 facet, vec3 direction
     dy_texcoord = texcoord * weights[1];
 }
 
+// The part of the cone around the normal that nothing closes up to `limit`; `angle`: half of the cone's, in degrees. Rays are cosine-weighted:
+// Pharr, Jakob, Humphreys, "Physically Based Rendering", section A.5.3, with the sine of the cone as the radius of the disk.
+float trace_occlusion(vec3 normal, vec3 view, float angle, float limit)
+{
+    const int RAYS = 16;
+    vec3 a = corners[met.triangle * 3u].position_s.xyz, b = corners[met.triangle * 3u + 1u].position_s.xyz,
+         c = corners[met.triangle * 3u + 2u].position_s.xyz;
+    vec3 n = dot(normal, view) < 0.0 ? -normal : normal, facet = cross(b - a, c - a);
+    facet = normalize(dot(facet, n) < 0.0 ? -facet : facet);
+    vec3 x = normalize(abs(n.x) > 0.5 ? vec3(-n.z, 0.0, n.x) : vec3(0.0, n.z, -n.y)), y = cross(n, x);
+    vec3 origin = mixed(a, b, c, met.weights) + facet * NEAR;
+    float radius = sin(radians(clamp(angle, 0.0, 90.0)));
+    int num_open = 0;
+    for (int i = 0; i < RAYS; ++i) {
+        Hit hit;
+        vec4 xi = next_random();
+        float square = radius * radius * (float(i) + xi.x) / float(RAYS), turn = 2.0 * PI * xi.y;
+        vec3 d = sqrt(square) * (cos(turn) * x + sin(turn) * y) + sqrt(1.0 - square) * n;
+        num_open += dot(d, facet) > 0.0 && !find_hit(origin, d, min(limit, FAR), hit) ? 1 : 0;
+    }
+    return float(num_open) / float(RAYS);
+}
+
 // Runs scatter() at the hit.
 Point shade(Hit hit, vec3 direction, vec4 light)
 {
@@ -353,6 +376,8 @@ const uint GOING = 0u, CROSSING = 1u, ENDED = 2u;
 void bounce(inout Path path, Point point, vec4 towards)
 {
     path.light += path.through * out1.rgb;
+    if (path.turns == 0u)
+        keep_aovs(gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x, path.number == 0u);
     ++path.turns;
     vec4 next = out2, weight = out3;
     vec3 inside = out4.rgb;

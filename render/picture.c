@@ -7,7 +7,8 @@
 
 /* ---- Shaders ---- */
 
-static bool generate(struct painter *painter, const struct subject *subject, mxg_result **out)
+static mxg_status generate_for(struct painter *painter, const struct subject *subject,
+                               bool without_source, mxg_result **out)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
@@ -15,7 +16,13 @@ static bool generate(struct painter *painter, const struct subject *subject, mxg
     desc.bindings = subject->bindings;
     desc.stack = subject->stack;
     desc.options = painter->cli->options;
-    mxg_status status = mxg_generate(painter->cli->context, subject->document, &desc, out);
+    desc.without_source = without_source;
+    return mxg_generate(painter->cli->context, subject->document, &desc, out);
+}
+
+static bool generate(struct painter *painter, const struct subject *subject, mxg_result **out)
+{
+    mxg_status status = generate_for(painter, subject, false, out);
     if (*out)
         report_list(&painter->cli->report, mxg_result_diagnostics(*out));
     return report_status(&painter->cli->report, status);
@@ -310,6 +317,23 @@ static bool open_passes(struct painting *painting, uint32_t width, uint32_t heig
     return false;
 }
 
+/* A canvas with the outputs of the AOVs that are drawn now. NULL: see gpu->reason. */
+static struct draw_canvas *open_canvas(struct painter *painter, uint32_t width, uint32_t height)
+{
+    struct draw_canvas *canvas = draw_open_canvas(&painter->gpu, width, height);
+    bool good = canvas != NULL;
+    for (size_t i = 0; good && i < painter->num_aovs; ++i) {
+        const struct picture_aov *aov = &painter->aovs.items[painter->first_aov + i];
+        good = draw_add_output(canvas, aovs_is_whole(aov)    ? DRAW_WHOLE
+                                       : aovs_has_alpha(aov) ? DRAW_BLENDED
+                                                             : DRAW_FLOATS);
+    }
+    if (good)
+        return canvas;
+    draw_close_canvas(canvas);
+    return NULL;
+}
+
 bool painting_open(struct painter *painter, const struct subject *subjects, size_t count,
                    struct painting *painting)
 {
@@ -321,7 +345,7 @@ bool painting_open(struct painter *painter, const struct subject *subjects, size
     painting->samples = malloc((size_t)width * height * 4 * sizeof(float));
     if (!painting->samples)
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
-    painting->canvas = draw_open_canvas(&painter->gpu, width, height);
+    painting->canvas = open_canvas(painter, width, height);
     if (!open_passes(painting, width, height))
         return false;
     for (size_t i = 0; i < painting->num_parts; ++i) {
@@ -361,8 +385,9 @@ static void tell_bad_pixels(struct painter *painter, const struct painting *pain
                      first % picture->width, first / picture->width);
 }
 
-/* Averages the samples of each pixel. */
-static bool resolve(const struct painter *painter, const float *samples, struct image *out)
+/* Averages the samples of each pixel, or takes the first one. */
+static bool resolve(const struct painter *painter, const float *samples, bool averages,
+                    struct image *out)
 {
     unsigned n = painter->oversampling;
     size_t row = (size_t)painter->width * n;
@@ -374,14 +399,30 @@ static bool resolve(const struct painter *painter, const float *samples, struct 
     float *pixel = out->pixels;
     for (uint32_t y = 0; pixel && y < painter->height; ++y) {
         for (uint32_t x = 0; x < painter->width; ++x, pixel += 4) {
-            for (size_t i = 0; i < (size_t)n * n; ++i) {
+            size_t count = averages ? (size_t)n * n : 1;
+            for (size_t i = 0; i < count; ++i) {
                 const float *sample = samples + 4 * ((y * n + i / n) * row + x * n + i % n);
                 for (size_t c = 0; c < 4; ++c)
-                    pixel[c] += sample[c] / (float)(n * n);
+                    pixel[c] += sample[c] / (float)count;
             }
         }
     }
     return out->pixels != NULL;
+}
+
+/* Keeps the AOVs that were drawn. false: out of memory. */
+static bool take_aovs(struct painting *painting)
+{
+    struct painter *painter = painting->painter;
+    for (size_t i = 0; i < painter->num_aovs; ++i) {
+        struct picture_aov *aov = &painter->aovs.items[painter->first_aov + i];
+        struct image values;
+        draw_read_output(painting->canvas, (uint32_t)i + 1, painting->samples);
+        if (!resolve(painter, painting->samples, !aovs_is_whole(aov), &values))
+            return false;
+        aov->pixels = values.pixels;
+    }
+    return true;
 }
 
 bool painting_draw(struct painting *painting, struct image *out)
@@ -399,7 +440,7 @@ bool painting_draw(struct painting *painting, struct image *out)
         report_error(&painter->cli->report, bind->id, "%s", bind->reason);
         return false;
     }
-    if (!resolve(painter, painting->samples, out))
+    if (!resolve(painter, painting->samples, true, out) || !take_aovs(painting))
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
     tell_bad_pixels(painter, painting, out);
     return true;
@@ -453,16 +494,81 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
     return good;
 }
 
-bool picture_draw(struct painter *painter, const struct subject *subjects, size_t count,
-                  struct image *out)
+/* ---- AOVs ---- */
+
+/* Finds the AOVs of all subjects: their shaders get the same outputs. */
+static bool find_aovs(struct painter *painter, const struct subject *subjects, size_t count)
 {
-    if (painter->trace.paths)
-        return picture_trace(painter, subjects, count, out);
+    bool good = true;
+    for (size_t i = 0; good && i < count; ++i) {
+        mxg_result *result = NULL;
+        mxg_status status = generate_for(painter, &subjects[i], true, &result);
+        good = status == MXG_OK;
+        if (!good && result)
+            report_list(&painter->cli->report, mxg_result_diagnostics(result));
+        if (!good)
+            report_status(&painter->cli->report, status);
+        aovs_add(&painter->aovs, result);
+        mxg_result_destroy(result);
+    }
+    return good;
+}
+
+static bool allocate_aovs(struct painter *painter)
+{
+    bool good = true;
+    for (size_t i = 0; i < painter->aovs.len; ++i) {
+        struct picture_aov *aov = &painter->aovs.items[i];
+        aov->pixels = calloc((size_t)painter->width * painter->height * 4, sizeof(float));
+        good &= aov->pixels != NULL;
+    }
+    return good || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+}
+
+static bool draw_once(struct painter *painter, const struct subject *subjects, size_t count,
+                      struct image *out)
+{
     struct painting painting;
-    *out = (struct image){0};
     bool good = painting_open(painter, subjects, count, &painting) && painting_draw(&painting, out);
     painting_close(&painting);
     return good;
+}
+
+/* A device has a few attachments, so many AOVs need several drawings. */
+static bool draw_with_aovs(struct painter *painter, const struct subject *subjects, size_t count,
+                           struct image *out)
+{
+    struct image again = {0};
+    bool good = true;
+    size_t at = 0;
+    do {
+        size_t rest = painter->aovs.len - at;
+        painter->first_aov = at;
+        painter->num_aovs = rest < DRAW_MAX_OUTPUTS - 1 ? rest : DRAW_MAX_OUTPUTS - 1;
+        aovs_list(&painter->aovs, at, painter->num_aovs, painter->cli->options);
+        good = draw_once(painter, subjects, count, at ? &again : out);
+        image_finish(&again);
+        at += painter->num_aovs;
+    } while (good && at < painter->aovs.len);
+    painter->num_aovs = 0;
+    return good;
+}
+
+bool picture_draw(struct painter *painter, const struct subject *subjects, size_t count,
+                  struct image *out)
+{
+    *out = (struct image){0};
+    aovs_finish(&painter->aovs);
+    if (painter->wants_aovs && !find_aovs(painter, subjects, count))
+        return false;
+    if (painter->trace.paths) {
+        if (painter->wants_aovs)
+            aovs_list(&painter->aovs, 0, painter->aovs.len, painter->cli->options);
+        painter->trace.aovs = &painter->aovs;
+        return allocate_aovs(painter) && picture_trace(painter, subjects, count, out);
+    }
+    return painter->wants_aovs ? draw_with_aovs(painter, subjects, count, out)
+                               : draw_once(painter, subjects, count, out);
 }
 
 /* ---- Background ---- */
@@ -518,11 +624,15 @@ bool picture_write(struct painter *painter, const char *path, const struct image
 {
     char reason[256] = "out of memory";
     struct image shown = {0};
-    bool good = image_is_linear(path) ? image_write(path, linear, reason, sizeof reason)
+    struct image with_aovs = *linear;
+    struct image_plane *planes = aovs_planes(&painter->aovs, &with_aovs.num_planes);
+    with_aovs.planes = planes;
+    bool good = image_is_linear(path) ? image_write(path, &with_aovs, reason, sizeof reason)
                                       : picture_develop(painter, linear, &shown)
                                             && image_write(path, &shown, reason, sizeof reason);
     if (!good)
         report_error(&painter->cli->report, "output-failed", "cannot write '%s': %s", path, reason);
     image_finish(&shown);
+    aovs_finish_planes(planes, with_aovs.num_planes);
     return good;
 }

@@ -9,6 +9,7 @@
 #include "cli/cli.h"
 #include "cli/names.h"
 #include "cli/outputs.h"
+#include "render/aovs.h"
 #include "render/passes.h"
 #include "render/render.h"
 #include "render/studio.h"
@@ -37,6 +38,9 @@ struct painter {
     unsigned oversampling;      /* samples per pixel and axis */
     uint32_t shown;             /* number of a debug view; UINT32_MAX: pictures are lit */
     struct trace_options trace; /* no paths: use the rasteriser */
+    bool wants_aovs;            /* of one picture */
+    struct aovs aovs;           /* of the last picture; aovs_finish frees it */
+    size_t first_aov, num_aovs; /* those that are drawn together */
 };
 
 struct subject {
@@ -82,7 +86,7 @@ void painting_aim(struct painting *painting);
 bool painting_draw(struct painting *painting, struct image *out);
 void painting_close(struct painting *painting);
 
-/* Open, draw and close. */
+/* Open, draw and close, for AOVs again and again. */
 bool picture_draw(struct painter *painter, const struct subject *subjects, size_t count,
                   struct image *out);
 

@@ -29,9 +29,9 @@ static char *stack_name(const mxg_bindings *bindings, uint32_t stack)
 }
 
 static void group(const struct stage *stage, const mxg_document *document, const char *path,
-                  const struct dressed *dressed, struct stage_subjects *out)
+                  const struct dressed *dressed, uint32_t num, struct stage_subjects *out)
 {
-    for (uint32_t i = 0; i < stage->num_objects; ++i) {
+    for (uint32_t i = 0; i < num; ++i) {
         out->objects[i] = stage->objects[dressed[i].object].object;
         if (i && dressed[i].stack == dressed[i - 1].stack) {
             ++out->items[out->len - 1].num_objects;
@@ -46,6 +46,20 @@ static void group(const struct stage *stage, const mxg_document *document, const
                              .objects = &out->objects[i],
                              .num_objects = 1};
     }
+}
+
+/* True if the look lets the camera see a primitive. What only some geometry sees, it may see. */
+static bool is_visible(const mxg_bindings *bindings, uint32_t primitive)
+{
+    bool is_visible = true;
+    for (uint32_t i = 0; i < mxg_bindings_num_facts(bindings, primitive); ++i) {
+        mxg_fact fact = {sizeof fact};
+        mxg_bindings_fact(bindings, primitive, i, &fact);
+        bool is_of_camera = !*fact.name || strcmp(fact.name, "camera") == 0;
+        if (fact.kind == MXG_FACT_VISIBILITY && is_of_camera && !*fact.target)
+            is_visible &= strcmp(fact.value, "false") != 0;
+    }
+    return is_visible;
 }
 
 bool stage_subjects_make(struct painter *painter, const struct stage *stage,
@@ -65,13 +79,17 @@ bool stage_subjects_make(struct painter *painter, const struct stage *stage,
     struct dressed *dressed = memory_alloc(stage->num_objects * sizeof *dressed);
     out->items = memory_alloc(stage->num_objects * sizeof *out->items);
     out->objects = memory_alloc(stage->num_objects * sizeof *out->objects);
+    uint32_t num = 0;
     for (uint32_t i = 0; i < stage->num_objects; ++i)
-        dressed[i] =
-            (struct dressed){mxg_bindings_stack(out->bindings, stage->objects[i].primitive), i};
-    qsort(dressed, stage->num_objects, sizeof *dressed, compare_dressed);
-    group(stage, document, path, dressed, out);
+        if (is_visible(out->bindings, stage->objects[i].primitive))
+            dressed[num++] =
+                (struct dressed){mxg_bindings_stack(out->bindings, stage->objects[i].primitive), i};
+    qsort(dressed, num, sizeof *dressed, compare_dressed);
+    group(stage, document, path, dressed, num, out);
+    if (!num)
+        report_error(report, "empty-mesh", "the look hides all primitives of the stage");
     free(dressed);
-    return true;
+    return num > 0;
 }
 
 void stage_subjects_finish(struct stage_subjects *subjects)

@@ -19,6 +19,7 @@ enum {
     VALUES,
     PATHS,
     WAITING,
+    AOVS,
     NUM_BUFFERS,
     NUM_BINDINGS = NUM_BUFFERS + 1,
     GROUP = 8,
@@ -127,6 +128,11 @@ static bool is_displaced(const struct tracer *tracer)
     return displaced;
 }
 
+static size_t num_aovs(const struct tracer *tracer)
+{
+    return tracer->options->aovs ? tracer->options->aovs->len : 0;
+}
+
 static bool create_buffers(struct tracer *tracer)
 {
     struct gpu *gpu = tracer->gpu;
@@ -145,7 +151,8 @@ static bool create_buffers(struct tracer *tracer)
                 {NULL, film, FILM},
                 {sums, num_sums * sizeof *sums, SUMS},
                 {NULL, pixels * PATH_SIZE, PATHS},
-                {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING}};
+                {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING},
+                {NULL, (num_aovs(tracer) * pixels + 1) * 4 * sizeof(float), AOVS}};
     bool good = sums || fail_for_memory(tracer);
     for (size_t i = 0; good && i < sizeof made / sizeof *made; ++i)
         good = gpu_create_buffer(gpu, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, made[i].data,
@@ -154,6 +161,7 @@ static bool create_buffers(struct tracer *tracer)
     if (!good || !create_objects(tracer))
         return false;
     memset(tracer->buffers[FILM].mapped, 0, film);
+    memset(tracer->buffers[AOVS].mapped, 0, tracer->buffers[AOVS].size);
     const VkSamplerCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                       .magFilter = VK_FILTER_LINEAR,
                                       .minFilter = VK_FILTER_LINEAR,
@@ -341,7 +349,7 @@ static bool open_kernels(struct tracer *tracer, struct bind *const *binds, size_
     for (size_t i = 0; i < count; ++i) {
         *out_failed = i;
         if (!kernel_compile(tracer->gpu, &tracer->kernels[i], tracer->set_layout,
-                            sizeof(struct camera)))
+                            sizeof(struct camera), tracer->options->aovs))
             return false;
     }
     *out_failed = 0;
@@ -362,6 +370,18 @@ static void close(struct tracer *tracer)
     bvh_finish(&tracer->bvh);
     free(tracer->objects);
     free(tracer->kernels);
+}
+
+static void take_aovs(const struct tracer *tracer, uint32_t samples)
+{
+    const float *film = tracer->buffers[AOVS].mapped;
+    size_t pixels = (size_t)tracer->width * tracer->height, count = num_aovs(tracer);
+    for (size_t i = 0; i < count; ++i) {
+        struct picture_aov *aov = &tracer->options->aovs->items[i];
+        float scale = aovs_is_whole(aov) ? 1 : 1 / (float)samples;
+        for (size_t p = 0; p < 4 * pixels; ++p)
+            aov->pixels[p] = film[4 * (p / 4 * count + i) + p % 4] * scale;
+    }
 }
 
 bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count, uint32_t width,
@@ -389,6 +409,8 @@ bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count, uin
     }
     for (size_t i = 0; good && i < (size_t)width * height * 4; ++i)
         out_pixels[i] = ((const float *)tracer.buffers[FILM].mapped)[i] / (float)samples;
+    if (good)
+        take_aovs(&tracer, samples);
     if (!good && tracer.kernels && gpu->reason[0])
         kernel_fail(&tracer.kernels[*out_failed], gpu->id, gpu->reason);
     close(&tracer);

@@ -3,6 +3,7 @@
 #ifndef MXG_RENDER_TRACE_H
 #define MXG_RENDER_TRACE_H
 
+#include "render/aovs.h"
 #include "render/bind.h"
 #include "render/inputs.h"
 #include "compile/compile.h"
@@ -19,6 +20,7 @@ struct trace_options {
      * loss
      */
     bool as_drawn;
+    struct aovs *aovs; /* whose pixels are filled, for the first hit of each path; NULL: none */
     void (*progress)(void *user_data, uint32_t done, uint32_t of); /* may be NULL */
     void *progress_data;
 };
@@ -44,9 +46,9 @@ struct kernel {
 };
 /* Binds the shader and finds its numbers: from `first_shader` on. false: see bind->reason. */
 bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, struct kernel *out);
-/* Compiles it; the tracer's set comes after the sets of the shader. */
+/* Compiles it; the tracer's set comes after the sets of the shader. aovs may be NULL. */
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
-                    uint32_t push_size);
+                    uint32_t push_size, const struct aovs *aovs);
 void kernel_close(struct gpu *gpu, struct kernel *kernel);
 /*
  * The values that the shader reads from an object (hit_value() in path.glsl): for each attribute

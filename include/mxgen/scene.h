@@ -171,6 +171,30 @@ MXG_API uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primi
 MXG_API size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t stack, char *buffer,
                                        size_t capacity);
 
+typedef enum mxg_fact_kind {
+    MXG_FACT_GEOMPROP,   /* a geometric property, of a <geominfo> */
+    MXG_FACT_TOKEN,      /* a token for file names, of a <geominfo> */
+    MXG_FACT_PROPERTY,   /* of a <propertyassign> or a <propertysetassign> */
+    MXG_FACT_VISIBILITY, /* the name is the vistype, "" for all; the value "true" or "false" */
+    MXG_FACT_MAX_ENUM = 0x7fffffff
+} mxg_fact_kind;
+
+/* What the document says of a primitive beside its layers. */
+typedef struct mxg_fact {
+    size_t size; /* in */
+    mxg_fact_kind kind;
+    const char *name, *type, *value; /* as in the document */
+    /* the renderer that a property is for; the geometry that sees a visibility; "": all */
+    const char *target;
+    uint32_t from; /* the primitive where it stands; UINT32_MAX: "/" */
+    const char *file;
+    uint32_t line;
+} mxg_fact;
+/* The strongest of each kind, name and target, found as the layers are. */
+MXG_API uint32_t mxg_bindings_num_facts(const mxg_bindings *bindings, uint32_t primitive);
+MXG_API mxg_status mxg_bindings_fact(const mxg_bindings *bindings, uint32_t primitive,
+                                     uint32_t index, mxg_fact *out);
+
 typedef enum mxg_bindings_format {
     MXG_BINDINGS_TABLE, /* a line for each primitive */
     MXG_BINDINGS_TABLE_COLOUR,

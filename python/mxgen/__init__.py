@@ -15,7 +15,7 @@ from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, diagn
 from .document import Connection, Document, Element, Renderable, Value, equal
 from .edit import Draft, Edit, NewValue
 from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, OutOfMemoryError
-from .scene import Bindings, BindingsFormat, Layer, LayerKind, Primitive, Property, Scene, Stack, decode_slot, encode_slot
+from .scene import Bindings, BindingsFormat, Fact, FactKind, Layer, LayerKind, Primitive, Property, Scene, Stack, decode_slot, encode_slot
 from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, Place, Semantic, Shader,
                      ShaderInfo, Stage, Tile, Variable, View, semantics)
 
@@ -23,7 +23,7 @@ __version__ = library_version()
 
 __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "BlockInfo", "CancelledError", "Change",
            "CompiledInput", "Connection", "Context", "Diagnostic", "DiagnosticKind", "Diagnostics", "Document",
-           "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "File", "InputState", "InternalError",
+           "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "Fact", "FactKind", "File", "InputState", "InternalError",
            "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType",
            "OptionValue", "OutOfMemoryError", "Part", "Place", "Port", "Primitive", "Property", "Renderable",
            "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "Stack",

@@ -269,6 +269,37 @@ class Layer:
     line: int
 
 
+class FactKind(enum.IntEnum):
+    """What a fact of a primitive is."""
+
+    #: a geometric property, of a <geominfo>
+    GEOMPROP = lib.MXG_FACT_GEOMPROP
+    #: a token for file names, of a <geominfo>
+    TOKEN = lib.MXG_FACT_TOKEN
+    #: of a <propertyassign> or a <propertysetassign>
+    PROPERTY = lib.MXG_FACT_PROPERTY
+    #: the name is the vistype, "" for all; the value "true" or "false"
+    VISIBILITY = lib.MXG_FACT_VISIBILITY
+
+
+@dataclass(frozen=True)
+class Fact:
+    """What the document says of a primitive beside its layers."""
+
+    kind: FactKind
+    #: name, type and value as in the document
+    name: str
+    type: str
+    value: str
+    #: the renderer that a property is for; the geometry that sees a visibility; "": all
+    target: str
+    #: the primitive where it stands; None: the whole scene, "/"
+    source: Primitive | None
+    #: the place of the element
+    file: str
+    line: int
+
+
 class BindingsFormat(enum.IntEnum):
     """A form of `Bindings.text`."""
 
@@ -351,6 +382,18 @@ class Bindings(Native):
             assert values is not None
             source = self.scene._primitive(values.pop("from"))
             found.append(Layer(kind=LayerKind(values.pop("kind")), source=source, **values))
+        return tuple(found)
+
+    def facts(self, primitive: Primitive | str) -> tuple[Fact, ...]:
+        """Properties, tokens and visibility of a primitive: the strongest of each kind, name and target."""
+        number = self._number(primitive)
+        pointer = self._handle.pointer
+        found = []
+        for index in range(lib.mxg_bindings_num_facts(pointer, number)):
+            values = record("mxg_fact", lib.mxg_bindings_fact, pointer, number, index)
+            assert values is not None
+            source = self.scene._primitive(values.pop("from"))
+            found.append(Fact(kind=FactKind(values.pop("kind")), source=source, **values))
         return tuple(found)
 
     @property

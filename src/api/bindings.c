@@ -31,6 +31,8 @@ static void resolve(void *arg)
         return;
     bind_resolve(&result->bindings, doc, look, &result->scene->scene, &options, &object->arena,
                  &job->scratch, diags);
+    bind_facts(&result->facts, doc, look, &result->scene->scene, &object->arena, &job->scratch,
+               diags);
     if (!options.num_solo && !options.num_mute)
         bind_check_drives(&result->bindings, &result->document->layer, &job->scratch, diags);
     result->is_resolved = true;
@@ -58,6 +60,7 @@ mxg_status mxg_bind(mxg_context *context, const mxg_document *document, mxg_scen
     mxg_status status = object_run(&result->object, resolve, &job);
     arena_finish(&job.scratch);
     bindings_finish(&result->bindings);
+    bindings_finish(&result->facts);
     object_settle(&result->object);
     if (status != MXG_OK) {
         mxg_bindings_destroy(result);
@@ -157,6 +160,49 @@ size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t stack, cha
         return 0;
     bind_stack_name(&bindings->bindings, stack, name);
     return text_copy(name, strlen(name), buffer, capacity);
+}
+
+/* ---- Facts ---- */
+
+static const struct bind_state *facts_of(const mxg_bindings *bindings, uint32_t primitive)
+{
+    bool has_facts = state_of(bindings, primitive) && bindings->facts.states.len;
+    return has_facts ? bind_state_of(&bindings->facts, primitive + 1) : NULL;
+}
+
+uint32_t mxg_bindings_num_facts(const mxg_bindings *bindings, uint32_t primitive)
+{
+    const struct bind_state *state = facts_of(bindings, primitive);
+    return state ? state->num_items : 0;
+}
+
+mxg_status mxg_bindings_fact(const mxg_bindings *bindings, uint32_t primitive, uint32_t index,
+                             mxg_fact *out)
+{
+    _Static_assert((int)MXG_FACT_VISIBILITY == FACT_VISIBILITY, "facts have the same numbers");
+    if (index >= mxg_bindings_num_facts(bindings, primitive))
+        return MXG_ERROR_ARGUMENT;
+    const struct bindings *b = &bindings->facts;
+    const struct bind_item *item =
+        &b->items.items[facts_of(bindings, primitive)->first_item + index];
+    const struct document *doc = b->look.doc;
+    elem_id fact = b->look.assigns.items[item->assign].target;
+    bool is_visibility = bind_fact_kind(doc, fact) == FACT_VISIBILITY;
+    struct diag_place place = doc_place(doc, fact);
+    prim_id from = bind_prim_at(b, primitive + 1, item->level);
+    mxg_fact full = {
+        .kind = (mxg_fact_kind)bind_fact_kind(doc, fact),
+        .name = bind_fact_name(doc, fact),
+        .type =
+            is_visibility ? "boolean" : str_text(doc->strings, doc_attr_value(doc, fact, STR_type)),
+        .value = str_text(doc->strings,
+                          doc_attr_value(doc, fact, is_visibility ? STR_visible : STR_value)),
+        .target = bind_fact_target(doc, fact),
+        .from = from ? from - 1 : UINT32_MAX,
+        .file = place.file,
+        .line = place.line,
+    };
+    return struct_write(out, &full, sizeof full);
 }
 
 /* ---- Texts ---- */

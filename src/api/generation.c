@@ -109,6 +109,10 @@ static void set_build_options(struct generation *g)
         .integrator = o[OPTION_integrator].number != 0,
         .stored = g->stored != CLASS_EMPTY,
         .marks_slabs = generation_stores(g),
+        .mattes = o[OPTION_mattes].number != 0,
+        .occlusion = o[OPTION_integrator].number == 2      ? OCCLUSION_TRACED
+                     : g->result->target->closures != NULL ? OCCLUSION_PRIMVAR
+                                                           : o[OPTION_ambient_occlusion].number,
         .vertex_stage =
             (caps & CAP_VERTEX_STAGE) && !shader_is_called(&g->result->shader) && !g->stored,
         .codes = context->codes,
@@ -273,6 +277,9 @@ bool generation_build(struct generation *g)
     g->builder =
         build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
     build_know_slabs(g->builder);
+    if (g->options[OPTION_aovs].list.len)
+        build_list_aovs(g->builder, g->options[OPTION_aovs].list.items,
+                        g->options[OPTION_aovs].list.len);
     if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
     g->root = g->desc.bindings ? build_stack(g->builder, &g->desc.bindings->bindings, g->desc.stack)
@@ -371,7 +378,8 @@ static void report_closure_aovs(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
     for (uint32_t i = 0; i < shader->aovs.len; i++)
-        if (shader->aovs.items[i].is_output && shader->aovs.items[i].type == IR_TYPE_BSDF)
+        if (shader->aovs.items[i].is_output && shader->aovs.items[i].element
+            && shader->aovs.items[i].type == IR_TYPE_BSDF)
             diag_add(diags_of(g), DIAG_ID_aov_left_out,
                      doc_place(&g->document->layer.doc, shader->aovs.items[i].element),
                      str_text(shader->strings, shader->aovs.items[i].name),
@@ -458,13 +466,13 @@ static bool check_outputs(struct generation *g)
     if (!shader->aovs.len || shader->scatters || g->result->target->closures || num <= limit)
         return true;
     text_init(&list, &g->scratch);
-    uint32_t last = 0;
+    uint32_t last = g->element;
     for (uint32_t i = 0; i < shader->aovs.len; i++) {
         if (!shader->aovs.items[i].is_output)
             continue;
         text_fmt(&list, "%s'%s'", list.len ? ", " : "",
                  str_text(shader->strings, shader->aovs.items[i].name));
-        last = shader->aovs.items[i].element;
+        last = shader->aovs.items[i].element ? shader->aovs.items[i].element : last;
     }
     diag_add(diags_of(g), DIAG_ID_aov_limit, doc_place(&g->document->layer.doc, last),
              (unsigned)num, (unsigned)limit, text_cstr(&list));

@@ -41,8 +41,8 @@ struct mxg_result {
     struct network network;  /* option `network`: replaces `shader`; arena NULL: no network */
     VEC(const char *) files; /* files read during the generation */
     const char *
-        *origin_paths;        /* paths by origin of the graph; filled on demand during generation */
-    uint64_t options;         /* a hash of the options */
+        *origin_paths; /* paths by origin of the graph; filled on demand during generation */
+    uint64_t options;  /* a hash of the options */
     struct deferred_layout storage; /* of a material that stores, and of a pass */
     bool is_pass;
     enum deferred_pass pass;

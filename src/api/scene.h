@@ -16,7 +16,7 @@ struct mxg_bindings {
     struct object object; /* keeps the document alive */
     mxg_scene *scene;
     const mxg_document *document;
-    struct bindings bindings;
+    struct bindings bindings, facts;
     bool is_resolved; /* a look was found */
 };
 

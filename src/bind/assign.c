@@ -15,9 +15,8 @@ static const char *category_of(const struct bind_look *look, elem_id element)
 
 /* ---- Names ---- */
 
-/* The number of a name; adds it. */
-static uint32_t intern_name(struct bind_look *look, const struct slot_name *name, const char *text,
-                            size_t len)
+uint32_t look_intern_name(struct bind_look *look, const struct slot_name *name, const char *text,
+                          size_t len)
 {
     uint32_t hash = hash_bytes(text, len);
     for (uint32_t at = hash, found; (found = table_next(&look->name_table, hash, &at));)
@@ -229,7 +228,7 @@ void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal)
     /* last, because the matcher names the assignment */
     if (!read_place(look, &assign))
         return;
-    assign.name = intern_name(look, &name, text, strlen(text));
+    assign.name = look_intern_name(look, &name, text, strlen(text));
     vec_push(look->arena, &look->assigns, assign);
 }
 
@@ -309,7 +308,7 @@ void look_read_binding(struct bind_look *look, uint32_t number)
         assign.collection = add_usd_collection(look, binding);
     else
         match_prim(look, add_matcher(look, look->assigns.len, MATCHER_ASSIGN), binding->prim);
-    assign.name = intern_name(look, &name, text, strlen(text));
+    assign.name = look_intern_name(look, &name, text, strlen(text));
     vec_push(look->arena, &look->assigns, assign);
 }
 

@@ -121,6 +121,30 @@ struct variant_list {
 void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *arena,
                    struct variant_list *out);
 
+/*
+ * resolve.c: fills the states of all primitives from b->look, without layers. The arena of b keeps
+ * them.
+ */
+void bind_find_states(struct bindings *b, struct arena *scratch);
+
+/* ---- facts.c: geometric properties, tokens, properties, visibility ---- */
+
+enum bind_fact_kind { FACT_GEOMPROP, FACT_TOKEN, FACT_PROPERTY, FACT_VISIBILITY, NUM_FACTS };
+extern const char *const bind_fact_words[NUM_FACTS];
+/*
+ * Bindings of facts instead of layers: the items of a state are the facts of its primitives, each
+ * an assignment whose target is the element of the fact. Without facts there are no states. Call
+ * bindings_finish in the end.
+ */
+void bind_facts(struct bindings *b, const struct document *doc, elem_id look,
+                const struct scene *scene, struct arena *arena, struct arena *scratch,
+                struct diag_list *diags);
+enum bind_fact_kind bind_fact_kind(const struct document *doc, elem_id fact);
+/* Its name; the vistype of a visibility. */
+const char *bind_fact_name(const struct document *doc, elem_id fact);
+/* The renderer that a property is for; the viewers of a visibility; "" for all. */
+const char *bind_fact_target(const struct document *doc, elem_id fact);
+
 /* ---- explain.c, report.c ---- */
 
 /* "stack_8a5f7a0f9c2f6f0e" and a NUL */

@@ -176,11 +176,25 @@ static void find_parents(struct bind_look *look, struct chain *chain)
     }
 }
 
-static void init_look(struct bind_look *look, const struct document *doc, elem_id element,
-                      struct arena *arena, struct diag_list *diags)
+void look_begin(struct bind_look *look, const struct document *doc, elem_id element,
+                const struct scene *scene, struct arena *arena, struct diag_list *diags)
 {
-    *look = (struct bind_look){.doc = doc, .arena = arena, .diags = diags, .element = element};
+    *look = (struct bind_look){
+        .doc = doc, .arena = arena, .diags = diags, .element = element, .scene = scene};
     pattern_set_init(&look->patterns, arena);
+}
+
+void look_each_ancestor(struct bind_look *look,
+                        void (*visit)(struct bind_look *look, elem_id element))
+{
+    struct chain chain = {0};
+    struct diag_list ignored, *diags = look->diags; /* look_read reports them */
+    diag_list_init(&ignored, look->arena);
+    look->diags = &ignored;
+    find_parents(look, &chain);
+    look->diags = diags;
+    for (uint32_t i = chain.len; i-- > 0;)
+        visit(look, chain.items[i]);
 }
 
 static void read_variants(struct bind_look *look, elem_id parent)
@@ -204,8 +218,7 @@ void look_read(struct bind_look *look, const struct document *doc, elem_id eleme
                const struct scene *scene, struct arena *arena, struct diag_list *diags)
 {
     struct chain chain = {0};
-    init_look(look, doc, element, arena, diags);
-    look->scene = scene;
+    look_begin(look, doc, element, scene, arena, diags);
     for (uint32_t i = 0; i < scene->bindings.len; i++)
         look_read_binding(look, i);
     find_parents(look, &chain);

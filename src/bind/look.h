@@ -107,6 +107,15 @@ void look_read(struct bind_look *look, const struct document *doc, elem_id eleme
                const struct scene *scene, struct arena *arena, struct diag_list *diags);
 void look_finish(struct bind_look *look);
 
+/*
+ * The same in parts, for what stands at paths beside materials: begins with an empty look; visits
+ * it and its parents, the parents first.
+ */
+void look_begin(struct bind_look *look, const struct document *doc, elem_id element,
+                const struct scene *scene, struct arena *arena, struct diag_list *diags);
+void look_each_ancestor(struct bind_look *look,
+                        void (*visit)(struct bind_look *look, elem_id element));
+
 /* ---- describe.c ---- */
 
 /* "day/dust", "day/#3" if it has no name; "/set.material:binding" of a scene. */
@@ -132,7 +141,10 @@ static inline bool look_contains(const struct bind_look *look, uint32_t outer, u
 
 /* ---- Shared by the files of the room that read a look ---- */
 
-/* assign.c: reads one <materialassign>, and one <variantassign>. */
+/* assign.c: the number of a name; adds it. Keeps `text`. */
+uint32_t look_intern_name(struct bind_look *look, const struct slot_name *name, const char *text,
+                          size_t len);
+/* Reads one <materialassign>, and one <variantassign>. */
 void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal);
 void look_read_variant(struct bind_look *look, elem_id element);
 void look_read_binding(struct bind_look *look, uint32_t binding);

@@ -139,6 +139,21 @@ static void walk_scene(struct resolver *r)
     }
 }
 
+static void find_states(struct resolver *r)
+{
+    struct bindings *b = r->b;
+    b->state_of = ARENA_ARRAY(b->arena, uint32_t, b->scene->prims.len);
+    vec_push(r->scratch, &r->steps, (struct step){0});
+    pattern_walk_init(&r->walk, &b->look.patterns, r->scratch);
+    walk_scene(r);
+}
+
+void bind_find_states(struct bindings *b, struct arena *scratch)
+{
+    struct resolver r = {.b = b, .scratch = scratch};
+    find_states(&r);
+}
+
 /* ---- Solo and mute ---- */
 
 static bool is_part_of(const struct look_name *name, const struct slot_name *whole)
@@ -282,10 +297,7 @@ void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
     struct resolver r = {.b = b, .scratch = scratch, .diags = diags};
     look_read(&b->look, doc, look, scene, arena, diags);
     mute_names(&r, options);
-    b->state_of = ARENA_ARRAY(arena, uint32_t, scene->prims.len);
-    vec_push(scratch, &r.steps, (struct step){0});
-    pattern_walk_init(&r.walk, &b->look.patterns, scratch);
-    walk_scene(&r);
+    find_states(&r);
     make_layers(&r);
     warn(&r);
 }

@@ -39,9 +39,15 @@ static str_id name_from(mxg_build *build, const char *input)
     return 0;
 }
 
+static str_id output_type(const mxg_build *build)
+{
+    return library_type_name(build->b->lib, build->ports[build->def->num_inputs].type);
+}
+
 static void note(mxg_build *build, str_id name, str_id source, ir_ref value)
 {
-    struct aov_use use = {build->frame->scope, build->frame->node.element, name, source, value};
+    struct aov_use use = {
+        build->frame->scope, build->frame->node.element, name, output_type(build), source, value};
     vec_push(build->b->arena, &build->b->aovs, use);
 }
 
@@ -54,11 +60,6 @@ bool dynamic_aov(void *user_data, mxg_build *build, mxg_ref *results)
     results[0] = mxg_build_input(build, "value");
     note(build, name, 0, dynamic_arg(build, STR_value));
     return true;
-}
-
-static str_id output_type(const mxg_build *build)
-{
-    return library_type_name(build->b->lib, build->ports[build->def->num_inputs].type);
 }
 
 static void report_unknown(mxg_build *build, ir_ref shader, str_id source)
@@ -158,24 +159,35 @@ static ir_ref without_value(struct builder *b, ir_ref surface, uint32_t aov, ir_
     return inner;
 }
 
+static void report_types(struct builder *b, const struct aov_use *use, const struct shader_aov *aov)
+{
+    diag_add(b->diags, DIAG_ID_aov_types, doc_place(build_doc(b), use->node),
+             build_text(b, use->name), build_text(b, use->type), build_text(b, aov->doc_type));
+    if (aov->element)
+        diag_add(b->diags, DIAG_ID_previous_definition, doc_place(build_doc(b), aov->element));
+}
+
 /* The number of an AOV in the shader; UINT32_MAX after a report: it has another type already. */
 static uint32_t number_of(struct builder *b, const struct aov_use *use)
 {
     struct shader *shader = b->shader;
-    str_id type = doc_attr_value(build_doc(b), use->node, STR_type);
     for (uint32_t i = 0; i < shader->aovs.len; i++) {
-        const struct shader_aov *aov = &shader->aovs.items[i];
+        struct shader_aov *aov = &shader->aovs.items[i];
         if (aov->name != use->name)
             continue;
-        if (aov->doc_type == type)
-            return i;
-        diag_add(b->diags, DIAG_ID_aov_types, doc_place(build_doc(b), use->node),
-                 build_text(b, use->name), build_text(b, type), build_text(b, aov->doc_type));
-        diag_add(b->diags, DIAG_ID_previous_definition, doc_place(build_doc(b), aov->element));
-        return UINT32_MAX;
+        if (aov->doc_type != use->type) {
+            report_types(b, use, aov);
+            return UINT32_MAX;
+        }
+        if (!aov->element)
+            aov->element = use->node;
+        return i;
     }
     vec_push(b->arena, &shader->aovs,
-             (struct shader_aov){use->name, type, ir_type_of(b->graph, use->value), use->node});
+             (struct shader_aov){.name = use->name,
+                                 .doc_type = use->type,
+                                 .type = ir_type_of(b->graph, use->value),
+                                 .element = use->node});
     return shader->aovs.len - 1;
 }
 
@@ -237,4 +249,39 @@ void build_finish_graph_aovs(struct builder *b, const struct frame *frame, ir_re
     for (uint32_t i = 0; i < num && !any; i++)
         build_leave_out_aov(b, &uses[i], "its definition gives no surface or material");
     b->aovs.len = frame->first_aov;
+}
+
+/* ---- The list of the options ---- */
+
+static bool can_be_aov(ir_type_id type)
+{
+    return type == IR_TYPE_BOOL || type == IR_TYPE_INT || type == IR_TYPE_BSDF
+           || type == IR_TYPE_EDF || (ir_type_is_float(type) && !ir_type_is_matrix(type));
+}
+
+void build_list_aovs(struct builder *b, const char *const *items, uint32_t num)
+{
+    struct shader *shader = b->shader;
+    const struct diag_place nowhere = {0};
+    shader->lists_aovs = true;
+    for (uint32_t i = 0; i < num; i++) {
+        if (strcmp(items[i], "none") == 0) {
+            shader->aovs.len = 0;
+            continue;
+        }
+        const char *equals = strrchr(items[i], '=');
+        size_t len = equals ? (size_t)(equals - items[i]) : 0;
+        str_id word = equals ? str_intern_z(shader->strings, equals + 1) : 0;
+        doc_type type = word ? library_type(b->lib, word) : DOC_TYPE_NONE;
+        ir_type_id of_graph = type ? library_type_ir(b->lib, type) : IR_TYPE_VOID;
+        if (!len || !can_be_aov(of_graph)) {
+            diag_add(b->diags, DIAG_ID_bad_option, nowhere, items[i], "aovs",
+                     "NAME=TYPE with the type of an AOV, such as dirt=color3, or none");
+            return;
+        }
+        struct shader_aov aov = {
+            .name = str_intern(shader->strings, items[i], len), .doc_type = word, .type = of_graph};
+        vec_push(b->arena, &shader->aovs, aov);
+    }
+    shader->num_listed_aovs = shader->aovs.len;
 }

@@ -17,6 +17,9 @@
 /* The inputs that become uniforms: the option `interface`. */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
 
+/* Where <ambientocclusion> comes from: the option `ambient-occlusion`, or the path tracer. */
+enum build_occlusion { OCCLUSION_MAP, OCCLUSION_PRIMVAR, OCCLUSION_NONE, OCCLUSION_TRACED };
+
 enum { TEXTURE_MODES_BUT_BORDERS = 3 }; /* libraries/stdlib/image.glsl lists all values */
 
 struct mxg_node_code; /* mxgen/node.h */
@@ -61,6 +64,8 @@ struct build_options {
     int integrator;
     int stored;        /* closures come from storage: the lighting of the deferred pipeline */
     bool marks_slabs;  /* a slab_mark_bsdf lies on each slab, for src/deferred */
+    bool mattes;       /* each layer of a stack has an AOV of its own */
+    int occlusion;     /* enum build_occlusion */
     bool vertex_stage; /* the shader has one, which can compute values for the pixels */
     const struct mxg_node_code *codes; /* nodes in C: code.h */
     uint32_t num_codes;
@@ -105,6 +110,12 @@ bool build_network_results(struct builder *builder, ir_ref root, str_id type);
 void build_network_node(struct builder *builder, struct network_node *node, ir_ref *results);
 str_id build_network_output(struct builder *builder, const struct network_node *node,
                             uint32_t index, str_id *out_type);
+
+/*
+ * aov.c: before build_element: the AOVs that become outputs, in this order, whether the element has
+ * them or not: "NAME=TYPE"; "none" drops the items before it.
+ */
+void build_list_aovs(struct builder *builder, const char *const *items, uint32_t num_items);
 
 /* True if builder->options->cancel stopped the work. */
 bool build_cancelled(const struct builder *builder);

@@ -60,7 +60,7 @@ struct memo {
 struct aov_use {
     const struct instance *scope;
     elem_id node;
-    str_id name;
+    str_id name, type;
     str_id source; /* of an <aovpass>: the name in the shader, 0: none */
     ir_ref value;
 };
@@ -114,6 +114,7 @@ struct builder {
     VEC(struct aov_use) aovs;    /* of the scopes that are in work, and of the layer */
     VEC(elem_id) aov_graphs;     /* the nodegraphs of the layer's overrides; a later one wins */
     struct aov_nodes *aov_nodes; /* of the document; NULL: not yet collected */
+    unsigned num_occlusions;     /* streams occlusion_0… of path tracers */
     str_id slot; /* the name of the layer that is built, for names of variables; 0 */
     /* code.h */
     VEC(struct code_value) code_values;

@@ -72,6 +72,20 @@ static void begin_layer(struct builder *b, const char *slot, const struct librar
     publish_drives(b, drives);
 }
 
+/* The AOV "matte.050": 1 in this layer. */
+static void add_matte(struct builder *b, elem_id node, ir_ref *material)
+{
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "matte.%s", build_text(b, b->slot));
+    struct aov_use use = {.scope = b->document,
+                          .node = node,
+                          .name = str_intern(b->shader->strings, name.data, name.len),
+                          .type = STR_float,
+                          .value = number(b, 1.0f)};
+    build_add_aov(b, &use, material);
+}
+
 static ir_ref build_layer(struct builder *b, const struct bindings *bindings,
                           const struct bind_item *items, uint32_t num)
 {
@@ -84,6 +98,8 @@ static ir_ref build_layer(struct builder *b, const struct bindings *bindings,
     note_override_graphs(b, bindings, items, num);
     ir_push_name(b->graph, b->slot);
     ir_ref material = node ? build_element(b, node, 0) : 0;
+    if (material && b->options->mattes)
+        add_matte(b, node, &material);
     material = with_virtual_inputs(b, node, material);
     ir_pop_origin(b->graph);
     b->resolved.drives = NULL;

@@ -17,7 +17,9 @@ static bool is_whole(const struct ir_graph *g, ir_ref value)
 void closure_find_aovs(struct shader *shader, ir_ref root)
 {
     const struct ir_graph *g = shader->graph;
-    if (!root || !shader->aovs.len)
+    for (uint32_t i = 0; i < shader->num_listed_aovs; i++)
+        shader->aovs.items[i].is_output = true;
+    if (!root || !shader->aovs.len || shader->lists_aovs)
         return;
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++)

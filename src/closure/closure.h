@@ -159,13 +159,17 @@ struct closure_surface {
     bool is_matter;     /* and alpha is what the throughput of the bsdf says */
     struct closure_aovs aovs;
 };
-/* aov.c: finds the AOVs of the surfaces of a root, which become outputs; the others do not. */
+/*
+ * aov.c: finds the AOVs that become outputs: those that the options list, else those of the
+ * surfaces of a root.
+ */
 void closure_find_aovs(struct shader *shader, ir_ref root);
 /* Closures and numbers times a factor; the operand stays. */
 struct closure_aovs closure_aovs_scaled(struct ir_graph *graph, struct closure_aovs aovs,
                                         ir_ref factor);
-/* The variable of the output of an AOV; closures are vec3, booleans int. */
+/* The variable of the output of an AOV, of a type that the caller chooses. */
 uint32_t closure_aov_output(struct shader *shader, uint32_t index, ir_type_id type);
+/* The type of its value: the light of a closure is vec3, and a boolean is int. */
 ir_type_id closure_aov_type(const struct shader *shader, uint32_t index);
 /* The value, of closure_aov_type: the light of a closure; 0: absent. */
 ir_ref closure_aov_value(struct shader *shader, uint32_t index, ir_ref value);
@@ -238,6 +242,9 @@ bool closure_has(const struct shader *shader, const struct closure_host *host, i
 
 /* Unit direction to the viewer. */
 ir_ref closure_view(struct shader *shader, const struct closure_host *host);
+
+/* occlusion.c: the part of the environment's light that reaches the point, by the host's map. */
+ir_ref closure_occlusion(struct shader *shader, bool flips_v);
 
 /* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
 ir_ref closure_offset(struct shader *shader, ir_ref displacement);

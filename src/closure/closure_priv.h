@@ -23,9 +23,8 @@ bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root);
  */
 ir_ref closure_through(struct shader *shader, const struct closure_host *host, ir_ref leaf);
 
-/* occlusion.c: the part of the environment's light that reaches the point, by the host's map. */
-ir_ref closure_occlusion(struct shader *shader, bool flips_v);
-/* The part of the first light that reaches the shaded point, by the host's shadow map. */
+/* occlusion.c: the part of the first light that reaches the shaded point, by the host's shadow map.
+ */
 ir_ref closure_shadow(struct shader *shader, const struct closure_host *host);
 
 /* describe.c: writes the weight of a leaf as an expression, with the names of inputs and nodes. */

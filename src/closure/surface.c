@@ -470,15 +470,36 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
     return s->alpha ? ir_op2(g, IR_MUL, s->alpha, rest) : rest;
 }
 
-/* AOVs have the alpha that the colour has. */
-static void write_aovs(struct emitter *e, struct closure_aovs aovs, ir_ref alpha)
+/*
+ * A value as an output: behind up to three numbers stands the alpha of the surface, so that hosts
+ * can blend it as they blend the colour. A float is grey, as a colour is.
+ */
+static ir_ref with_alpha(struct emitter *e, ir_ref value, ir_ref alpha)
 {
-    if (alpha)
-        aovs = closure_aovs_scaled(e->graph, aovs, alpha);
-    for (uint32_t i = 0; i < aovs.num; i++) {
+    struct ir_graph *g = e->graph;
+    ir_type_id type = ir_type_of(g, value);
+    ir_ref parts[3] = {value, alpha, 0};
+    if (type == IR_TYPE_INT || type == IR_TYPE_VEC4)
+        return value;
+    if (type == IR_TYPE_FLOAT)
+        parts[0] = ir_convert(g, IR_TYPE_VEC3, value);
+    if (type == IR_TYPE_VEC2) {
+        parts[1] = ir_const_float(g, 0.0f);
+        parts[2] = alpha;
+    }
+    return ir_construct(g, IR_TYPE_VEC4, parts, parts[2] ? 3 : 2);
+}
+
+/* scale: what the colour is multiplied by; 0: 1. alpha: of the output. */
+static void write_aovs(struct emitter *e, struct closure_aovs aovs, ir_ref scale, ir_ref alpha)
+{
+    if (scale)
+        aovs = closure_aovs_scaled(e->graph, aovs, scale);
+    for (uint32_t i = 0; i < e->shader->aovs.len; i++) {
         if (!e->shader->aovs.items[i].is_output)
             continue;
-        ir_ref value = closure_aov_value(e->shader, i, aovs.items[i].value);
+        ir_ref value = closure_aov_value(e->shader, i, aovs.num ? aovs.items[i].value : 0);
+        value = with_alpha(e, value, alpha);
         effect(e, EFFECT_OUTPUT, closure_aov_output(e->shader, i, ir_type_of(e->graph, value)),
                value);
     }
@@ -496,7 +517,7 @@ static void finish_surface(struct emitter *e, const struct closure_surface *s)
     ir_ref alpha = output_alpha(e, s), one = ir_const_float(e->graph, 1.0f);
     if (draws_all(e, alpha)) {
         write_surface(e, final_color(e), one);
-        write_aovs(e, s->aovs, 0);
+        write_aovs(e, s->aovs, 0, one);
         return;
     }
     alpha = alpha ? alpha : one;
@@ -506,8 +527,9 @@ static void finish_surface(struct emitter *e, const struct closure_surface *s)
     bool has_alpha = !s->alpha || s->premultiplied || e->host->keeps_color;
     if (!has_alpha)
         color = ir_op2(e->graph, IR_MUL, color, s->alpha);
-    write_surface(e, color, e->host->keeps_color ? one : alpha);
-    write_aovs(e, s->aovs, has_alpha ? 0 : s->alpha);
+    alpha = e->host->keeps_color ? one : alpha;
+    write_surface(e, color, alpha);
+    write_aovs(e, s->aovs, has_alpha ? 0 : s->alpha, alpha);
 }
 
 /* Finds the parts under lights and environment. Returns which leaves contribute there. */
@@ -577,6 +599,11 @@ static void light_aov(struct emitter *e, ir_ref closure)
     e->through = through;
 }
 
+static bool is_output(const struct emitter *e, uint32_t aov)
+{
+    return e->shader->aovs.items[aov].is_output;
+}
+
 static bool is_closure(const struct emitter *e, ir_ref value)
 {
     return value && ir_type_is_closure(ir_type_of(e->graph, value));
@@ -586,7 +613,7 @@ static bool is_closure(const struct emitter *e, ir_ref value)
 static void light_aovs(struct emitter *e, struct closure_aovs aovs)
 {
     for (uint32_t i = 0; i < aovs.num; i++) {
-        if (!is_closure(e, aovs.items[i].value))
+        if (!is_closure(e, aovs.items[i].value) || !is_output(e, i))
             continue;
         struct closure_lit surface = e->lit;
         e->lit = (struct closure_lit){.color = UINT32_MAX};
@@ -602,6 +629,8 @@ static uint32_t *declare_aovs(struct emitter *e)
     uint32_t num = e->shader->aovs.len;
     uint32_t *locals = ARENA_ARRAY(e->shader->arena, uint32_t, num);
     for (uint32_t i = 0; i < num; i++) {
+        if (!is_output(e, i))
+            continue;
         locals[i] = shader_add_local(e->shader, e->shader->aovs.items[i].name,
                                      closure_aov_type(e->shader, i));
         effect(e, EFFECT_VAR, locals[i], closure_aov_value(e->shader, i, 0));
@@ -612,7 +641,7 @@ static uint32_t *declare_aovs(struct emitter *e)
 static void keep_aovs(struct emitter *e, struct closure_aovs aovs, const uint32_t *locals)
 {
     for (uint32_t i = 0; i < aovs.num; i++) {
-        ir_ref value = aovs.items[i].value;
+        ir_ref value = is_output(e, i) ? aovs.items[i].value : 0;
         if (is_closure(e, value)) {
             e->lit = (struct closure_lit){.color = locals[i]};
             light_aov(e, value);
@@ -628,8 +657,9 @@ static struct closure_aovs read_aovs(struct emitter *e, const uint32_t *locals)
 {
     struct closure_aovs aovs = closure_aovs_of(e->shader);
     for (uint32_t i = 0; i < aovs.num; i++)
-        aovs.items[i].value =
-            ir_build(e->graph, IR_LOCAL, closure_aov_type(e->shader, i), locals[i], NULL, 0);
+        if (is_output(e, i))
+            aovs.items[i].value =
+                ir_build(e->graph, IR_LOCAL, closure_aov_type(e->shader, i), locals[i], NULL, 0);
     return aovs;
 }
 

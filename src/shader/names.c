@@ -86,8 +86,7 @@ static uint32_t take(struct name_set *names, const char *text, size_t len, bool 
     struct name_entry fresh = {text, (uint32_t)len, names->scope, 2};
     *out_new = !found || is_over(names, &names->entries.items[found - 1]);
     uint32_t index = found ? found - 1 : names->entries.len;
-    bool is_kept =
-        found && names->entries.items[index].next == KEPT && names->scope == 0;
+    bool is_kept = found && names->entries.items[index].next == KEPT && names->scope == 0;
     if (!found) {
         vec_push(names->arena, &names->entries, fresh);
         table_add(&names->table, names->arena, hash, names->entries.len);

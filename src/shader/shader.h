@@ -50,8 +50,8 @@ struct shader_sampling {
 struct shader_aov {
     str_id name, doc_type; /* "dirt", "color3"; a BSDF or EDF is its light */
     ir_type_id type;       /* of its values */
-    uint32_t element;      /* of the document: the first node that has it */
-    bool is_output;        /* the root has it: closure_find_aovs */
+    uint32_t element;      /* of the document: the first node that has it; 0: none yet */
+    bool is_output;        /* closure_find_aovs */
 };
 
 /* A tile: one of several files of an image, which covers a unit square of texture coordinates. */
@@ -249,6 +249,9 @@ struct shader {
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;
     VEC(struct shader_aov) aovs; /* IR_AOV has an index in it */
+    /* the options list the outputs: the first ones; otherwise all that the root has */
+    bool lists_aovs;
+    uint32_t num_listed_aovs;
     VEC(struct shader_compiled_input) compiled;
     VEC(struct shader_local) locals;
     VEC(struct shader_light) lights;

@@ -129,8 +129,8 @@ def height(layers):
 
 
 def expected(layers):
-    """The premultiplied colour and the alpha of the layers, base first (rules, section 3)."""
-    color, through, shape = [0.0, 0.0, 0.0], 1.0, 1.0
+    """The premultiplied colour and the alpha of the layers, base first (rules, section 3), and the weight of each: its matte."""
+    color, through, shape, mattes = [0.0, 0.0, 0.0], 1.0, 1.0, {}
     for layer in layers:
         shape *= clamp(1.0 if layer.cutout is None else layer.cutout)
     for layer in reversed(layers):
@@ -138,8 +138,9 @@ def expected(layers):
             continue
         weight = layer.presence() * through
         through *= 1.0 - layer.presence()
+        mattes[f"aov_matte_{layer.slot}"] = shape * weight
         color = [c + shape * weight * own for c, own in zip(color, layer.color)]
-    return color + [shape * (1.0 - through)]
+    return color + [shape * (1.0 - through)], mattes
 
 
 # ---- Shaders in Python ----
@@ -205,9 +206,16 @@ def close_of(text, at):
 def assignment(text):
     if text == "discard;":
         return "discarded = True"
-    name, sign, value = re.match(r"([\w.]+) (\+?)= (.*);", text).groups()
+    parts = re.match(r"([\w.]+) (\+?)= (.*);", text)
+    assert parts, text
+    name, sign, value = parts.groups()
     value = re.sub(r"^(.+?) \? (.+?) : (.+)$", r"(\2) if (\1) else (\3)", value)
     return f"{name} = {name + ' + ' if sign else ''}{value}"
+
+
+def mattes_of(source):
+    """The AOVs of --mattes, in the order of their locations."""
+    return re.findall(r"out vec4 (aov_matte_\w+);", source)
 
 
 def as_python(source):
@@ -222,7 +230,7 @@ def as_python(source):
         text = re.sub(r"u_layerSample < 0\.0 \? [^:]* : u_layerSample", "u_layerSample", text)
         if text.startswith("uint ") or ">>" in text:
             continue  # the hash, which the host's number replaces
-        text = re.sub(r"^(?:u?int|float|bool|vec\d) (?=\w+ =)", "", text)
+        text = re.sub(r"^(?:const )?(?:u?int|float|bool|vec\d) (?=\w+ =)", "", text)
         text = text.replace("&&", " and ").replace("||", " or ")
         if text.startswith("if"):
             end = close_of(text, text.index("("))
@@ -234,7 +242,9 @@ def as_python(source):
             depth -= 1
             continue
         out.append("    " * depth + assignment(text))
-    out.append("    return gl_Position" if "gl_Position" in body else "    return Vec((0.0,) * 4) if discarded else out1")
+    mattes = mattes_of(source)
+    values = " + ".join(["tuple(out1)"] + [f"({matte}[0],)" for matte in mattes])
+    out.append("    return gl_Position" if "gl_Position" in body else f"    return Vec((0.0,) * {4 + len(mattes)}) if discarded else Vec({values})")
     return "\n".join(out)
 
 
@@ -249,7 +259,7 @@ def run(source, values, number):
 
 def generate(folder, mode, interface):
     subprocess.run([MXGEN, "look.mtlx", "--stage", "stage.txt", "--target", "glsl", "--environment", "none", "--lights", "none", "--interface", interface, "-q",
-                    "-o", mode] + MODES[mode], cwd=folder, check=True)
+                    "--mattes", "-o", mode] + MODES[mode], cwd=folder, check=True)
     bindings = json.loads((folder / mode / "bindings.json").read_text())
     stacks = {s["name"]: s for s in bindings["stacks"]}
     stack = stacks[next(p["stack"] for p in bindings["primitives"] if p["path"] == "/a/b")]
@@ -258,18 +268,21 @@ def generate(folder, mode, interface):
 
 
 def is_near(a, b, tolerance):
-    return all(abs(x - y) <= tolerance for x, y in zip(a, b))
+    return len(a) == len(b) and all(abs(x - y) <= tolerance for x, y in zip(a, b))
 
 
-def test_pixel(what, folder, interface, want):
+def test_pixel(what, folder, interface, want, mattes):
     sources, values = generate(folder, "blend", interface)
+    check(set(mattes_of(sources["frag"])) == set(mattes), f"{what}: {mattes_of(sources['frag'])} instead of {list(mattes)}")
+    want = want + [mattes[matte] for matte in mattes_of(sources["frag"])]
     got = run(sources["frag"], values, 0.0)
     check(is_near(got, want, 1e-5), f"{what}: blend gives {list(got)} instead of {want}")
     sources, values = generate(folder, "stochastic", interface)
     picks = run(sources["frag"], values, [(i + 0.5) / SAMPLES for i in range(SAMPLES)])
-    mean = [sum(p[i] for p in picks) / SAMPLES for i in range(4)]
+    mean = [sum(p[i] for p in picks) / SAMPLES for i in range(len(want))]
     check(is_near(mean, want, 1e-3), f"{what}: the mean of stochastic is {mean} instead of {want}")
     check(all(abs(p[3] - round(p[3])) < 1e-6 for p in picks), f"{what}: a layer is picked or none")
+    check(all(abs(sum(p[4:]) - p[3]) < 1e-6 for p in picks), f"{what}: exactly one layer runs where one is picked")
 
 
 def test_vertex(what, folder, interface, want):
@@ -296,13 +309,14 @@ def test(seed, folder):
     if theme == "normals":
         for layer, normal in zip(here, normals(here)):
             layer.color = normal
-    want = expected(here)
+    want, mattes = expected(here)
     what = f"seed {seed}, {theme}, {interface}"
+    check(min(mattes.values(), default=0) >= 0 and abs(sum(mattes.values()) - want[3]) < 1e-9, f"{what}: the weights are the alpha")
     check(0 <= want[3] <= 1 + 1e-9 and (theme == "normals" or min(want) >= 0), f"{what}: weights are 0 to 1")
     if theme == "displacements":
         test_vertex(what, folder, interface, height(here))
     else:
-        test_pixel(what, folder, interface, want)
+        test_pixel(what, folder, interface, want, mattes)
 
 
 with tempfile.TemporaryDirectory() as name:

@@ -25,14 +25,14 @@ in VertexData {
     vec2 texcoord_0;
 } vd;
 layout(location = 0) out vec4 out1;
-layout(location = 1) out vec3 aov_diffuse;
-layout(location = 2) out vec3 aov_glow;
-layout(location = 3) out vec3 aov_base_albedo;
-layout(location = 4) out vec2 aov_uv;
+layout(location = 1) out vec4 aov_diffuse;
+layout(location = 2) out vec4 aov_glow;
+layout(location = 3) out vec4 aov_base_albedo;
+layout(location = 4) out vec4 aov_uv;
 layout(location = 5) out vec4 aov_weights;
 layout(location = 6) out int aov_is_paint;
 layout(location = 7) out int aov_id;
-layout(location = 8) out vec3 aov_normal;
+layout(location = 8) out vec4 aov_normal;
 
 // The point of the picture for a unit direction in it.
 vec2 mx_map_point(const vec3 d)
@@ -112,12 +112,12 @@ void main()
     if (0.5 < u_alphaThreshold)
         discard;
     out1 = vec4(color * 0.5, 0.5);
-    aov_diffuse = color_2 * 0.5;
-    aov_glow = vec3(0.05, 0.1, 0.15);
-    aov_base_albedo = vec3(0.4, 0.05, 0.05);
-    aov_uv = vd.texcoord_0 * 0.5;
+    aov_diffuse = vec4(color_2 * 0.5, 0.5);
+    aov_glow = vec4(0.05, 0.1, 0.15, 0.5);
+    aov_base_albedo = vec4(0.4, 0.05, 0.05, 0.5);
+    aov_uv = vec4(vd.texcoord_0 * 0.5, 0.0, 0.5);
     aov_weights = vec4(0.05, 0.1, 0.15, 0.2);
     aov_is_paint = 1;
     aov_id = 7;
-    aov_normal = normalize(vd.normalObject) * 0.5;
+    aov_normal = vec4(normalize(vd.normalObject) * 0.5, 0.5);
 }

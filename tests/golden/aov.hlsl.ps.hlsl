@@ -35,14 +35,14 @@ struct VertexData {
 void main(
     VertexData vd,
     out float4 out1 : SV_Target0,
-    out float3 aov_diffuse : SV_Target1,
-    out float3 aov_glow : SV_Target2,
-    out float3 aov_base_albedo : SV_Target3,
-    out float2 aov_uv : SV_Target4,
+    out float4 aov_diffuse : SV_Target1,
+    out float4 aov_glow : SV_Target2,
+    out float4 aov_base_albedo : SV_Target3,
+    out float4 aov_uv : SV_Target4,
     out float4 aov_weights : SV_Target5,
     out int aov_is_paint : SV_Target6,
     out int aov_id : SV_Target7,
-    out float3 aov_normal : SV_Target8)
+    out float4 aov_normal : SV_Target8)
 {
     float3 color = float3(0.1, 0.2, 0.3);
     // lights
@@ -95,12 +95,12 @@ void main(
     if (0.5 < u_alphaThreshold)
         discard;
     out1 = float4(color * 0.5, 0.5);
-    aov_diffuse = color_2 * 0.5;
-    aov_glow = float3(0.05, 0.1, 0.15);
-    aov_base_albedo = float3(0.4, 0.05, 0.05);
-    aov_uv = vd.texcoord_0 * 0.5;
+    aov_diffuse = float4(color_2 * 0.5, 0.5);
+    aov_glow = float4(0.05, 0.1, 0.15, 0.5);
+    aov_base_albedo = float4(0.4, 0.05, 0.05, 0.5);
+    aov_uv = float4(vd.texcoord_0 * 0.5, 0.0, 0.5);
     aov_weights = float4(0.05, 0.1, 0.15, 0.2);
     aov_is_paint = 1;
     aov_id = 7;
-    aov_normal = normalize(vd.normalObject) * 0.5;
+    aov_normal = float4(normalize(vd.normalObject) * 0.5, 0.5);
 }

@@ -236,4 +236,38 @@ check 'a look without a scene' exits 2 "$mxgen" look.mtlx --look L
 check 'an element of a scene' exits 2 stacks --element red
 check 'a scene on standard output' exits 2 stacks --stdout
 check 'a network of a scene' exits 2 "$mxgen" look.mtlx --stage stage.txt --target osl --osl-network -o out.d
+# What a document says of primitives beside their layers.
+cat >look.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <surface_unlit name="S" type="surfaceshader"/>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  <collection name="C" includegeom="/a/b"/>
+  <geominfo name="g1" geom="/a"><geomprop name="id" type="integer" value="3"/><token name="Asset" type="string" value="car"/></geominfo>
+  <geominfo name="g2" geom="/a/b/*"><geomprop name="id" type="integer" value="4"/></geominfo>
+  <propertyset name="PS"><property name="blur" type="boolean" value="true" target="fast"/></propertyset>
+  <look name="parent">
+    <visibility name="v" geom="/a/b" vistype="camera" visible="false"/>
+    <propertyassign property="matte" type="boolean" value="false" geom="/a"/>
+    <materialassign material="M" geom="/"/>
+  </look>
+  <look name="L" inherit="parent">
+    <propertyassign property="matte" type="boolean" value="true" collection="C"/>
+    <propertysetassign propertyset="PS" geom="/a/c"/>
+  </look>
+</materialx>
+XML
+printf '/a/b/d\n/a/c\n/e\n' >stage.txt
+fact() { json "next((f['value'], f.get('target')) for p in d['primitives'] if p['path'] == '$1' for f in p.get('$2', []) if f['name'] == '$3') == ('$4', ${5:-None})"; }
+check 'facts' exits 0 stacks --look L
+check 'a geometric property, inherited' fact /a/b geomprops id 3
+check 'and of a deeper path' fact /a/b/d geomprops id 4
+check 'a token' fact /a/c tokens Asset car
+check 'a property of the look beats its parent' fact /a/b/d properties matte true
+check 'and not where it does not stand' fact /a/c properties matte false
+check 'a set of properties' fact /a/c properties blur true '"fast"'
+check 'visibility' fact /a/b/d visibility camera false
+check 'nothing elsewhere' json 'set(d["primitives"][-1]) == {"path", "stack"}'
+check 'a set that is missing' eval 'sed -i "s/propertyset=\"PS\"/propertyset=\"QS\"/" look.mtlx; exits 1 stacks --look L && grep -q "no propertyset .QS.*\[unknown-assigned\]" err'
+
 finish stacks

@@ -179,6 +179,25 @@ class Bindings(unittest.TestCase):
         with self.assertRaises(mxgen.DocumentError):
             self.document.bind(self.scene, "no such look")
 
+    def test_facts(self):
+        text = """<materialx version="1.39">
+          <surfacematerial name="M" type="material"/>
+          <geominfo name="g" geom="/a"><token name="Asset" type="string" value="car"/></geominfo>
+          <look name="L">
+            <materialassign material="M" geom="/"/>
+            <visibility geom="/a/b" vistype="camera" visible="false"/>
+            <propertyassign property="matte" type="boolean" value="true" target="fast" geom="/"/>
+          </look></materialx>"""
+        scene = self.context.scene("/a/b", "/c")
+        bindings = self.context.parse(text, name="facts.mtlx").bind(scene, "L")
+        facts = {fact.kind: fact for fact in bindings.facts("/a/b")}
+        self.assertEqual((facts[mxgen.FactKind.TOKEN].name, facts[mxgen.FactKind.TOKEN].value, facts[mxgen.FactKind.TOKEN].type), ("Asset", "car", "string"))
+        self.assertEqual(facts[mxgen.FactKind.TOKEN].source, scene["/a"])
+        self.assertEqual((facts[mxgen.FactKind.VISIBILITY].name, facts[mxgen.FactKind.VISIBILITY].value), ("camera", "false"))
+        self.assertEqual((facts[mxgen.FactKind.PROPERTY].target, facts[mxgen.FactKind.PROPERTY].source), ("fast", None))
+        self.assertEqual((facts[mxgen.FactKind.PROPERTY].file, facts[mxgen.FactKind.PROPERTY].line), ("facts.mtlx", 7))
+        self.assertEqual([fact.kind for fact in bindings.facts("/c")], [mxgen.FactKind.PROPERTY])
+
     def test_lifetime(self):
         """Bindings keep their scene and their document, whatever Python ends first."""
         bindings = mxgen.Context().load(common.EXAMPLES / "slots/looks.mtlx").bind(mxgen.Context().scene("/receiver/keys"), "finished")

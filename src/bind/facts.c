@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What a document says of primitives beside their layers: geometric properties and tokens of
+ * <geominfo>, properties and visibility of a look. They stand at paths as assignments of materials
+ * do, so a fact is an assignment whose name is that of the fact, and the strongest one counts.
+ */
+#include "bind/bind.h"
+
+const char *const bind_fact_words[NUM_FACTS] = {
+    [FACT_GEOMPROP] = "geomprop",
+    [FACT_TOKEN] = "token",
+    [FACT_PROPERTY] = "property",
+    [FACT_VISIBILITY] = "visibility",
+};
+
+static const char *value_of(const struct document *doc, elem_id element, str_id attr)
+{
+    return str_text(doc->strings, doc_attr_value(doc, element, attr));
+}
+
+enum bind_fact_kind bind_fact_kind(const struct document *doc, elem_id fact)
+{
+    switch (doc_element(doc, fact)->kind) {
+    case KIND_TOKEN:
+    case KIND_TOKENDEFAULT: return FACT_TOKEN;
+    case KIND_GEOMPROP:
+    case KIND_GEOMATTR: return FACT_GEOMPROP;
+    case KIND_VISIBILITY: return FACT_VISIBILITY;
+    default: return FACT_PROPERTY;
+    }
+}
+
+const char *bind_fact_name(const struct document *doc, elem_id fact)
+{
+    enum element_kind kind = (enum element_kind)doc_element(doc, fact)->kind;
+    return kind == KIND_VISIBILITY       ? value_of(doc, fact, STR_vistype)
+           : kind == KIND_PROPERTYASSIGN ? value_of(doc, fact, STR_property)
+                                         : str_text(doc->strings, doc_element(doc, fact)->name);
+}
+
+const char *bind_fact_target(const struct document *doc, elem_id fact)
+{
+    if (doc_element(doc, fact)->kind != KIND_VISIBILITY)
+        return value_of(doc, fact, STR_target);
+    str_id geom = doc_attr_value(doc, fact, STR_viewergeom);
+    return geom ? str_text(doc->strings, geom) : value_of(doc, fact, STR_viewercollection);
+}
+
+/* Facts of one kind, name and target replace each other. */
+static uint32_t key_of(struct bind_look *look, elem_id fact)
+{
+    struct text key;
+    struct slot_name none = {0};
+    text_init(&key, look->arena);
+    text_fmt(&key, "%s:%s:%s", bind_fact_words[bind_fact_kind(look->doc, fact)],
+             bind_fact_name(look->doc, fact), bind_fact_target(look->doc, fact));
+    return look_intern_name(look, &none, text_cstr(&key), key.len);
+}
+
+/* Adds a fact that stands where `placed` says. */
+static void add_fact(struct bind_look *look, elem_id placed, elem_id fact)
+{
+    const struct document *doc = look->doc;
+    str_id geom = doc_attr_value(doc, placed, STR_geom),
+           collection = doc_attr_value(doc, placed, STR_collection);
+    struct look_assign assign = {.element = placed,
+                                 .look = doc_element(doc, placed)->parent,
+                                 .target = fact,
+                                 .kind = ASSIGN_LAYER};
+    if (geom)
+        look_read_geometry(look, placed, STR_geom,
+                           (struct look_matcher){look->assigns.len, MATCHER_ASSIGN});
+    else if (collection)
+        assign.collection = look_read_collection(look, collection, placed, STR_collection);
+    if (!geom && !assign.collection)
+        return;
+    assign.name = key_of(look, fact);
+    vec_push(look->arena, &look->assigns, assign);
+}
+
+static void add_children(struct bind_look *look, elem_id placed, elem_id parent)
+{
+    const struct document *doc = look->doc;
+    for (elem_id e = doc_element(doc, parent)->first_child; e; e = doc_element(doc, e)->next)
+        add_fact(look, placed, e);
+}
+
+static void add_of_look(struct bind_look *look, elem_id element)
+{
+    const struct document *doc = look->doc;
+    for (elem_id e = doc_element(doc, element)->first_child; e; e = doc_element(doc, e)->next) {
+        enum element_kind kind = (enum element_kind)doc_element(doc, e)->kind;
+        if (kind == KIND_VISIBILITY || kind == KIND_PROPERTYASSIGN)
+            add_fact(look, e, e);
+        if (kind != KIND_PROPERTYSETASSIGN)
+            continue;
+        elem_id set = doc_top_level(doc, KIND_PROPERTYSET, doc_attr_value(doc, e, STR_propertyset));
+        if (set)
+            add_children(look, e, set);
+        else
+            look_report_unknown(look, e, STR_propertyset, "propertyset", KIND_PROPERTYSET);
+    }
+}
+
+static void read_facts(struct bind_look *look, const struct document *doc, elem_id element,
+                       const struct scene *scene, struct arena *arena, struct diag_list *diags)
+{
+    look_begin(look, doc, element, scene, arena, diags);
+    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_GEOMINFO)
+            add_children(look, e, e);
+    look_each_ancestor(look, add_of_look);
+    look_close_collections(look);
+}
+
+/* The strongest of each name. */
+static void list_facts(struct bindings *b, uint32_t state, struct stands *stands)
+{
+    struct bind_state *s = &b->states.items[state];
+    s->first_item = b->items.len;
+    bind_stands(b, s, stands);
+    for (uint32_t i = 0; i < stands->len; i++)
+        if (!i || stands->items[i].name != stands->items[i - 1].name)
+            vec_push(
+                b->arena, &b->items,
+                (struct bind_item){stands->items[i].assign, stands->items[i].level, ITEM_LAYER, 0});
+    s->num_items = b->items.len - s->first_item;
+}
+
+void bind_facts(struct bindings *b, const struct document *doc, elem_id look,
+                const struct scene *scene, struct arena *arena, struct arena *scratch,
+                struct diag_list *diags)
+{
+    struct stands stands = {.scratch = scratch};
+    *b = (struct bindings){.arena = arena, .scene = scene};
+    read_facts(&b->look, doc, look, scene, arena, diags);
+    if (!b->look.assigns.len)
+        return;
+    bind_find_states(b, scratch);
+    for (uint32_t i = 0; i < b->states.len; i++)
+        list_facts(b, i, &stands);
+}

@@ -1,0 +1,155 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# AOVs, ambient occlusion and mattes as pictures (docs/slots.md, "AOVs"). Arguments: mxgen-render.
+render=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh"
+
+# reads FILE CHANNEL X Y VALUE TOLERANCE, or FILE CHANNEL mean VALUE TOLERANCE
+reads() {
+    local place=("${@:3:$#-4}") value=${*: -2:1} tolerance=${*: -1}
+    local got
+    got=$(python3 "$here/exr.py" "$1" "$2" "${place[@]}") || return
+    awk -v a="$got" -v b="$value" -v t="$tolerance" -v what="$2" \
+        'BEGIN { d = a - b; if (d * d <= t * t) exit 0; print what ": " a " instead of " b; exit 1 }'
+}
+
+cat >stage.usda <<'EOF'
+#usda 1.0
+(
+    upAxis = "Y"
+)
+def Xform "a"
+{
+    def Plane "floor"
+    {
+        double width = 400
+        double length = 400
+        uniform token axis = "Y"
+    }
+    def Plane "wall"
+    {
+        double width = 400
+        double length = 400
+        uniform token axis = "Z"
+    }
+    def Camera "down"
+    {
+        float focalLength = 200
+        double3 xformOp:translate = (0, 4, 0.3)
+        double xformOp:rotateX = -90
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
+    }
+}
+EOF
+# The base has one half, the layer above has 0.4 of an opacity of 0.5: weights 0.2 and 0.4, alpha 0.6.
+cat >look.mtlx <<'EOF'
+<materialx version="1.39">
+  <surface_unlit name="SU" type="surfaceshader">
+    <input name="emission_color" type="color3" value="0.5, 0.5, 0.5"/>
+    <input name="opacity" type="float" value="0.5"/>
+  </surface_unlit>
+  <substance name="base" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SU"/></substance>
+  <substance name="top" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="SU"/>
+    <input name="mask" type="float" value="0.4"/>
+  </substance>
+  <uniform_edf name="glow" type="EDF"><input name="color" type="color3" value="1, 0.5, 0.25"/></uniform_edf>
+  <nodegraph name="of_base">
+    <aov name="v" type="float"><input name="name" type="string" value="v"/><input name="value" type="float" value="2"/></aov>
+    <aov name="id" type="integer"><input name="name" type="string" value="id"/><input name="value" type="integer" value="7"/></aov>
+    <aov name="is" type="boolean"><input name="name" type="string" value="is"/><input name="value" type="boolean" value="true"/></aov>
+    <aov name="c" type="color3"><input name="name" type="string" value="of base"/><input name="value" type="color3" value="0.1, 0.2, 0.3"/></aov>
+  </nodegraph>
+  <nodegraph name="of_top">
+    <aov name="v" type="float"><input name="name" type="string" value="v"/><input name="value" type="float" value="5"/></aov>
+    <aov name="id" type="integer"><input name="name" type="string" value="id"/><input name="value" type="integer" value="9"/></aov>
+  </nodegraph>
+  <surface_unlit name="SA" type="surfaceshader"/>
+  <nodegraph name="of_ao">
+    <ambientocclusion name="ao" type="float"/>
+    <ambientocclusion name="narrow" type="float"><input name="coneangle" type="float" value="30"/></ambientocclusion>
+    <ambientocclusion name="near" type="float"><input name="maxdistance" type="float" value="0.01"/></ambientocclusion>
+    <aov name="a" type="float"><input name="name" type="string" value="ao"/><input name="value" type="float" nodename="ao"/></aov>
+    <aov name="b" type="float"><input name="name" type="string" value="narrow"/><input name="value" type="float" nodename="narrow"/></aov>
+    <aov name="c" type="float"><input name="name" type="string" value="near"/><input name="value" type="float" nodename="near"/></aov>
+  </nodegraph>
+  <substance name="open" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SA"/></substance>
+  <look name="L">
+    <materialassign material="base" geom="/"/>
+    <materialassign nodegraph="of_base" geom="/" slot="000::010"/>
+    <materialassign material="top" geom="/" slot="050"/>
+    <materialassign nodegraph="of_top" geom="/" slot="050::010"/>
+    <materialassign material="" geom="/a/wall" slot="050"/>
+  </look>
+  <look name="AO">
+    <materialassign material="open" geom="/"/>
+    <materialassign nodegraph="of_ao" geom="/" slot="000::010"/>
+  </look>
+</materialx>
+EOF
+
+picture() { "$render" look.mtlx --stage stage.usda --camera /a/down -q -s 16 "$@"; }
+for mode in raster traced; do
+    options=(--look L --mattes -o $mode.exr) tolerance=0.001
+    [ $mode = traced ] && options+=(--path-trace --paths 512) tolerance=0.05
+    check "$mode" exits 0 picture "${options[@]}"
+    check 'channels' test "$(python3 "$here/exr.py" $mode.exr)" = 'A B G R id is matte.000 matte.050 of base.B of base.G of base.R v'
+    # the weights of the layers: top 0.4 * 0.5, base (1 - 0.2) * 0.5
+    check 'a float, by weights' reads $mode.exr v 0.5 0.9 1.8 $tolerance
+    check 'a colour that one layer has' reads $mode.exr 'of base.G' 0.5 0.9 0.08 $tolerance
+    check 'the matte of the base' reads $mode.exr matte.000 0.5 0.9 0.4 $tolerance
+    check 'the matte above' reads $mode.exr matte.050 0.5 0.9 0.2 $tolerance
+done
+check 'an integer, of the greatest weight' reads raster.exr id 0.5 0.9 7 0
+check 'a boolean' reads raster.exr is 0.5 0.9 1 0
+
+# A point on a floor beside a wall that is as wide as the sky: half of the light comes.
+check 'traced occlusion' exits 0 picture --look AO --path-trace --paths 64 -o ao.exr
+check 'half of the sky' reads ao.exr ao mean 0.5 0.02
+check 'also of a narrow cone' reads ao.exr narrow mean 0.5 0.02
+check 'what is far does not occlude' reads ao.exr near mean 1 0.001
+check 'a primvar' exits 0 picture --look AO -o primvar.exr
+check 'that is missing is 1' reads primvar.exr ao mean 1 0.001
+sed 's|        double width = 400|&\n        float primvars:ambientocclusion = 0.25|' stage.usda >closed.usda
+check 'that the stage has' exits 0 "$render" look.mtlx --stage closed.usda --camera /a/down -q -s 16 --look AO -o primvar.exr
+check 'is read' reads primvar.exr ao mean 0.25 0.001
+
+check 'colours by slot' exits 0 "$render" look.mtlx --stage stage.usda --camera /a/down -s 16 --look L --show slots -o slots.png
+check 'have a legend' grep -q '^slot 050: #' err
+check 'blended' exits 0 picture --look L --show weights -o weights.exr
+check 'by weight, with the opacity of the picture' reads weights.exr A 0.5 0.9 0.6 0.001
+check 'neither' exits 2 picture --look L --show layers -o x.png
+check 'mattes in PNG' exits 2 picture --look L --mattes -o x.png
+check 'tell why' grep -q 'only EXR files have channels' err
+check 'without a stage' exits 2 "$render" look.mtlx --show slots -o x.png
+
+# The hash picks layers as often as their weights say: the mean of a picture is that of all layers, within 1 %.
+sed 's|<look name="L">|&<visibility geom="/a/wall" visible="false"/>|' look.mtlx >floor.mtlx
+for slots in blend stochastic; do
+    check "$slots" exits 0 "$render" floor.mtlx --stage stage.usda --camera /a/down -q --look L --mattes --slots $slots -s 192 -o $slots.exr
+done
+for channel in R v matte.000 matte.050; do
+    mean=$(python3 "$here/exr.py" blend.exr $channel mean)
+    check "the mean of $channel" reads stochastic.exr $channel mean "$mean" "$(awk -v m="$mean" 'BEGIN { print m / 100 }')"
+done
+check 'and picks' test "$(md5sum <blend.exr)" != "$(md5sum <stochastic.exr)"
+
+# What the look hides is not drawn.
+sed 's|<look name="L">|&<visibility geom="/a/floor" vistype="camera" visible="false"/>|' look.mtlx >hidden.mtlx
+check 'visibility' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L -o hidden.exr
+check 'hides' reads hidden.exr A 0.5 0.9 0 0
+check 'all of it' eval 'sed -i "s|geom=\"/a/floor\" vistype=\"camera\"|geom=\"/\"|" hidden.mtlx; exits 1 "$render" hidden.mtlx --stage stage.usda -s 16 --look L -o no.exr && grep -q "empty-mesh" err'
+
+# More AOVs than attachments: drawn again and again.
+{
+    echo '<materialx version="1.39"><surface_unlit name="S" type="surfaceshader"/>'
+    for i in $(seq 1 10); do
+        echo "<aov name='a$i' type='float'><input name='name' type='string' value='a$i'/><input name='value' type='float' value='$i'/></aov>"
+    done
+    echo '<surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>'
+} >many.mtlx
+check 'ten AOVs' exits 0 "$render" many.mtlx -e M -m plane -q -s 8 -o many.exr
+check 'all of them' reads many.exr a10 0.5 0.5 10 0.001
+check 'the first' reads many.exr a1 0.5 0.5 1 0.001
+finish aovs
