@@ -507,9 +507,9 @@ MXG_API mxg_status mxg_generate_pass(mxg_context *context, uint32_t index,
  * the target vulkan. Its binding is its index.
  */
 typedef struct mxg_pass_resource {
-    size_t size;       /* in */
-    const char *name;  /* "words" */
-    const char *kind;  /* "image2D", "image2DArray", "sampler2D", "buffer" or "uniform" */
+    size_t size;        /* in */
+    const char *name;   /* "words" */
+    const char *kind;   /* "image2D", "image2DArray", "sampler2D", "buffer" or "uniform" */
     const char *format; /* "r32ui", "std430"; "": any */
     const char *doc;
 } mxg_pass_resource;

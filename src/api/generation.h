@@ -45,8 +45,8 @@ struct mxg_result {
     struct deferred_layout storage; /* of a material that stores, and of a pass */
     bool is_pass;
     enum deferred_pass pass;
-    bool has_shader;   /* the generation succeeded */
-    const char *text;  /* the text of mxg_inspect, or NULL */
+    bool has_shader;  /* the generation succeeded */
+    const char *text; /* the text of mxg_inspect, or NULL */
     size_t text_size;
 };
 

@@ -44,7 +44,7 @@ enum target_caps {
     CAP_SETS = 1 << 18,              /* with CAP_BINDINGS: layout(set, binding) */
     CAP_METADATA = 1 << 19,          /* parameters have metadata */
     CAP_VULKAN_ATTRIBUTES = 1 << 20, /* can write bindings of Vulkan beside its own */
-    CAP_STORES = 1 << 21, /* pixel stages can write images: the deferred pipeline */
+    CAP_STORES = 1 << 21,            /* pixel stages can write images: the deferred pipeline */
     /* not in the tables of targets: two that follow from their members */
     CAP_LIGHTING = 1 << 29, /* the shader computes lights and layers: it has no closures */
     CAP_NETWORKS = 1 << 30, /* has `network` */
