@@ -144,7 +144,7 @@ static void add_stack(struct stacks *s, uint32_t stack, const struct program *pr
 
 /* ---- Generation ---- */
 
-static mxg_generate_desc describe(const struct stacks *s, uint32_t stack)
+static mxg_generate_desc desc_of(const struct stacks *s, uint32_t stack)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = s->gen->target;
@@ -156,7 +156,7 @@ static mxg_generate_desc describe(const struct stacks *s, uint32_t stack)
 
 static mxg_result *generate_one(struct stacks *s, uint32_t stack, bool without_source)
 {
-    mxg_generate_desc desc = describe(s, stack);
+    mxg_generate_desc desc = desc_of(s, stack);
     mxg_result *result = NULL;
     desc.without_source = without_source;
     mxg_status status = mxg_generate(s->gen->cli.context, s->document, &desc, &result);
@@ -173,7 +173,7 @@ static void write_program(struct stacks *s, uint32_t stack)
 {
     mxg_result *result = generate_one(s, stack, false);
     char *name = stack_name(s, stack);
-    const mxg_generate_desc desc = describe(s, stack);
+    const mxg_generate_desc desc = desc_of(s, stack);
     if (result && generate_claim(s->gen, s->folder, name)) {
         generate_write(s->gen, s->folder, name, result);
         generate_write_cuts(s->gen, s->document, s->folder, &desc, result);
