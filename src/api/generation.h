@@ -142,7 +142,7 @@ static inline const struct shader_variable *result_variable(const mxg_result *re
 enum { TEXT_REFLECTION, TEXT_TOPOLOGY, TEXT_COMPILED, NUM_RESULT_TEXTS };
 _Static_assert((int)NUM_RESULT_TEXTS <= OBJECT_MAX_TEXTS, "an object has room for them");
 
-/* pass.c: shader_reflect_options.more; user_data is the mxg_result. */
+/* storage.c: shader_reflect_options.more; user_data is the mxg_result. */
 void result_storage(void *user_data, struct json *json);
 
 /* reflect.c: the user interface data of a variable; user_data is the mxg_result. */

@@ -201,7 +201,8 @@ vec3 mx_subsurface_falloff(vec3 radius, vec3 n, vec3 P)
 {
     if (option_stored == 1)
         return -2.0 / (3.0 * max(radius, 1e-6));
-    return -2.0 / (3.0 * mx_curvature(n, P) * max(radius, 0.1));
+    float curvature = mx_curvature(n, P);
+    return -2.0 / (3.0 * curvature * max(radius, 0.1));
 }
 
 vec3 mx_subsurface_light(vec3 falloff, float cos_l)
