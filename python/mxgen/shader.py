@@ -277,6 +277,10 @@ class ShaderInfo:
     #: the vertex stage moves the surface
     displaced: bool
     alpha: Alpha
+    #: words of 32 bits per pixel, at most, that the material pass of the deferred pipeline stores; 0: the shader lights itself
+    stored_words: int
+    #: of stored words: equal in all materials and passes that fit together
+    layout: int
 
 
 class Shader(Native):
