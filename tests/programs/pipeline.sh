@@ -1,9 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# The deferred pipeline: its passes, the combinations of options, what materials write. Arguments: mxgen, mxgen-compile or "", the folder of
-# the examples.
-source "$(dirname "$0")/common.sh"
-mxgen=$1 compiler=$2 examples=$3
+# The deferred pipeline: its passes, the combinations of options, what materials write. Arguments: mxgen, the folder of the examples.
+mxgen=$(realpath "$1") examples=$(realpath "$2")
+source "$(dirname "$(realpath "$0")")/common.sh"
 
 # ---- passes ----
 
