@@ -111,7 +111,7 @@ struct deferred_layout generation_storage(const struct option_value *options,
                                           const struct target *target);
 /* Sets the hooks of the closures' host. */
 void generation_defer(struct generation *g);
-/* Warns about a material whose shader lights itself. */
+/* Warns about a material whose shader lights itself; reports one with too many closures. */
 void generation_tell_forward(struct generation *g);
 /* False, after a diagnostic, if a surface to store has closures that are no slabs. */
 bool generation_can_store(struct generation *g);

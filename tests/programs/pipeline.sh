@@ -86,6 +86,19 @@ reports() {
     exits 1 "$@" && grep -q "\[$id\]" err
 }
 check "a closure that is no slab" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --pipeline deferred -o other
+{
+    echo '<materialx version="1.39"><slab name="s0" type="BSDF"/>'
+    for i in {1..16}; do
+        echo "<slab name='t$i' type='BSDF'><input name='roughness' type='float' value='$(printf 0.%02d $i)'/></slab>
+<slab_mix name='s$i' type='BSDF'><input name='fg' type='BSDF' nodename='t$i'/><input name='bg' type='BSDF' nodename='s$((i - 1))'/>
+<input name='mix' type='float' value='0.5'/></slab_mix>"
+    done
+    echo '<slab_surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="sN"/></slab_surface></materialx>'
+} >many.mtlx
+sed 's/"sN"/"s16"/' many.mtlx >seventeen.mtlx
+sed 's/"sN"/"s15"/' many.mtlx >sixteen.mtlx
+check "17 slabs" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --target vulkan --pipeline deferred -o many
+check "16 slabs" "$mxgen" sixteen.mtlx -e SR --target vulkan --pipeline deferred -o many
 warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --pipeline deferred -o milky 2>&1 | grep -q drawn-forward; }
 check "a transparent surface is told" warns
 for target in essl essl310 hlsl osl; do
