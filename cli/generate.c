@@ -115,6 +115,25 @@ void generate_write(struct generate *gen, const char *folder, const char *elemen
     }
 }
 
+void generate_write_cuts(struct generate *gen, const mxg_document *document, const char *folder,
+                         const mxg_generate_desc *desc, const mxg_result *stored)
+{
+    mxg_result *result = NULL;
+    mxg_shader_info info = {sizeof info};
+    if (!gen->is_deferred || mxg_result_info(stored, &info) != MXG_OK || !info.stored_words
+        || info.alpha != MXG_ALPHA_MASK || gen->is_file)
+        return;
+    mxg_options_set(gen->cli.options, "pipeline", "depth");
+    mxg_status status = mxg_generate(gen->cli.context, document, desc, &result);
+    mxg_options_set(gen->cli.options, "pipeline", "deferred");
+    if (report_status(&gen->cli.report, status)) {
+        char *name = cli_format("%s.depth", info.path);
+        generate_write(gen, folder, name, result);
+        free(name);
+    }
+    mxg_result_destroy(result);
+}
+
 bool generate_add_source(struct generate *gen, const char *file)
 {
     bool is_new = false;
@@ -144,6 +163,7 @@ static void generate_element(struct generate *gen, const mxg_document *document,
         mxg_shader_info info = {offsetof(mxg_shader_info, topology)};
         mxg_result_info(result, &info);
         generate_write(gen, folder, info.path, result);
+        generate_write_cuts(gen, document, folder, &desc, result);
         for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)
             generate_add_source(gen, mxg_result_file(result, i));
     }
@@ -366,12 +386,13 @@ static int find_stage(const mxg_target *target, const char *path)
     return stage;
 }
 
-static bool is_network(const struct generate *gen)
+/* True if the last setting of an option of generation has a value. */
+static bool has_setting(const struct generate *gen, const char *key, const char *value)
 {
     bool is_on = false;
     for (size_t i = 0; i < gen->cli.parser.num_settings; ++i)
-        if (strcmp(gen->cli.parser.settings[i].key, "osl-network") == 0)
-            is_on = strcmp(gen->cli.parser.settings[i].value, "true") == 0;
+        if (strcmp(gen->cli.parser.settings[i].key, key) == 0)
+            is_on = strcmp(gen->cli.parser.settings[i].value, value) == 0;
     return is_on;
 }
 
@@ -416,7 +437,8 @@ static bool check_stage(const struct generate *gen)
 /* Decides whether -o is a folder or, by its ending, a file. False after a message. */
 static bool prepare_output(struct generate *gen)
 {
-    gen->is_network = is_network(gen);
+    gen->is_network = has_setting(gen, "osl-network", "true");
+    gen->is_deferred = has_setting(gen, "pipeline", "deferred");
     if (gen->to_stdout && (args_is_given(&gen->cli.parser, "output") || gen->depfile)) {
         fprintf(stderr, "mxgen: option '--%s' does not apply: --stdout writes no file\n",
                 gen->depfile ? "depfile" : "output");

@@ -15,6 +15,7 @@ struct generate {
 
     mxg_target target_info;
     bool is_network;                    /* --osl-network */
+    bool is_deferred;                   /* --pipeline deferred */
     bool is_file;                       /* -o names one file: a stage of one element */
     mxg_stage stage;                    /* this stage */
     struct arg_list documents, folders; /* each document with its output folder; allocated */
@@ -27,6 +28,9 @@ struct generate {
 void generate_write(struct generate *gen, const char *folder, const char *element,
                     const mxg_result *result);
 /* Notes a file that output depends on. False after an error: an output has its name. */
+/* Writes the depth pass of a cut-out that stores: "Leaf.depth.frag". */
+void generate_write_cuts(struct generate *gen, const mxg_document *document, const char *folder,
+                         const mxg_generate_desc *desc, const mxg_result *stored);
 bool generate_add_source(struct generate *gen, const char *file);
 /*
  * Claims every file that an element may have, so that no name clashes after the first is written.

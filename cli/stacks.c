@@ -145,14 +145,20 @@ static void add_stack(struct stacks *s, uint32_t stack, const struct program *pr
 
 /* ---- Generation ---- */
 
-static mxg_result *generate_one(struct stacks *s, uint32_t stack, bool without_source)
+static mxg_generate_desc desc_of(const struct stacks *s, uint32_t stack)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    mxg_result *result = NULL;
     desc.target = s->gen->target;
     desc.options = s->gen->cli.options;
     desc.bindings = s->bindings;
     desc.stack = stack;
+    return desc;
+}
+
+static mxg_result *generate_one(struct stacks *s, uint32_t stack, bool without_source)
+{
+    mxg_generate_desc desc = desc_of(s, stack);
+    mxg_result *result = NULL;
     desc.without_source = without_source;
     mxg_status status = mxg_generate(s->gen->cli.context, s->document, &desc, &result);
     if (result && (without_source || status != MXG_OK))
@@ -168,8 +174,11 @@ static void write_program(struct stacks *s, uint32_t stack)
 {
     mxg_result *result = generate_one(s, stack, false);
     char *name = stack_name(s, stack);
-    if (result && generate_claim(s->gen, s->folder, name))
+    const mxg_generate_desc desc = desc_of(s, stack);
+    if (result && generate_claim(s->gen, s->folder, name)) {
         generate_write(s->gen, s->folder, name, result);
+        generate_write_cuts(s->gen, s->document, s->folder, &desc, result);
+    }
     free(name);
     mxg_result_destroy(result);
 }

@@ -26,14 +26,20 @@ static const struct {
     {"light_complex", 3, true, false}, {"show", -1, false, true},
 };
 
-static const mxg_diagnostics *generate(const struct passes_setup *setup, uint32_t index,
-                                       mxg_result **out)
+/* Makes the text of a pass; false: with the first message. */
+static bool generate(struct passes *passes, const struct passes_setup *setup, uint32_t index,
+                     mxg_result **out)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
     desc.options = setup->options;
     mxg_status status = mxg_generate_pass(setup->context, index, &desc, out);
-    return status == MXG_OK ? NULL : mxg_result_diagnostics(*out);
+    mxg_diagnostic first = {sizeof first};
+    if (status == MXG_OK)
+        return true;
+    if (mxg_diagnostics_get(mxg_result_diagnostics(*out), 0, &first) == MXG_OK)
+        return fail(passes, first.id, first.message);
+    return fail(passes, "render-failed", mxg_status_string(status));
 }
 
 /* Makes pass `index` of the library and adds it to the device. */
@@ -41,17 +47,13 @@ static bool open_pass(struct passes *passes, const struct passes_setup *setup, u
                       int which)
 {
     struct pass_part *part = &passes->parts[passes->num_parts++];
-    const mxg_diagnostics *list = generate(setup, index, &part->result);
-    mxg_diagnostic first = {sizeof first};
-    if (list && mxg_diagnostics_get(list, 0, &first) == MXG_OK)
-        return fail(passes, first.id, first.message);
-    if (!part->result)
-        return fail(passes, "render-failed", "out of memory");
+    if (!generate(passes, setup, index, &part->result))
+        return false;
     part->bind = (struct bind){.result = part->result, .scene = setup->scene, .is_opaque = true};
     if (!compile_compute(mxg_result_source(part->result, MXG_STAGE_PIXEL, NULL), &part->compiled))
         return fail(passes, "bad-shader",
                     part->compiled.num_messages ? part->compiled.messages[0].text
-                                                : "out of memory");
+                                                : "the pass does not compile");
     if (!bind_shader(&part->bind))
         return fail(passes, part->bind.id, part->bind.reason);
     const struct compiled_stage *code = &part->compiled.stages[MXG_STAGE_PIXEL];

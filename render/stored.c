@@ -35,6 +35,8 @@ struct pass {
 struct stored {
     struct gpu *gpu;
     uint32_t width, height, tiles_x, tiles_y;
+    bool marks; /* fills the words with `mark` first */
+    uint32_t mark;
     const struct gpu_image *lit, *depth;
     struct gpu_image color, targets[STORED_TARGETS], words;
     struct gpu_buffer tiles, frame;
@@ -50,8 +52,8 @@ struct stored {
 
 static bool create_images(struct stored *stored, uint32_t words)
 {
-    const VkImageUsageFlags target =
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
+    const VkImageUsageFlags target = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT
+                                     | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     struct gpu *gpu = stored->gpu;
     uint32_t width = stored->width, height = stored->height;
     bool good = gpu_create_image(gpu, stored_target_format(0), width, height, 0, 1,
@@ -62,8 +64,9 @@ static bool create_images(struct stored *stored, uint32_t words)
                                 VK_IMAGE_ASPECT_COLOR_BIT, &stored->targets[i]);
     return good
            && gpu_create_image(gpu, VK_FORMAT_R32_UINT, width, height, words ? words : 1, 1,
-                               VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
-                               &stored->words);
+                               VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT
+                                   | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                               VK_IMAGE_ASPECT_COLOR_BIT, &stored->words);
 }
 
 static bool create_buffers(struct stored *stored)
@@ -296,6 +299,13 @@ void stored_begin(const struct stored *stored, VkCommandBuffer commands)
     for (unsigned i = 0; i < STORED_TARGETS; ++i)
         make_general(commands, &stored->targets[i], VK_IMAGE_ASPECT_COLOR_BIT);
     make_general(commands, &stored->words, VK_IMAGE_ASPECT_COLOR_BIT);
+    if (!stored->marks)
+        return;
+    const VkClearColorValue mark = {.uint32 = {stored->mark}};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
+                                         VK_REMAINING_ARRAY_LAYERS};
+    vkCmdClearColorImage(commands, stored->words.image, VK_IMAGE_LAYOUT_GENERAL, &mark, 1, &all);
+    stored_barrier(commands);
 }
 
 void stored_barrier(VkCommandBuffer commands)
@@ -325,4 +335,41 @@ void stored_run(const struct stored *stored, VkCommandBuffer commands)
                                   (VkDeviceSize)pass->source.which * 4 * sizeof(uint32_t));
     }
     stored_barrier(commands);
+}
+
+/* ---- Tests ---- */
+
+void stored_mark(struct stored *stored, uint32_t mark)
+{
+    stored->marks = true;
+    stored->mark = mark;
+}
+
+static void copy_word(const struct stored *stored, VkCommandBuffer commands, uint32_t word,
+                      uint32_t x, uint32_t y, VkBuffer to)
+{
+    bool is_target = word < STORED_TARGETS;
+    const VkBufferImageCopy copy = {.bufferOffset = word * sizeof(uint32_t),
+                                    .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0,
+                                                         is_target ? 0 : word - STORED_TARGETS, 1},
+                                    .imageOffset = {(int32_t)x, (int32_t)y, 0},
+                                    .imageExtent = {1, 1, 1}};
+    vkCmdCopyImageToBuffer(commands, is_target ? stored->targets[word].image : stored->words.image,
+                           VK_IMAGE_LAYOUT_GENERAL, to, 1, &copy);
+}
+
+bool stored_read(struct stored *stored, uint32_t x, uint32_t y, uint32_t *out, uint32_t count)
+{
+    struct gpu_buffer buffer;
+    VkCommandBuffer commands = NULL;
+    if (gpu_create_buffer(stored->gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL, count * sizeof *out,
+                          &buffer))
+        commands = gpu_begin(stored->gpu);
+    for (uint32_t i = 0; commands && i < count; ++i)
+        copy_word(stored, commands, i, x, y, buffer.buffer);
+    bool good = commands && gpu_end(stored->gpu, commands);
+    if (good)
+        memcpy(out, buffer.mapped, count * sizeof *out);
+    gpu_destroy_buffer(stored->gpu, &buffer);
+    return good;
 }

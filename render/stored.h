@@ -43,6 +43,10 @@ VkDescriptorSet stored_set(const struct stored *stored);
 VkImageView stored_target(const struct stored *stored, unsigned target);
 VkFormat stored_target_format(unsigned target);
 
+/* For tests: what no material writes has this word, and the words of a pixel after a frame. */
+void stored_mark(struct stored *stored, uint32_t mark);
+bool stored_read(struct stored *stored, uint32_t x, uint32_t y, uint32_t *out, uint32_t count);
+
 void stored_update(struct stored *stored, const struct stored_frame *frame);
 /* Makes the images ready to be written, except those of the caller. */
 void stored_begin(const struct stored *stored, VkCommandBuffer commands);

@@ -231,8 +231,9 @@ vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free
                                    mx_lobe_random(sample_index), L, weight, pdf);
         return mx_lobe_light(L, weight, pdf);
     }
-    return mx_slab_medium_bsdf_albedo(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V)
-         * mx_environment_irradiance(mx_facing(N, V));
+    vec3 light = mx_slab_medium_bsdf_albedo(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V)
+               * mx_environment_irradiance(mx_facing(N, V));
+    return mx_is_black(color) ? vec3(0.0) : light; // without a branch, which would stand in the loop over samples
 }
 
 // Of light to the viewer, with what bounces between the medium and what lies below: 1 / (1 - below R).

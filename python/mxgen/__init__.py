@@ -8,7 +8,7 @@
     print(shader.pixel)
 
 docs/python.md is the guide; the C library's header, include/mxgen/mxgen.h, has every detail."""
-from .catalogue import Option, OptionType, Target, option_applies, options, targets
+from .catalogue import Option, OptionType, PassResource, Target, option_applies, options, pass_resources, targets
 from .context import Context, File, ListFolder, Resolver, Rewriting, Rewritten
 from .definition import Library, NodeDef, Port
 from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, diagnostic_kinds, library_version
@@ -25,7 +25,7 @@ __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "Blo
            "CompiledInput", "Connection", "Context", "Diagnostic", "DiagnosticKind", "Diagnostics", "Document",
            "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "Fact", "FactKind", "File", "InputState", "InternalError",
            "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType",
-           "OptionValue", "OutOfMemoryError", "Part", "Place", "Port", "Primitive", "Property", "Renderable",
+           "OptionValue", "OutOfMemoryError", "Part", "PassResource", "Place", "Port", "Primitive", "Property", "Renderable",
            "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "Stack",
            "Stage", "Target", "Tile", "Value", "Variable", "View", "decode_slot", "diagnostic_kinds", "encode_slot",
-           "equal", "library_version", "option_applies", "options", "semantics", "targets"]
+           "equal", "library_version", "option_applies", "options", "pass_resources", "semantics", "targets"]

@@ -44,6 +44,28 @@ class Option:
     doc: str
 
 
+@dataclass(frozen=True)
+class PassResource:
+    """A resource that the passes of the deferred pipeline share; its binding is its place in `pass_resources()`."""
+
+    name: str
+    #: "image2D", "image2DArray", "sampler2D", "buffer" or "uniform"
+    kind: str
+    #: "r32ui", "std430"; "": any
+    format: str
+    doc: str
+
+
+def pass_resources() -> tuple[PassResource, ...]:
+    """The resources of the deferred pipeline."""
+    found = []
+    for index in range(lib.mxg_num_pass_resources()):
+        values = record("mxg_pass_resource", lib.mxg_get_pass_resource, index)
+        assert values is not None
+        found.append(PassResource(**values))
+    return tuple(found)
+
+
 def targets() -> tuple[Target, ...]:
     """Every target."""
     found = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 import os
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Union
@@ -17,6 +17,7 @@ from .document import Document
 from .edit import Edit
 from .error import ArgumentError, DocumentError, Error, OutOfMemoryError
 from .scene import Scene
+from .shader import OptionValue, Shader, make_options
 
 
 @dataclass(frozen=True)
@@ -255,6 +256,26 @@ class Context(Native):
                 handle.release()
             raise
         return handle, status
+
+    # ---- Passes ----
+
+    def passes(self, target: str, *, options: Mapping[str, OptionValue] | None = None) -> dict[str, Shader]:
+        """The passes of the deferred pipeline that belong to no material (docs/deferred.md), by name, in their order. The source of a
+        pass is that of `Shader.pixel`, a compute stage. Raises DocumentError."""
+        found = {}
+        for index in range(lib.mxg_num_passes()):
+            keep: list[Any] = []
+            desc = ffi.new("mxg_generate_desc *", {"size": ffi.sizeof("mxg_generate_desc")})
+            desc.target = keep_text(c_text(target, "target"), keep)
+            if options is not None:
+                keep.append(make_options(self, options))
+                desc.options = keep[-1]._handle.pointer
+            handle, status = self._make("mxg_result", lib.mxg_generate_pass, lib.mxg_result_destroy, (), index, desc)
+            shader = Shader(handle)
+            if status != lib.MXG_OK:
+                raise DocumentError(shader.diagnostics)
+            found[py_text(lib.mxg_pass_name(index))] = shader
+        return found
 
     # ---- Libraries ----
 

@@ -282,6 +282,10 @@ class ShaderInfo:
     #: with form="function", the names of the function and of the struct that it returns; else ""
     function: str
     function_type: str
+    #: words of 32 bits per pixel, at most, that the material pass of the deferred pipeline stores; 0: the shader lights itself
+    stored_words: int
+    #: of stored words: equal in all materials and passes that fit together
+    layout: int
 
 
 class Shader(Native):

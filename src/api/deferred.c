@@ -112,9 +112,13 @@ bool generation_can_store(struct generation *g)
 void generation_tell_forward(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
+    const struct document *doc = &g->document->layer.doc;
+    if (shader->stored_words && shader->closures.len > DEFERRED_MAX_CLOSURES)
+        diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,
+                 doc_place(doc, g->element), str_text(shader->strings, shader->name),
+                 (unsigned)shader->closures.len, (unsigned)DEFERRED_MAX_CLOSURES);
     if (!generation_stores(g) || shader->stored_words)
         return;
-    const struct document *doc = &g->document->layer.doc;
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_drawn_forward, doc_place(doc, g->element),
              str_text(shader->strings, shader->name),
              closure_is_surface(shader, g->root) ? "its opacity may be between 0 and 1"

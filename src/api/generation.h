@@ -121,7 +121,7 @@ struct deferred_layout generation_storage(const struct option_value *options,
                                           const struct target *target);
 /* Sets the hooks of the closures' host. */
 void generation_defer(struct generation *g);
-/* Warns about a material whose shader lights itself. */
+/* Warns about a material whose shader lights itself; reports one with too many closures. */
 void generation_tell_forward(struct generation *g);
 /* False, after a diagnostic, if a surface to store has closures that are no slabs. */
 bool generation_can_store(struct generation *g);
@@ -152,7 +152,7 @@ static inline const struct shader_variable *result_variable(const mxg_result *re
 enum { TEXT_REFLECTION, TEXT_TOPOLOGY, TEXT_COMPILED, NUM_RESULT_TEXTS };
 _Static_assert((int)NUM_RESULT_TEXTS <= OBJECT_MAX_TEXTS, "an object has room for them");
 
-/* pass.c: shader_reflect_options.more; user_data is the mxg_result. */
+/* storage.c: shader_reflect_options.more; user_data is the mxg_result. */
 void result_storage(void *user_data, struct json *json);
 
 /* reflect.c: the user interface data of a variable; user_data is the mxg_result. */

@@ -11,6 +11,8 @@
 
 #include "closure/closure.h"
 
+enum { DEFERRED_MAX_CLOSURES = 16 }; /* of a pixel: word 1 has four bits for their number */
+
 /* The option `pipeline`. */
 enum deferred_pipeline { PIPELINE_FORWARD, PIPELINE_DEFERRED, PIPELINE_DEPTH };
 

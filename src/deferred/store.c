@@ -233,6 +233,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host, ir_r
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
     assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
     struct closure_list marks = {0};
+    shader->closures.len = 0; /* lights of slabs are no closures of their own here */
     for (uint32_t i = list->leaves.len; i-- > 0;)
         if (is_mark(shader, list->leaves.items[i].leaf))
             vec_push(shader->arena, &marks.leaves, list->leaves.items[i]);

@@ -223,6 +223,22 @@ class Libraries(unittest.TestCase):
                 self.context.load_library(path, base=self.context.library)
 
 
+class Passes(unittest.TestCase):
+    def test_passes(self):
+        context = mxgen.Context()
+        passes = context.passes("vulkan", options={"max-lights": 1})
+        self.assertEqual(list(passes), ["classify", "compose", "light_simple", "light_single", "light_complex", "show"])
+        self.assertIn("u_lightData[1]", passes["light_simple"].pixel)
+        document = context.load(common.EXAMPLES / "deferred.mtlx")
+        stored = document.generate("vulkan", "Lacquered", options={"pipeline": "deferred", "interface": "reduced"})
+        self.assertEqual(stored.info.stored_words, 10)
+        self.assertEqual(stored.info.layout, passes["show"].info.layout)
+        self.assertEqual(document.generate("vulkan", "Plain").info.stored_words, 0)
+        self.assertEqual([(one.name, one.kind) for one in mxgen.pass_resources()][:2], [("words", "image2DArray"), ("word0", "image2D")])
+        with self.assertRaises(mxgen.DocumentError):
+            context.passes("hlsl")
+
+
 class Catalogues(unittest.TestCase):
     def test_lists(self):
         self.assertIn("glsl", [target.name for target in mxgen.targets()])

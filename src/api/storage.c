@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What reflections say about the storage of the deferred pipeline. */
+#include "api/generation.h"
+#include "base/json.h"
+
+uint32_t mxg_num_pass_resources(void)
+{
+    struct deferred_resource resource;
+    uint32_t count = 0;
+    while (deferred_resource(count, &resource))
+        count++;
+    return count;
+}
+
+mxg_status mxg_get_pass_resource(uint32_t index, mxg_pass_resource *out)
+{
+    struct deferred_resource resource;
+    if (!deferred_resource(index, &resource))
+        return MXG_ERROR_ARGUMENT;
+    mxg_pass_resource full = {.name = resource.name,
+                              .kind = resource.kind,
+                              .format = resource.format,
+                              .doc = resource.doc};
+    return struct_write(out, &full, sizeof full);
+}
+
+/* ---- Reflection ---- */
+
+static void put_resource(const mxg_result *result, uint32_t index, struct json *json)
+{
+    struct deferred_resource resource;
+    deferred_resource(index, &resource);
+    json_item(json);
+    json_open_flat(json, '{');
+    json_put_text(json, "name", resource.name);
+    json_put_text(json, "kind", resource.kind);
+    json_put_text(json, "format", resource.format);
+    if (result->storage.sets)
+        json_put_number(json, "set", result->storage.set);
+    json_put_number(json, "binding", index);
+    json_close(json, '}');
+}
+
+void result_storage(void *user_data, struct json *json)
+{
+    const mxg_result *result = user_data;
+    uint32_t words = result->shader.stored_words;
+    if (!result->is_pass && !words)
+        return;
+    json_key(json, "deferred");
+    json_open(json, '{');
+    json_put_text(json, "pass", result->is_pass ? deferred_pass_name(result->pass) : "material");
+    json_put_number(json, "layout", deferred_layout_number(&result->storage));
+    if (result->is_pass && deferred_is_indirect(result->pass))
+        json_put_text(json, "class", deferred_element(deferred_pass_class(result->pass)));
+    json_put_nonzero(json, "words", words);
+    json_key(json, "resources");
+    json_open(json, '[');
+    for (uint32_t i = 0; i < (result->is_pass ? mxg_num_pass_resources() : 1); i++)
+        if (!result->is_pass || deferred_reads(result->pass, i))
+            put_resource(result, i, json);
+    json_close(json, ']');
+    json_close(json, '}');
+}

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The deferred pipeline on a device: pictures beside those of the forward pipeline, and the words
+ * that pixels really store. Arguments: the folder of the examples.
+ */
+#include "unit/test.h"
+
+#include "render/passes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SIZE = 96, PIXELS = SIZE * SIZE, MAX_WORDS = 48 };
+#define MARK 0xdeadbeefu
+
+struct bench {
+    struct gpu gpu;
+    struct scene scene;
+    mxg_context *context;
+    mxg_options *options;
+    mxg_document *document;
+};
+
+/* A material on the sphere. */
+struct drawing {
+    struct draw_canvas *canvas;
+    struct passes passes;
+    struct bind binds[2];
+    struct render renders[2];
+    mxg_result *results[2];
+    size_t count;
+    uint32_t stored_words, layout;
+    float *pixels;
+};
+
+static bool make(struct bench *b, const char *element, const char *pipeline, const char *storage,
+                 mxg_result **out)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "vulkan";
+    desc.element = element;
+    desc.options = b->options;
+    mxg_options_set(b->options, "pipeline", pipeline);
+    mxg_options_set(b->options, "storage", storage);
+    mxg_status status = mxg_generate(b->context, b->document, &desc, out);
+    mxg_diagnostic first = {sizeof first};
+    if (*out && mxg_diagnostics_get(mxg_result_diagnostics(*out), 0, &first) == MXG_OK)
+        printf("%s: %s\n", element, first.message);
+    return REQUIRE_EQ(status, MXG_OK);
+}
+
+static bool add_program(struct bench *b, struct drawing *d, const char *element,
+                        const char *pipeline, const char *storage, enum draw_role role)
+{
+    size_t i = d->count++;
+    if (!make(b, element, pipeline, storage, &d->results[i]))
+        return false;
+    d->binds[i] = (struct bind){.result = d->results[i], .scene = &b->scene};
+    d->binds[i].draw.role = role;
+    return true;
+}
+
+static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
+{
+    struct passes_setup setup = {.context = b->context,
+                                 .options = b->options,
+                                 .scene = &b->scene,
+                                 .gpu = &b->gpu,
+                                 .canvas = d->canvas,
+                                 .width = SIZE,
+                                 .height = SIZE,
+                                 .words = d->stored_words,
+                                 .shown = shown};
+    bool good = passes_open(&setup, &d->passes);
+    if (!good)
+        printf("%s\n", d->passes.reason);
+    if (good)
+        stored_mark(d->passes.stored, MARK);
+    return REQUIRE(good);
+}
+
+/* Draws an element; storage NULL: forward. Call close_drawing in any case. */
+static bool draw(struct bench *b, const char *element, const char *storage, uint32_t shown,
+                 struct drawing *d)
+{
+    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float))};
+    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
+    if (!add_program(b, d, element, storage ? "deferred" : "forward", storage ? storage : "float",
+                     DRAW_LIT))
+        return false;
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(d->results[0], &info);
+    d->stored_words = info.stored_words;
+    d->layout = info.layout;
+    if (info.stored_words) {
+        d->binds[0].draw.role = DRAW_STORES;
+        d->binds[0].draw.has_holes = info.alpha == MXG_ALPHA_MASK;
+        if (!open_passes(b, d, shown)
+            || (d->binds[0].draw.has_holes
+                && !add_program(b, d, element, "depth", storage, DRAW_CUTS)))
+            return false;
+    }
+    bool good = true;
+    for (size_t i = 0; good && i < d->count; ++i) {
+        good = render_open(&d->renders[i], d->canvas, &b->gpu, &d->binds[i]);
+        if (!good)
+            printf("%s: %s\n", element, d->binds[i].reason);
+    }
+    return REQUIRE(good && render_frame(d->renders, d->count, d->canvas, d->pixels));
+}
+
+static void close_drawing(struct drawing *d)
+{
+    for (size_t i = 0; i < d->count; ++i)
+        render_close(&d->renders[i]);
+    draw_close_canvas(d->canvas);
+    passes_close(&d->passes);
+    for (size_t i = 0; i < d->count; ++i) {
+        bind_finish(&d->binds[i]);
+        mxg_result_destroy(d->results[i]);
+    }
+    free(d->pixels);
+}
+
+/* ---- Pictures ---- */
+
+static double displayed(float linear)
+{
+    double x = fmin(fmax(0.6 * linear, 0), 1);
+    return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055);
+}
+
+/* Of the colours as a display shows them. */
+static double psnr(const float *a, const float *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < PIXELS * 4; ++i) {
+        double error = i % 4 == 3 ? 0 : displayed(a[i]) - displayed(b[i]);
+        sum += error * error;
+    }
+    return sum > 0 ? 10 * log10(255 * 255 / (sum / (PIXELS * 3))) : INFINITY;
+}
+
+static void test_picture(struct bench *b, const char *element)
+{
+    static const struct {
+        const char *storage;
+        double least;
+    } kinds[] = {{"float", 45}, {"dither", 38}, {"round", 38}};
+    struct drawing forward, deferred;
+    bool good = draw(b, element, NULL, UINT32_MAX, &forward);
+    printf("%-12s", element);
+    for (size_t i = 0; good && i < sizeof kinds / sizeof *kinds; ++i) {
+        if (draw(b, element, kinds[i].storage, UINT32_MAX, &deferred)) {
+            double db = psnr(forward.pixels, deferred.pixels);
+            printf(" %s %.1f dB", kinds[i].storage, db);
+            REQUIRE(deferred.stored_words > 0);
+            REQUIRE(db > kinds[i].least);
+        }
+        close_drawing(&deferred);
+    }
+    printf("\n");
+    close_drawing(&forward);
+}
+
+/* ---- Sizes ---- */
+
+/* The words of a pixel that the material wrote. */
+static uint32_t written(struct drawing *d, uint32_t x, uint32_t y, uint32_t *words)
+{
+    uint32_t count = d->stored_words;
+    if (!REQUIRE(count >= 3 && count <= MAX_WORDS)
+        || !REQUIRE(stored_read(d->passes.stored, x, y, words, count)))
+        return 0;
+    while (count > 3 && words[count - 1] == MARK)
+        --count;
+    return count;
+}
+
+/* docs/deferred.md has this table. */
+static void test_sizes(struct bench *b)
+{
+    static const struct {
+        const char *element;
+        uint32_t bytes, class_, closures;
+    } rows[] = {{"Plain", 12, 1, 1}, {"Wax", 16, 2, 1},   {"Hazy", 20, 2, 1},
+                {"Downy", 24, 2, 1}, {"Satin", 28, 3, 1}, {"Lacquered", 40, 3, 2}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        struct drawing d;
+        uint32_t words[MAX_WORDS] = {0};
+        if (draw(b, rows[i].element, "round", UINT32_MAX, &d)) {
+            REQUIRE_EQ(4 * written(&d, SIZE / 2, SIZE / 2, words), rows[i].bytes);
+            REQUIRE_EQ(4 * d.stored_words, rows[i].bytes);
+            REQUIRE_EQ(words[0] >> 28, rows[i].class_);
+            REQUIRE_EQ((words[1] >> 28) + 1, rows[i].closures);
+            REQUIRE(stored_read(d.passes.stored, 0, 0, words, 3)); /* beside the sphere */
+            REQUIRE_EQ(words[0], 0);
+        }
+        close_drawing(&d);
+    }
+}
+
+/* A closure of weight 0 in a pixel is not there: the ends of the mix are one slab each. */
+static void test_culling(struct bench *b)
+{
+    enum { SIMPLE = 1, COMPLEX = 3 };
+    static const uint32_t bytes[] = {[SIMPLE] = 12, [COMPLEX] = 32};
+    uint32_t words[MAX_WORDS], seen[4] = {0};
+    struct drawing d;
+    if (draw(b, "Chipped", "round", UINT32_MAX, &d))
+        for (uint32_t y = 0; y < SIZE; y += 4) {
+            uint32_t size = 4 * written(&d, SIZE / 2, y, words), which = words[0] >> 28;
+            if (which == 0)
+                continue;
+            if (REQUIRE(which == SIMPLE || which == COMPLEX))
+                REQUIRE_EQ(size, bytes[which]);
+            ++seen[which & 3];
+        }
+    REQUIRE(seen[SIMPLE] > 0 && seen[COMPLEX] > 0);
+    close_drawing(&d);
+}
+
+/* ---- Debug views ---- */
+
+static void test_views(struct bench *b)
+{
+    static const struct {
+        const char *element;
+        uint32_t view;
+        float rgb[3];
+    } rows[] = {{"Lacquered", 1, {40 / 255.0f, 40 / 255.0f, 40 / 255.0f}},
+                {"Lacquered", 2, {2 / 255.0f, 2 / 255.0f, 2 / 255.0f}},
+                {"Plain", 0, {0, 0.6f, 0}},
+                {"Satin", 0, {0.8f, 0, 0}},
+                {"Plain", 3, {1, 1, 1}},
+                {"Plain", 5, {0.6f, 0.2f, 0.1f}}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        struct drawing d;
+        if (draw(b, rows[i].element, "round", rows[i].view, &d)) {
+            const float *pixel = d.pixels + 4 * (SIZE / 2 * SIZE + SIZE / 2);
+            for (size_t c = 0; c < 3; ++c)
+                if (!REQUIRE(fabsf(pixel[c] - rows[i].rgb[c]) < 0.02f))
+                    printf("    %s, %s: %g\n", rows[i].element, pass_views[rows[i].view],
+                           (double)pixel[c]);
+            REQUIRE(d.pixels[3] == 0); /* nothing is stored beside the sphere */
+        }
+        close_drawing(&d);
+    }
+}
+
+static bool open_document(struct bench *b, const char *folder, const char *name)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    mxg_document_destroy(b->document);
+    b->document = NULL;
+    return REQUIRE_EQ(
+        mxg_document_load(b->context, mxg_library_builtin(b->context), path, &b->document), MXG_OK);
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const features[] = {"Plain", "Wax",       "Hazy",    "Downy",
+                                           "Satin", "Lacquered", "Chipped", "Lantern"},
+                             *const layers[] = {"CoatedMetal", "DustyFibre", "WrappedSilk",
+                                                "CarPaint"};
+    struct bench b = {0};
+    if (argc != 2)
+        return 2;
+    if (!gpu_open(&b.gpu) || !b.gpu.can_store) {
+        printf("skip: no device that can store: %s\n", b.gpu.reason);
+        return 77;
+    }
+    compile_begin();
+    REQUIRE(scene_init_sphere(&b.scene, 1));
+    REQUIRE_EQ(mxg_context_create(NULL, &b.context), MXG_OK);
+    REQUIRE_EQ(mxg_options_create(b.context, &b.options), MXG_OK);
+    mxg_options_set(b.options, "interface", "reduced");
+    mxg_options_set(b.options, "texture-modes", "shared");
+    if (open_document(&b, argv[1], "deferred.mtlx")) {
+        test_sizes(&b);
+        test_culling(&b);
+        test_views(&b);
+        for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
+            test_picture(&b, features[i]);
+    }
+    if (open_document(&b, argv[1], "slabs.mtlx"))
+        for (size_t i = 0; i < sizeof layers / sizeof *layers; ++i)
+            test_picture(&b, layers[i]);
+    mxg_document_destroy(b.document);
+    mxg_options_destroy(b.options);
+    mxg_context_destroy(b.context);
+    scene_finish(&b.scene);
+    gpu_close(&b.gpu);
+    compile_end();
+    return test_report("deferred");
+}

@@ -1,0 +1,153 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# The deferred pipeline: its passes, the combinations of options, what materials write. Arguments: mxgen, the folder of the examples.
+mxgen=$(realpath "$1") examples=$(realpath "$2")
+source "$(dirname "$(realpath "$0")")/common.sh"
+
+# ---- passes ----
+
+check "passes" "$mxgen" pipeline passes
+for name in classify compose light_simple light_single light_complex show; do
+    check "$name" test -s "passes/$name.comp" -a -s "passes/$name.json"
+done
+check "passes for OpenGL" "$mxgen" pipeline gl --target glsl
+check "few lights" "$mxgen" pipeline few --max-lights 1 --environment none
+same() { cmp -s "$1/classify.comp" "$2/classify.comp"; }
+check "what lights nothing does not depend on lights" same passes few
+check "lighting does" bash -c '! cmp -s passes/light_simple.comp few/light_simple.comp'
+check "no folder is bad usage" exits 2 "$mxgen" pipeline
+
+# Compiles all passes of a folder with glslang's own program, where there is one.
+compiles() {
+    local file
+    for file in "$1"/*.comp; do
+        glslangValidator $2 "$file" >compile.log 2>&1 || { cat compile.log; return 1; }
+    done
+}
+if command -v glslangValidator >/dev/null; then
+    "$mxgen" pipeline shadow --shadow-map --environment prefiltered --albedo table --storage float >/dev/null
+    for folder in passes few shadow; do
+        check "$folder compile" compiles "$folder" "-V -o code.spv"
+    done
+    check "gl compile" compiles gl ""
+else
+    skip "no glslangValidator"
+fi
+
+# ---- materials ----
+
+number() { sed -n "s/.*\"$2\": \([0-9]*\).*/\1/p" "$1" | head -1; }
+check "materials" "$mxgen" "$examples/deferred.mtlx" --target vulkan --pipeline deferred --interface reduced --reflect -o materials
+fits() {
+    local file
+    for file in materials/[!L]*.json materials/Lantern.json materials/Lacquered.json passes/*.json; do
+        [ "$(number "$file" layout)" = "$(number passes/show.json layout)" ] || { echo "$file"; return 1; }
+    done
+}
+check "one layout in all reflections" fits
+"$mxgen" pipeline float --storage float >/dev/null
+other_layout() { [ "$(number float/show.json layout)" != "$(number passes/show.json layout)" ]; }
+check "another storage has another layout" other_layout
+words() { [ "$(number "materials/$1.json" words)" = "$2" ]; }
+check "words of Plain" words Plain 3
+check "words of Lacquered" words Lacquered 10
+check "a cut-out has a depth pass" bash -c 'test -s materials/Lantern.depth.frag && grep -q discard materials/Lantern.depth.frag'
+check "an opaque material has none" test ! -e materials/Plain.depth.frag
+check "positions are invariant" grep -q 'invariant gl_Position' materials/Plain.vert
+
+# A stack of eight layers of slabs.
+{
+    echo '<materialx version="1.39">'
+    for i in 1 2 3 4 5 6 7 8; do
+        echo "<slab name='s$i' type='BSDF'><input name='roughness' type='float' value='0.$i'/></slab>
+<surface name='SR$i' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='s$i'/></surface>
+<surfacematerial name='M$i' type='material'><input name='surfaceshader' type='surfaceshader' nodename='SR$i'/></surfacematerial>"
+    done
+    echo '<look name="L">'
+    for i in 1 2 3 4 5 6 7 8; do
+        echo "<materialassign name='a$i' geom='/a' material='M$i' slot='0$i'/>"
+    done
+    echo '</look></materialx>'
+} >eight.mtlx
+echo /a >eight.txt
+check "a stack of eight layers" "$mxgen" eight.mtlx --stage eight.txt --look L --target vulkan --pipeline deferred --reflect -o eight
+
+# ---- what is an error ----
+
+cat >other.mtlx <<'X'
+<materialx version="1.39">
+  <oren_nayar_diffuse_bsdf name="chalk" type="BSDF"/>
+  <surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="chalk"/></surface>
+</materialx>
+X
+reports() {
+    local id=$1
+    shift
+    exits 1 "$@" && grep -q "\[$id\]" err
+}
+check "a closure that is no slab" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --pipeline deferred -o other
+{
+    echo '<materialx version="1.39"><slab name="s0" type="BSDF"/>'
+    for i in {1..16}; do
+        echo "<slab name='t$i' type='BSDF'><input name='roughness' type='float' value='$(printf 0.%02d $i)'/></slab>
+<slab_mix name='s$i' type='BSDF'><input name='fg' type='BSDF' nodename='t$i'/><input name='bg' type='BSDF' nodename='s$((i - 1))'/>
+<input name='mix' type='float' value='0.5'/></slab_mix>"
+    done
+    echo '<slab_surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="sN"/></slab_surface></materialx>'
+} >many.mtlx
+sed 's/"sN"/"s16"/' many.mtlx >seventeen.mtlx
+sed 's/"sN"/"s15"/' many.mtlx >sixteen.mtlx
+check "17 slabs" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --target vulkan --pipeline deferred -o many
+check "16 slabs" "$mxgen" sixteen.mtlx -e SR --target vulkan --pipeline deferred -o many
+warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --pipeline deferred -o milky 2>&1 | grep -q drawn-forward; }
+check "a transparent surface is told" warns
+for target in essl essl310 hlsl osl; do
+    check "no passes for $target" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --pipeline deferred -o no
+done
+check "no passes for OpenGL 3.3" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
+
+# ---- combinations: docs/deferred.md ----
+
+# Pairs of values without a meaning; every other combination has one.
+clashes='deferred:integrator=path deferred:integrator=scatter deferred:slots=stochastic deferred:transparency=blend
+deferred:transmission=opacity deferred:layering=two-sided deferred:encode=srgb depth:integrator=path depth:integrator=scatter
+depth:slots=stochastic depth:transparency=blend'
+# expected PIPELINE OPTION=VALUE...: prints the pairs of a combination that clash.
+expected() {
+    local pipeline=$1 pair
+    shift
+    for pair in "$@"; do
+        [[ " ${clashes//$'\n'/ } " == *" $pipeline:$pair "* ]] && echo "$pair"
+    done
+    return 0
+}
+combination() {
+    local pipeline=$1 pair arguments=() wanted got=0
+    shift
+    for pair in "$@"; do
+        arguments+=("--${pair%%=*}" "${pair#*=}")
+    done
+    wanted=$(expected "$pipeline" "$@")
+    "$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --interface reduced --pipeline "$pipeline" "${arguments[@]}" -o walk \
+        >out 2>err || got=$?
+    [ "$got" -eq "$([ -z "$wanted" ] && echo 0 || echo 1)" ] || { echo "exit code $got"; cat err; return 1; }
+    for pair in $wanted; do
+        grep -q "'pipeline=$pipeline' and '$pair'.*\[options-clash\]" err || { echo "no message about $pair"; return 1; }
+    done
+    [ "$(grep -c options-clash err)" -eq "$(wc -w <<<"$wanted")" ]
+}
+for pipeline in forward deferred depth; do
+    for integrator in raster path scatter; do
+        for slots in blend stochastic; do
+            for transparency in auto opaque mask blend; do
+                check "$pipeline $integrator $slots $transparency" combination "$pipeline" "integrator=$integrator" "slots=$slots" \
+                    "transparency=$transparency"
+            done
+        done
+    done
+    for pair in transmission=opacity layering=two-sided encode=srgb; do
+        check "$pipeline $pair" combination "$pipeline" "$pair"
+    done
+done
+
+finish pipeline
