@@ -151,6 +151,22 @@ typedef struct mxg_resolver {
                           size_t capacity);
 } mxg_resolver;
 
+/*
+ * A target of the host: a target of mxgen under another name. A <targetdef> of this name, with
+ * `inherit`, lets libraries have implementations for it; those for the base serve it, too.
+ */
+typedef struct mxg_dialect {
+    size_t size;         /* sizeof(mxg_dialect) */
+    const char *name;    /* for mxg_generate_desc.target and for libraries: "mygl" */
+    const char *base;    /* "glsl", or "genglsl" */
+    const char *version; /* of the language: the default of `target-version`; NULL: that of base */
+    /* pairs of a key and a value, num_options of them: other defaults of options */
+    const char *const *options;
+    size_t num_options;
+    /* file endings of the vertex and the pixel stage; NULL: those of base */
+    const char *stage_suffix[2];
+} mxg_dialect;
+
 typedef struct mxg_context_desc {
     size_t size;            /* sizeof(mxg_context_desc) */
     mxg_realloc_fn realloc; /* NULL: realloc and free of the C library */
@@ -204,6 +220,12 @@ typedef struct mxg_context_desc {
      */
     const struct mxg_node_code *const *node_codes;
     size_t num_node_codes;
+    /*
+     * Targets of the host, num_dialects of them. MXG_ERROR_ARGUMENT for a name that is taken, an
+     * unknown base, version or option, or a bad value. The texts live as long as the context.
+     */
+    const mxg_dialect *const *dialects;
+    size_t num_dialects;
 } mxg_context_desc;
 #define MXG_CONTEXT_DESC_INIT MXG_INIT(mxg_context_desc)
 
@@ -591,7 +613,11 @@ typedef struct mxg_variable {
     uint32_t offset, byte_size, array_stride, matrix_stride; /* in a block */
     uint32_t num_values; /* components of the default; 0: none */
     float values[16];    /* integers and booleans as numbers */
-    /* textures */
+    /*
+     * textures. `file` has the fileprefix of the document; a name that is not absolute is relative
+     * to the folder of the file of the document that has the input: mxg_document_file, or the file
+     * of the element (mxg_element_info.file) where it comes from an include
+     */
     const char *file, *uaddressmode, *vaddressmode, *filtertype;
     /* for user interfaces, from the definition; "" if absent */
     const char *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *doc;
@@ -786,6 +812,17 @@ MXG_API size_t mxg_result_pack(const mxg_result *result, mxg_block block, void *
 MXG_API mxg_status mxg_result_pack_value(const mxg_result *result, uint32_t variable,
                                          uint32_t element, const float *values, uint32_t num_values,
                                          void *bytes, size_t capacity);
+
+/*
+ * Fills a buffer like mxg_result_pack, with the values that another document has for the program:
+ * the next document after an edit of inputs that are uniforms (mxg_result_input_state). Reads these
+ * inputs and nothing else, so it is much faster than a generation, which mxg_result_change needs.
+ * MXG_ERROR_DOCUMENT if the document has another node or no value there, for example because the
+ * input is connected; the buffer is then not filled, and the host generates. MXG_ERROR_ARGUMENT if
+ * the document has another library, the block is in no buffer, or `capacity` is too small.
+ */
+MXG_API mxg_status mxg_document_values(const mxg_document *document, const mxg_result *program,
+                                       mxg_block block, void *bytes, size_t capacity);
 
 /* A light shader of the result: u_lightData[i].type selects it for light i. */
 typedef struct mxg_light_type {

@@ -14,6 +14,7 @@ from .error import ArgumentError, OutOfMemoryError
 
 if TYPE_CHECKING:
     from .context import Context
+    from .document import Document
 
 #: The value of an option of generation; a sequence gives several values of a list.
 OptionValue = Union[bool, int, str, Sequence[str]]
@@ -421,6 +422,22 @@ class Shader(Native):
         data = bytearray(size)
         if size:
             lib.mxg_result_pack(self._handle.pointer, Block(block), ffi.from_buffer(data), size)
+        return data
+
+    def pack_from(self, document: Document, block: Block) -> bytearray:
+        """The buffer of a block with the values of another document, for example after an edit of inputs that are uniforms.
+
+        Generates nothing. Raises ValueError if an input of the block has no value there, for example because it is connected.
+        """
+        data = self.pack(block)
+        if not data:
+            return data
+        status = lib.mxg_document_values(document._handle.pointer, self._handle.pointer, Block(block), ffi.from_buffer(data),
+                                         len(data))
+        if status == lib.MXG_ERROR_DOCUMENT:
+            raise ValueError("an input of the block has no value in the document")
+        if status != lib.MXG_OK:
+            raise ArgumentError("the document has another library")
         return data
 
     def pack_value(self, data: bytearray, variable: Variable, values: Sequence[float], element: int = 0) -> None:

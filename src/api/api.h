@@ -99,6 +99,14 @@ struct mxg_library {
     VEC(const char *) folders;
 };
 
+/* A target of a host. */
+struct dialect {
+    struct target target;
+    const char *versions[16]; /* that of the host first */
+    const char *const *options;
+    size_t num_options;
+};
+
 struct mxg_context {
     struct mem mem;     /* for this block; all objects have the same allocator */
     atomic_size_t used; /* bytes of all objects of the context */
@@ -115,6 +123,8 @@ struct mxg_context {
     struct source_path *source_paths;
     mxg_node_code *codes; /* num_codes of them */
     uint32_t num_codes;
+    struct dialect *dialects; /* num_dialects of them */
+    uint32_t num_dialects, max_dialects;
     struct mxg_library builtin; /* size 0: this build has no built-in library */
 };
 
@@ -130,8 +140,17 @@ struct mxg_document {
     bool is_silent; /* its definitions have nothing to report, so that another may share them */
 };
 
-/* target.c: true if mxgen has the target of this MaterialX name. */
-bool target_exists(const char *materialx_name);
+/* dialect.c: takes the targets of the description. */
+mxg_status dialects_take(struct mxg_context *context, const mxg_context_desc *desc);
+void dialects_finish(struct mxg_context *context);
+/* A target of mxgen, or of the host; NULL: unknown. */
+const struct target *context_target(const struct mxg_context *context, const char *name);
+/* The dialect that is a target; NULL: it is one of mxgen. */
+const struct dialect *context_dialect(const struct mxg_context *context,
+                                      const struct target *target);
+
+/* target.c: true if mxgen or the context has the target of this MaterialX name. */
+bool target_exists(const void *context, const char *materialx_name);
 
 /*
  * codes.c: copies the nodes in C of the description. codes_finish also frees what a failure leaves.
@@ -238,11 +257,14 @@ struct option_value {
 };
 
 /*
- * The values for a target, in the arena: the defaults where `options` is NULL, and of the options
- * that do not apply to the target.
+ * The values for a target, in the arena: the defaults, which a dialect may change, where `options`
+ * is NULL or sets nothing, and of the options that do not apply to the target.
  */
 const struct option_value *options_for(const struct target *target, const mxg_options *options,
-                                       struct arena *arena);
+                                       struct arena *arena, const struct dialect *dialect);
+/* False: no option has the key, or it has no such value, or the target ignores it. */
+bool options_know(const struct target *target, const char *key, const char *value,
+                  struct arena *arena);
 const struct option_value *options_values(const mxg_options *options); /* as set */
 const char *option_key(enum option_id option);                         /* "interface" */
 /* True if a value is not the default; of a list always. */

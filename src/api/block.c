@@ -42,7 +42,7 @@ mxg_status mxg_result_block(const mxg_result *result, mxg_block block, mxg_block
 /* ---- Values ---- */
 
 /* Columns are matrix_stride bytes apart, and their components follow each other. */
-static void write_words(const struct shader_variable *v, const union ir_word *words, char *to)
+void block_write_words(const struct shader_variable *v, const union ir_word *words, char *to)
 {
     const struct ir_type_info *info = ir_type_info(v->type);
     uint32_t columns = info->columns > 1 ? info->columns : 1, rows = info->components / columns;
@@ -65,7 +65,7 @@ size_t mxg_result_pack(const mxg_result *result, mxg_block block, void *bytes, s
         const struct shader_variable *v = result_variable(result, i);
         assert(v->offset + v->size <= buffer->size);
         if (v->has_default && v->value.type == v->type && !v->array_length)
-            write_words(v, v->value.w, (char *)bytes + v->offset);
+            block_write_words(v, v->value.w, (char *)bytes + v->offset);
     }
     return buffer->size;
 }
@@ -112,7 +112,7 @@ mxg_status mxg_result_pack_value(const mxg_result *result, uint32_t variable, ui
     assert(num_values <= sizeof words / sizeof *words && offset < buffer->size);
     for (uint32_t i = 0; i < num_values; i++)
         words[i] = word_of(ir_type_info(v->type)->scalar, values[i]);
-    write_words(v, words, (char *)bytes + offset);
+    block_write_words(v, words, (char *)bytes + offset);
     return MXG_OK;
 }
 

@@ -4,10 +4,10 @@
 
 #include <assert.h>
 
-static bool is_usable(const mxg_node_code *code)
+static bool is_usable(const mxg_context *context, const mxg_node_code *code)
 {
     return code->name && *code->name && (code->build != NULL) != (code->instead != NULL)
-           && (!code->target || target_exists(code->target));
+           && (!code->target || target_exists(context, code->target));
 }
 
 mxg_status codes_take(struct mxg_context *context, const mxg_context_desc *desc)
@@ -26,7 +26,7 @@ mxg_status codes_take(struct mxg_context *context, const mxg_context_desc *desc)
     for (uint32_t i = 0; i < context->num_codes; i++)
         if (!desc->node_codes[i]
             || !struct_read(&context->codes[i], sizeof *context->codes, desc->node_codes[i])
-            || !is_usable(&context->codes[i]))
+            || !is_usable(context, &context->codes[i]))
             return MXG_ERROR_ARGUMENT;
     return MXG_OK;
 }

@@ -110,7 +110,9 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->trust = d.trust     ? LIBRARY_TRUST_ALL
                      : d.sandbox ? LIBRARY_TRUST_GRAPHS
                                  : LIBRARY_TRUST_PORTABLE;
-    mxg_status status = take_folders(context, &d) ? codes_take(context, &d) : MXG_ERROR_MEMORY;
+    mxg_status status = take_folders(context, &d) ? dialects_take(context, &d) : MXG_ERROR_MEMORY;
+    if (status == MXG_OK)
+        status = codes_take(context, &d);
     if (status != MXG_OK) {
         mxg_context_destroy(context);
         return status;
@@ -131,5 +133,6 @@ void mxg_context_destroy(mxg_context *context)
     sandbox_finish(context);
     source_paths_finish(context);
     codes_finish(context);
+    dialects_finish(context);
     context->mem.realloc(context->mem.user_data, context, sizeof *context, 0);
 }

@@ -10,6 +10,7 @@
 struct mxg_edit {
     struct object object; /* owns the texts of errors; holds the document */
     mxg_document *document;
+    bool is_unchecked; /* it has elements that no call below checked and indexed */
     struct text error;
 };
 
@@ -627,6 +628,7 @@ mxg_element mxg_edit_copy(mxg_edit *edit, mxg_element parent, const mxg_document
 
 struct end_job {
     mxg_document *document;
+    bool is_unchecked;
     struct file_source files;
 };
 
@@ -651,7 +653,7 @@ static void end_document(void *arg)
     mxg_document *document = job->document;
     struct document *doc = &document->layer.doc;
     struct diag_list *diags = &document->object.diagnostics.list;
-    if (document->origin && edit_share(document, &job->files.scratch, diags))
+    if (document->origin && !job->is_unchecked && edit_share(document, &job->files.scratch, diags))
         return;
     for (uint32_t i = 0; i < document->files.len; i++)
         file_source_remember(&job->files, document->files.items[i]);
@@ -680,7 +682,7 @@ mxg_status mxg_edit_end(mxg_edit *edit, mxg_document **out_document)
         mxg_edit_cancel(edit);
         return MXG_ERROR_ARGUMENT;
     }
-    struct end_job job = {.document = edit->document};
+    struct end_job job = {.document = edit->document, .is_unchecked = edit->is_unchecked};
     struct object *object = &edit->document->object;
     const mxg_document *origin = edit->document->origin;
     file_source_init(&job.files, object);
@@ -725,6 +727,7 @@ mxg_status mxg_document_with_materials(mxg_context *context, mxg_library *librar
     if (status != MXG_OK)
         return status;
     struct materials_job job = {.document = edit->document, .scene = scene};
+    edit->is_unchecked = true;
     arena_init(&job.scratch, &edit->document->object.mem);
     status = object_run(&edit->document->object, add_materials, &job);
     arena_finish(&job.scratch);

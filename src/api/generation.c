@@ -16,13 +16,16 @@ static const struct diag_place nowhere = {0};
 
 static bool find_target(struct generation *g)
 {
-    g->result->target = target_find(g->desc.target);
+    const mxg_context *context = g->result->object.context;
+    g->result->target = context_target(context, g->desc.target);
     if (g->result->target)
         return true;
     struct text known;
     text_init(&known, &g->scratch);
     for (const struct target *const *target = targets; *target; target++)
         text_fmt(&known, "%s%s", target == targets ? "" : ", ", (*target)->name);
+    for (uint32_t i = 0; i < context->num_dialects; i++)
+        text_fmt(&known, ", %s", context->dialects[i].target.name);
     diag_add(diags_of(g), DIAG_ID_unknown_target, nowhere, g->desc.target, text_cstr(&known));
     return false;
 }
@@ -218,7 +221,8 @@ bool generation_start(struct generation *g)
 {
     bool good = find_target(g);
     if (good) {
-        g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena);
+        g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena,
+                                 context_dialect(g->result->object.context, g->result->target));
         good = check_version(g) && generation_check_options(g) && generation_check_pipeline(g);
     }
     g->element = g->desc.bindings ? element_of_stack(g)

@@ -163,6 +163,9 @@ void result_input_ui(const mxg_result *result, elem_id element, elem_id definiti
 /* A hash: equal for shaders that can share a program. false: out of memory. */
 bool result_topology(const mxg_result *result, uint64_t *out_topology);
 
+/* block.c: writes a value to its place in a buffer. */
+void block_write_words(const struct shader_variable *v, const union ir_word *words, char *to);
+
 /* inputs.c: shader_reflect_options.compiled; user_data is the mxg_result. */
 void result_compiled(void *user_data, uint32_t index, struct shader_compiled_text *out);
 

@@ -124,6 +124,7 @@ static void read_paths(void *arg)
     for (size_t i = 0; i < load->num_paths; i++)
         read_path(load, load->paths[i]);
     library->layer.knows_target = target_exists;
+    library->layer.target_user_data = library->object.context;
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     library->layer.digest = load->files.digest;
     report_deferred(library);
@@ -318,7 +319,8 @@ static bool has_implementation(const struct mxg_context *context, const struct l
 
 bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const char *target)
 {
-    const struct target *found = target ? target_find(target) : NULL;
+    const struct target *found =
+        library && target ? context_target(library->object.context, target) : NULL;
     return found && nodedef < mxg_library_num_nodedefs(library)
            && has_implementation(library->object.context, &library->layer, nodedef, found);
 }

@@ -182,14 +182,36 @@ const struct option_value *options_values(const mxg_options *options)
     return options->values;
 }
 
+static unsigned find_key(const char *key)
+{
+    unsigned i = 0;
+    while (i < NUM_OPTIONS && strcmp(table[i].key, key) != 0)
+        i++;
+    return i;
+}
+
+bool options_know(const struct target *target, const char *key, const char *value,
+                  struct arena *arena)
+{
+    struct option_value out = {0};
+    unsigned option = find_key(key);
+    return option < NUM_OPTIONS && option_applies((enum option_id)option, target)
+           && parse(arena, &table[option], value, &out);
+}
+
 const struct option_value *options_for(const struct target *target, const mxg_options *options,
-                                       struct arena *arena)
+                                       struct arena *arena, const struct dialect *dialect)
 {
     struct option_value *values = ARENA_ARRAY(arena, struct option_value, NUM_OPTIONS);
     set_defaults(arena, values);
     for (unsigned i = 0; options && i < NUM_OPTIONS; i++)
         if (option_applies((enum option_id)i, target))
             values[i] = options->values[i];
+    for (size_t i = 0; dialect && i < dialect->num_options; i++) {
+        unsigned option = find_key(dialect->options[2 * i]);
+        if (!values[option].is_set)
+            parse(arena, &table[option], dialect->options[2 * i + 1], &values[option]);
+    }
     return values;
 }
 
@@ -266,9 +288,7 @@ static void set(void *arg)
     struct setting *setting = arg;
     mxg_options *options = setting->options;
     struct arena *arena = &options->object.arena;
-    unsigned i = 0;
-    while (i < NUM_OPTIONS && strcmp(table[i].key, setting->key) != 0)
-        i++;
+    unsigned i = find_key(setting->key);
     if (i == NUM_OPTIONS) {
         options->error = unknown_key(arena, setting->key);
         return;

@@ -10,8 +10,12 @@ uint32_t mxg_num_targets(void)
     return count;
 }
 
-bool target_exists(const char *materialx_name)
+bool target_exists(const void *context, const char *materialx_name)
 {
+    const mxg_context *known = context;
+    for (uint32_t i = 0; i < known->num_dialects; i++)
+        if (strcmp(known->dialects[i].target.name, materialx_name) == 0)
+            return true;
     for (const struct target *const *target = targets; *target; target++)
         if (strcmp((*target)->materialx_name, materialx_name) == 0)
             return true;

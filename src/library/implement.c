@@ -435,7 +435,8 @@ static elem_id find_nodegraph(const struct library *lib, str_id name)
 /* True if mxgen does not have the target. */
 static bool is_foreign(const struct indexer *ix, str_id target)
 {
-    return target && ix->lib->knows_target && !ix->lib->knows_target(index_text(ix, target));
+    return target && ix->lib->knows_target
+           && !ix->lib->knows_target(ix->lib->target_user_data, index_text(ix, target));
 }
 
 void index_implementation(struct indexer *ix, elem_id element)

@@ -196,7 +196,8 @@ struct library {
     uint64_t digest;
     enum library_trust trust;
     /* true for the MaterialX name of a target that mxgen has; NULL: it has all */
-    bool (*knows_target)(const char *materialx_name);
+    bool (*knows_target)(const void *user_data, const char *materialx_name);
+    const void *target_user_data;
     struct strpool strings;
     struct document doc;
     struct lang_unit unit;

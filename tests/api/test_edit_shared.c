@@ -255,8 +255,86 @@ static void test_sequences(void)
     close_world(&w);
 }
 
+/* ---- Values for a program ---- */
+
+static mxg_document *edited(struct world *w, const mxg_document *from, const char *input,
+                            const char *type, const char *value)
+{
+    mxg_edit *edit;
+    mxg_document *next = NULL;
+    mxg_edit_begin(w->context, w->library, from, NULL, &edit);
+    if (value)
+        mxg_edit_value(edit, mxg_edit_find(edit, "S1"), input, type, value);
+    else
+        mxg_edit_connect(edit, mxg_edit_find(edit, "S1"), input,
+                         mxg_edit_add(edit, 0, "constant", "Grey", type), NULL);
+    REQUIRE_STR(mxg_edit_error(edit), "");
+    mxg_edit_end(edit, &next);
+    return next;
+}
+
+static mxg_result *generate(struct world *w, const mxg_document *document)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    mxg_result *result = NULL;
+    desc.target = "vulkan";
+    desc.element = "M1";
+    REQUIRE(mxg_generate(w->context, document, &desc, &result) == MXG_OK);
+    return result;
+}
+
+/* The values of an edited document are those that its generation gives. */
+static void test_values(void)
+{
+    static const char *const edits[][3] = {{"base", "float", "0.125"},
+                                           {"coat_color", "color3", "0.1, 0.2, 0.3"},
+                                           {"thin_walled", "boolean", "true"}};
+    struct world w = open_world();
+    mxg_document *document = many_materials(&w, 20);
+    mxg_result *program = generate(&w, document);
+    unsigned char now[2048], expected[2048];
+    size_t size = mxg_result_pack(program, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0);
+    REQUIRE(size > 0 && size <= sizeof now);
+    for (size_t i = 0; i < sizeof edits / sizeof *edits; ++i) {
+        mxg_document *next = edited(&w, document, edits[i][0], edits[i][1], edits[i][2]);
+        mxg_result *after = generate(&w, next);
+        REQUIRE_EQ(mxg_result_change(program, after, NULL, 0, NULL), MXG_CHANGE_VALUES);
+        mxg_result_pack(after, MXG_BLOCK_PUBLIC_UNIFORMS, expected, sizeof expected);
+        mxg_result_pack(program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now);
+        REQUIRE(memcmp(now, expected, size) != 0);
+        REQUIRE_EQ(mxg_document_values(next, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+                   MXG_OK);
+        REQUIRE(memcmp(now, expected, size) == 0);
+        mxg_result_destroy(after);
+        mxg_document_destroy(next);
+    }
+    mxg_document *connected = edited(&w, document, "base", "float", NULL);
+    memset(now, 7, sizeof now);
+    REQUIRE_EQ(mxg_document_values(connected, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+               MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(now[0], 7);
+    REQUIRE_EQ(mxg_document_values(document, program, MXG_BLOCK_TEXTURES, now, sizeof now),
+               MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_values(document, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, size - 1),
+               MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_values(NULL, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, size),
+               MXG_ERROR_ARGUMENT);
+    static const char other[] = "<materialx version='1.39'/>";
+    mxg_document *empty = parse(&w, other, sizeof other - 1);
+    REQUIRE_EQ(mxg_document_values(empty, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+               MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_document_values(empty, program, MXG_BLOCK_PRIVATE_UNIFORMS, now, sizeof now),
+               MXG_OK);
+    mxg_document_destroy(empty);
+    mxg_document_destroy(connected);
+    mxg_result_destroy(program);
+    mxg_document_destroy(document);
+    close_world(&w);
+}
+
 int main(void)
 {
+    test_values();
     test_memory();
     test_slider();
     test_sequences();

@@ -14,6 +14,7 @@ struct machine {
     mxg_document *documents[NUM_SLOTS];
     mxg_options *options[NUM_SLOTS];
     mxg_result *results[NUM_SLOTS];
+    mxg_edit *edits[NUM_SLOTS];
 };
 
 static const char parts[] =
@@ -182,10 +183,118 @@ static void read_library(struct machine *m, unsigned slot, unsigned argument)
         mxg_library_expand(library, &text, &size);
 }
 
+static void begin_edit(struct machine *m, unsigned slot, unsigned argument)
+{
+    mxg_edit_cancel(m->edits[slot]);
+    m->edits[slot] = NULL;
+    mxg_edit_begin(m->context, m->libraries[argument % NUM_SLOTS],
+                   argument & 128 ? NULL : m->documents[argument / 4 % NUM_SLOTS],
+                   name_of(argument), &m->edits[slot]);
+}
+
+static void change_names(mxg_edit *edit, mxg_element element, mxg_element other, unsigned argument)
+{
+    switch (argument % 6) {
+    case 0: mxg_edit_rename(edit, element, name_of(argument / 3)); break;
+    case 1: mxg_edit_set(edit, element, "name", name_of(argument / 3)); break;
+    case 2: mxg_edit_set(edit, element, "nodedef", name_of(argument / 3)); break;
+    case 3: mxg_edit_remove(edit, element); break;
+    case 4: mxg_edit_move(edit, element, other, argument / 8 % 40); break;
+    default:
+        mxg_edit_set(edit, element, argument & 64 ? "namespace" : "doc",
+                     argument & 32 ? NULL : "x");
+    }
+}
+
+static void change_edit(struct machine *m, unsigned slot, unsigned argument)
+{
+    static const char *const paths[] = {"S", "M", "G", "G/m", "G/i", "new", "L", ""};
+    mxg_edit *edit = m->edits[slot];
+    const float values[] = {0.5f, 0.25f, 1.0f};
+    mxg_element element = mxg_edit_find(edit, paths[argument % 8]),
+                other = mxg_edit_find(edit, paths[argument / 8 % 8]);
+    switch (argument / 16 % 8) {
+    case 0: mxg_edit_numbers(edit, element, "base", "float", values, 1 + argument % 2); break;
+    case 1:
+        mxg_edit_value(edit, element, "base_color", "color3", argument & 1 ? "1, 0, 0" : "x");
+        break;
+    case 2: mxg_edit_connect(edit, element, argument & 1 ? "coat" : NULL, other, NULL); break;
+    case 3:
+        mxg_edit_add(edit, other, argument & 1 ? "constant" : "nodegraph", "new", "float");
+        break;
+    case 4:
+        mxg_edit_copy(edit, other, m->documents[argument % NUM_SLOTS], argument % 64,
+                      argument & 2 ? "copy" : NULL);
+        break;
+    default: change_names(edit, element, other, argument);
+    }
+    if (edit)
+        mxg_edit_error(edit);
+}
+
+static void end_edit(struct machine *m, unsigned slot, unsigned argument)
+{
+    mxg_document_destroy(m->documents[slot]);
+    m->documents[slot] = NULL;
+    mxg_edit_end(m->edits[argument % NUM_SLOTS], argument & 128 ? NULL : &m->documents[slot]);
+    m->edits[argument % NUM_SLOTS] = NULL;
+}
+
+/* The text of a document reads as an equal one. */
+static void read_elements(struct machine *m, unsigned slot, unsigned argument)
+{
+    const mxg_document *document = m->documents[slot];
+    mxg_element_info info = {sizeof info};
+    mxg_value value = {sizeof value};
+    mxg_connection connection = {sizeof connection};
+    char path[40];
+    uint32_t nodedef;
+    mxg_element element = mxg_document_root(document) + argument;
+    mxg_document_element(document, element, &info);
+    mxg_document_value(document, element, &value);
+    mxg_document_connection(document, element, &connection);
+    mxg_document_definition(document, element, &nodedef);
+    mxg_document_path(document, element, path, argument % sizeof path);
+    mxg_document_xml(document, NULL);
+}
+
+static void pack_values(struct machine *m, unsigned slot, unsigned argument)
+{
+    unsigned char bytes[1024];
+    const mxg_result *result = m->results[slot], *other = m->results[argument % NUM_SLOTS];
+    mxg_block block = (mxg_block)(argument / 4 % 8);
+    mxg_block_info info = {sizeof info};
+    mxg_result_block(result, block, &info);
+    mxg_result_pack(result, block, bytes, sizeof bytes - argument);
+    mxg_document_values(m->documents[argument / 32 % NUM_SLOTS], result, block, bytes,
+                        sizeof bytes - argument % 2 * 1000);
+    mxg_result_change(result, other, NULL, 0, NULL);
+    mxg_result_input_state(result, name_of(argument));
+}
+
+static void set_names(struct machine *m, unsigned slot, unsigned argument)
+{
+    static const char *const settings[][2] = {{"form", "function"},
+                                              {"prefix", "a_"},
+                                              {"prefix", "_"},
+                                              {"rename", "u_viewPosition=eye"},
+                                              {"rename", "surface=shade"},
+                                              {"rename", "out1=out1,normalWorld=N"},
+                                              {"publish", "all"},
+                                              {"rename", "G_k=u_frame,u_frame=G_k"},
+                                              {"reserved", "N,result"},
+                                              {"names", "neutral"},
+                                              {"uniform-blocks", "true"},
+                                              {"interface", "complete"}};
+    unsigned i = argument % (sizeof settings / sizeof *settings);
+    mxg_options_set(m->options[slot], settings[i][0], settings[i][1]);
+}
+
 static void (*const calls[])(struct machine *, unsigned slot, unsigned argument) = {
     load_library,  take_builtin, share_library, drop_library, load_document,
     drop_document, make_options, set_option,    generate,     validate,
-    inspect,       read_result,  read_document, read_library};
+    inspect,       read_result,  read_document, read_library, begin_edit,
+    change_edit,   end_edit,     read_elements, pack_values,  set_names};
 enum { NUM_CALLS = sizeof calls / sizeof *calls, MAX_CALLS = 64 };
 
 void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
@@ -193,8 +302,14 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     struct machine m = {0};
     struct fuzz_files files;
     fuzz_files_split(&files, parts, sizeof parts - 1);
-    m.context =
-        fuzz_files_context(&files, heap, (mxg_context_desc){.max_memory = (size_t)64 << 20});
+    static const char *const defaults[] = {"prefix", "my_"};
+    static const mxg_dialect dialect = {sizeof dialect, "nothing", "glsl",      "330",
+                                        defaults,       1,         {NULL, NULL}};
+    static const mxg_dialect *const dialects[] = {&dialect};
+    m.context = fuzz_files_context(&files, heap,
+                                   (mxg_context_desc){.max_memory = (size_t)64 << 20,
+                                                      .dialects = dialects,
+                                                      .num_dialects = 1});
     for (size_t i = 0; i + 1 < size && i < 2 * MAX_CALLS; i += 2) {
         unsigned call = (unsigned char)data[i], argument = (unsigned char)data[i + 1];
         calls[call % NUM_CALLS](&m, call / NUM_CALLS % NUM_SLOTS, argument);
@@ -202,6 +317,7 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     for (int i = 0; i < NUM_SLOTS; i++) {
         mxg_library_unref(m.libraries[i]);
         mxg_document_destroy(m.documents[i]);
+        mxg_edit_cancel(m.edits[i]);
         mxg_options_destroy(m.options[i]);
         mxg_result_destroy(m.results[i]);
     }

@@ -142,6 +142,22 @@ class Shaders(unittest.TestCase):
             shader.pack_value(bytes(data), stone, (1, 1, 1))
         self.assertEqual(shader.pack(mxgen.Block.TEXTURES), b"")
 
+    def test_values_of_another_document(self):
+        document = self.context.load(common.EXAMPLES / "marble.mtlx")
+        shader = document.generate("vulkan")
+        stone = shader.find_variable("NG_marble/stone")
+        with document.edit() as edit:
+            edit["NG_marble"].value("stone", (0.25, 0.5, 1), "color3")
+        data = shader.pack_from(edit.document, mxgen.Block.PUBLIC_UNIFORMS)
+        self.assertEqual(struct.unpack_from("<3f", data, stone.offset), (0.25, 0.5, 1))
+        self.assertEqual(shader.pack_from(document, mxgen.Block.PUBLIC_UNIFORMS), shader.pack(mxgen.Block.PUBLIC_UNIFORMS))
+        self.assertEqual(shader.pack_from(document, mxgen.Block.TEXTURES), b"")
+        with self.assertRaises(ValueError):
+            shader.pack_from(self.context.load(common.EXAMPLES / "gold.mtlx"), mxgen.Block.PUBLIC_UNIFORMS)
+        other = mxgen.Context().load(common.EXAMPLES / "marble.mtlx")
+        with self.assertRaises(mxgen.ArgumentError):
+            shader.pack_from(other, mxgen.Block.PRIVATE_UNIFORMS)
+
     def test_lights(self):
         shader = self.context.load(common.EXAMPLES / "gold.mtlx").generate("glsl")
         lights = {light.type: light for light in shader.light_types}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The values of a document for a program that another document made. */
+#include "api/generation.h"
+
+/* The element of a path in the document itself, without the layers below. */
+static elem_id find_own(const struct document *doc, const char *path, size_t len)
+{
+    elem_id element = doc_find(doc, path, len);
+    return doc_has_element(doc, element) ? element : 0;
+}
+
+/* True if both documents have the same node or graph around the input. */
+static bool has_same_owner(const mxg_result *program, const struct document *doc, const char *path)
+{
+    const struct document *before = &program->document->layer.doc;
+    const char *slash = strrchr(path, '/');
+    size_t len = slash ? (size_t)(slash - path) : 0;
+    elem_id now = find_own(doc, path, len), then = find_own(before, path, len);
+    return now && then
+           && strcmp(str_text(doc->strings, doc_element(doc, now)->category),
+                     str_text(before->strings, doc_element(before, then)->category))
+                  == 0;
+}
+
+static bool is_connected(const struct document *doc, elem_id input)
+{
+    return doc_attr(doc, input, STR_nodename) || doc_attr(doc, input, STR_nodegraph)
+           || doc_attr(doc, input, STR_interfacename) || doc_attr(doc, input, STR_output);
+}
+
+/* The text of the value that the document has for a variable, or of its default. NULL: none. */
+static const char *value_text(const mxg_result *program, const struct document *doc,
+                              const struct shader_variable *v)
+{
+    const char *path = str_text(&program->strings, v->path);
+    elem_id input = find_own(doc, path, strlen(path));
+    if (!has_same_owner(program, doc, path) || (input && is_connected(doc, input)))
+        return NULL;
+    const char *type = str_text(&program->strings, v->doc_type);
+    const struct attribute *value = input ? doc_attr(doc, input, STR_value) : NULL;
+    if (input && strcmp(str_text(doc->strings, doc_attr_value(doc, input, STR_type)), type) != 0)
+        return NULL;
+    if (!value && v->definition && v->definition < doc->first_element)
+        value = doc_attr(doc, v->definition, STR_value);
+    return value ? str_text(doc->strings, value->value) : NULL;
+}
+
+static bool read_value(const mxg_result *program, const struct document *doc,
+                       const struct shader_variable *v, struct ir_value *out)
+{
+    const char *text = value_text(program, doc, v);
+    doc_type type = doc_type_of(str_find(doc->strings, str_text(&program->strings, v->doc_type),
+                                         str_len(&program->strings, v->doc_type)));
+    return text && type && doc_parse_value(type, text, strlen(text), NULL, out)
+           && out->type == v->type;
+}
+
+mxg_status mxg_document_values(const mxg_document *document, const mxg_result *program,
+                               mxg_block block, void *bytes, size_t capacity)
+{
+    size_t size = program ? mxg_result_pack(program, block, NULL, 0) : 0;
+    if (!document || !size || !bytes || capacity < size
+        || document->layer.base != program->document->layer.base)
+        return MXG_ERROR_ARGUMENT;
+    const struct shader *shader = &program->shader;
+    const struct document *doc = &document->layer.doc;
+    struct ir_value value;
+    for (unsigned writes = 0; writes < 2;
+         writes++) { /* first a test, so that all or nothing is written */
+        if (writes)
+            mxg_result_pack(program, block, bytes, capacity);
+        for (uint32_t i = shader->first_of_block[block]; i < shader->first_of_block[block + 1];
+             i++) {
+            const struct shader_variable *v = result_variable(program, i);
+            if (!v->path)
+                continue;
+            if (!read_value(program, doc, v, &value))
+                return MXG_ERROR_DOCUMENT;
+            if (writes)
+                block_write_words(v, value.w, (char *)bytes + v->offset);
+        }
+    }
+    return MXG_OK;
+}
