@@ -43,6 +43,19 @@ sed 's/<input name="mix" type="float" value="0.6"\/>/&<input name="blend_paramet
 check 'the document asks' exits 0 "$mxgen" asked.mtlx -e CarPaint -Wbudget-step -o made
 check 'for one slab' says "one slab for 'paint': closures 3 to 2"
 
+# Sums and products
+cat >sum.mtlx <<'END'
+<materialx version="1.39">
+  <slab name="a" type="BSDF"/>
+  <slab name="b" type="BSDF"><input name="roughness" type="float" value="0.2"/></slab>
+  <multiply name="half" type="BSDF"><input name="in1" type="BSDF" nodename="a"/><input name="in2" type="color3" value="0.5, 0.2, 0.1"/></multiply>
+  <add name="both" type="BSDF"><input name="in1" type="BSDF" nodename="half"/><input name="in2" type="BSDF" nodename="b"/></add>
+  <slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></slab_surface>
+</materialx>
+END
+check 'a sum' exits 0 "$mxgen" sum.mtlx --max-closures 1 -Wbudget-step -o made
+check 'is one slab' says "one slab for the sum 'both': closures 2 to 1"
+
 # Profiles
 for profile in desktop console mobile one-closure; do
     check "profile $profile" compiles "$slabs" --profile "$profile"
