@@ -331,9 +331,9 @@ static void test_views(const struct bench *b)
                                         [MXG_VIEW_IR] = "%",
                                         [MXG_VIEW_CLOSURES] = "mx_",
                                         [MXG_VIEW_STATISTICS] = "closures",
-                                        [MXG_VIEW_SLABS] = "no slabs",
-                                        [MXG_VIEW_SLABS_JSON] = "\"trees\": []",
-                                        [MXG_VIEW_SLABS_SVG] = "no slabs</text>"};
+                                        [MXG_VIEW_SLABS] = "a body, as slabs",
+                                        [MXG_VIEW_SLABS_JSON] = "\"recognised\": true",
+                                        [MXG_VIEW_SLABS_SVG] = "</svg>"};
     mxg_generate_desc desc = {sizeof desc, "glsl", NULL, NULL};
     for (int view = 0; view <= MXG_VIEW_SLABS_SVG; view++) {
         mxg_result *result = NULL;
