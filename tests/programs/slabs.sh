@@ -1,8 +1,8 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # slabs.sh MXGEN COMPILE EXAMPLES: budgets of slabs, profiles, `--slabs` and `inspect --slabs`, as a user calls them.
-mxgen=$1 compile=$2 examples=$3
-source "$(dirname "$0")/common.sh"
+mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")} examples=$(realpath "$3")
+. "$(dirname "$0")/common.sh"
 slabs=$examples/slabs.mtlx
 
 says() { grep -qF -- "$1" err; }
