@@ -84,6 +84,9 @@ done
 check 'marble as slabs' exits 0 "$mxgen" inspect --closures "$examples/marble.mtlx" --max-closures 1
 check 'is lobes of slabs' eval 'grep -q mx_slab_medium_bsdf out && ! grep -qE "mx_(oren|dielectric|conductor)" out'
 
+check 'albedo that varies' exits 0 "$mxgen" "$examples/marble.mtlx" --slabs --interface reduced -o made
+check 'adds the even environment once' eval '! sed -n "/void main/,\$p" made/Marble.frag | grep -q "< u_envRadianceSamples"'
+
 # Views
 check 'a sheet' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre
 check 'has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 48 bytes" out && grep -q "to one closure" out'
