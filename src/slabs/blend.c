@@ -6,6 +6,8 @@
  *                     interface weight        diffuse light
  *     a beside b      share of a, of b        share (1 - f0) albedo
  *     a over b        coverage of a, W        of the medium of a; W (1 - f0) albedo of b
+ *     a plus b        1, 1                    (1 - f0) albedo
+ *     a times c       c                       c (1 - f0) albedo
  *
  * W is the light that the walk lets through a along its normal, on both ways. The slab has
  *
@@ -498,6 +500,32 @@ static void blend_over(const struct slab_blend *blend, struct part *a, struct pa
     blend_depths(g, a, b, thickness, spot, out);
 }
 
+/* ---- A plus B, A times a colour ---- */
+
+static void blend_sum(const struct slab_blend *blend, struct part *a, struct part *b,
+                      const struct slab_spot *spot, ir_ref *out)
+{
+    struct ir_graph *g = blend->shader->graph;
+    bool is_same = a->in[SLAB_coverage] == b->in[SLAB_coverage];
+    out[SLAB_coverage] = is_same ? a->in[SLAB_coverage] : num(g, 1.0f);
+    set_share(g, a, is_same ? num(g, 1.0f) : a->in[SLAB_coverage]);
+    set_share(g, b, is_same ? num(g, 1.0f) : b->in[SLAB_coverage]);
+    blend_parts(blend, a, b, out);
+    ir_ref light_a = mean(g, a->diffuse), light_b = mean(g, b->diffuse);
+    out[SLAB_mean_free_path] = path_beside(g, a, b, share_of(g, light_a, light_b), spot);
+}
+
+static void blend_scaled(struct ir_graph *g, const struct part *a, ir_ref factor, ir_ref *out)
+{
+    ir_ref weight = between(g, ir_convert(g, IR_TYPE_VEC3, factor), 0.0f, 1.0f);
+    memcpy(out, a->in, sizeof a->in);
+    out[SLAB_f0] = mul(g, a->in[SLAB_f0], weight);
+    ir_ref diffuse = mul(g, scattered(g, a->in), weight);
+    out[SLAB_diffuse_albedo] = ir_op2(g, IR_DIV, diffuse, entering(g, out[SLAB_f0]));
+    out[SLAB_fuzz_amount] = mul(g, a->in[SLAB_fuzz_amount], mean(g, weight));
+    out[SLAB_emission] = mul(g, a->in[SLAB_emission], weight);
+}
+
 /* ---- Operators ---- */
 
 static bool is_layer(const struct ir_node *node)
@@ -517,7 +545,11 @@ static ir_ref covered_slab(const struct ir_graph *g, ir_ref ref)
 bool slab_can_blend(const struct ir_graph *g, ir_ref ref)
 {
     const struct ir_node *node = ir_get(g, ref);
-    if (!is_layer(node) && node->op != IR_CLOSURE_MIX)
+    if (node->type != IR_TYPE_BSDF)
+        return false;
+    if (node->op == IR_CLOSURE_SCALE)
+        return covered_slab(g, ir_arg(g, ref, 0)) != 0;
+    if (!is_layer(node) && node->op != IR_CLOSURE_MIX && node->op != IR_CLOSURE_ADD)
         return false;
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
     return (!a || covered_slab(g, a)) && (!b || covered_slab(g, b));
@@ -544,14 +576,19 @@ ir_ref slab_blended(const struct slab_blend *blend, const struct slab_spot *spot
     ir_ref out[NUM_SLAB_OPERANDS];
     assert(slab_can_blend(g, spot->ref) && (first || second));
     ir_push_origin_of(g, spot->ref);
-    if (!first || !second) {
-        ir_ref only = is_layer(&node) ? (first ? first : second) : spot->ref;
+    if (node.op == IR_CLOSURE_SCALE) {
+        struct part a = part_of(g, first);
+        blend_scaled(g, &a, second, out);
+    } else if (!first || !second) {
+        ir_ref only = node.op == IR_CLOSURE_MIX ? spot->ref : first ? first : second;
         memcpy(out, part_of(g, only).in, sizeof out);
     } else {
         struct part a = part_of(g, first), b = part_of(g, second);
         ir_ref third = node.num_args > 2 ? ir_arg(g, spot->ref, 2) : num(g, SLABS_LAYER_THICKNESS);
         if (is_layer(&node))
             blend_over(blend, &a, &b, third, spot, out);
+        else if (node.op == IR_CLOSURE_ADD)
+            blend_sum(blend, &a, &b, spot, out);
         else
             blend_beside(blend, &a, &b, third, spot, out);
     }

@@ -62,10 +62,15 @@ static void record(struct saver *s, struct slab_step step, ir_ref root)
 
 /* ---- Steps ---- */
 
-static bool is_layer(const struct ir_graph *g, ir_ref ref)
+static enum slab_step_kind kind_of(const struct ir_graph *g, ir_ref ref)
 {
-    uint8_t op = ir_get(g, ref)->op;
-    return op == IR_SLAB_LAYER || op == IR_LAYER;
+    switch (ir_get(g, ref)->op) {
+    case IR_LAYER:
+    case IR_SLAB_LAYER: return SLAB_STEP_LAYER;
+    case IR_CLOSURE_ADD: return SLAB_STEP_SUM;
+    case IR_CLOSURE_SCALE: return SLAB_STEP_PRODUCT;
+    default: return SLAB_STEP_MIX;
+    }
 }
 
 /* False: another operator with the same operands is elsewhere, and would need them still. */
@@ -78,7 +83,7 @@ static bool is_cheaper(struct slab_cost a, struct slab_cost b)
 static struct candidate blend_at(struct saver *s, const struct slab_spot *spot)
 {
     struct candidate c = {.depth = s->spots.depth[spot->ref]};
-    c.step.kind = is_layer(s->graph, spot->ref) ? SLAB_STEP_LAYER : SLAB_STEP_MIX;
+    c.step.kind = kind_of(s->graph, spot->ref);
     c.step.node = spot->ref;
     ir_ref slab = slab_blended(&s->blend, spot);
     c.root = ir_replace(s->graph, s->root, spot->ref, slab, s->shader->arena);
@@ -325,6 +330,8 @@ void slabs_describe_step(const struct shader *shader, const struct slab_step *st
         [SLAB_STEP_ASKED] = "one slab for",
         [SLAB_STEP_LAYER] = "one slab for the layer",
         [SLAB_STEP_MIX] = "one slab for the mix",
+        [SLAB_STEP_SUM] = "one slab for the sum",
+        [SLAB_STEP_PRODUCT] = "one slab for the product",
         [SLAB_STEP_FEATURE] = "no",
     };
     static const char *const features[NUM_SLAB_FEATURES] = {

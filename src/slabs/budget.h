@@ -20,6 +20,8 @@ enum slab_step_kind {
     SLAB_STEP_ASKED,     /* the document asks to blend the parameters of an operator */
     SLAB_STEP_LAYER,     /* one slab for a layer */
     SLAB_STEP_MIX,       /* one slab for slabs side by side */
+    SLAB_STEP_SUM,       /* one slab for a sum */
+    SLAB_STEP_PRODUCT,   /* one slab for a slab times a colour */
     SLAB_STEP_FEATURE,
     NUM_SLAB_STEPS
 };

@@ -325,13 +325,17 @@ static void test_globs(struct bench *b)
 
 static void test_views(const struct bench *b)
 {
-    static const char *const words[] = {
-        [MXG_VIEW_ELEMENTS] = "[renderable]", [MXG_VIEW_GRAPH] = "G/t",
-        [MXG_VIEW_DOT] = "digraph",           [MXG_VIEW_IR] = "%",
-        [MXG_VIEW_CLOSURES] = "mx_",          [MXG_VIEW_STATISTICS] = "closures",
-        [MXG_VIEW_SLABS] = "no slabs"};
+    static const char *const words[] = {[MXG_VIEW_ELEMENTS] = "[renderable]",
+                                        [MXG_VIEW_GRAPH] = "G/t",
+                                        [MXG_VIEW_DOT] = "digraph",
+                                        [MXG_VIEW_IR] = "%",
+                                        [MXG_VIEW_CLOSURES] = "mx_",
+                                        [MXG_VIEW_STATISTICS] = "closures",
+                                        [MXG_VIEW_SLABS] = "a body, as slabs",
+                                        [MXG_VIEW_SLABS_JSON] = "\"recognised\": true",
+                                        [MXG_VIEW_SLABS_SVG] = "</svg>"};
     mxg_generate_desc desc = {sizeof desc, "glsl", NULL, NULL};
-    for (int view = 0; view <= MXG_VIEW_SLABS; view++) {
+    for (int view = 0; view <= MXG_VIEW_SLABS_SVG; view++) {
         mxg_result *result = NULL;
         size_t size = 0;
         REQUIRE_EQ(mxg_inspect(b->context, b->document, (mxg_view)view, &desc, &result), MXG_OK);

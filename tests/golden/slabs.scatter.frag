@@ -91,6 +91,12 @@ float mx_ggx_smith_visibility(const vec3 v, const vec3 l, const vec2 alpha)
     return 0.5 * l.z / (v.z * length(vec3(l.xy * alpha, l.z)) + l.z * length(vec3(v.xy * alpha, v.z)));
 }
 
+// Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
+vec3 mx_ggx_compensation(const vec2 albedo, const vec3 n)
+{
+    return vec3(1.0) + mix(mx_fresnel_schlick(1.0, n), vec3(1.0), vec3(0.04761905)) * (1.0 / albedo.x - 1.0);
+}
+
 // What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y).
 vec2 mx_ggx_albedo(const vec2 roughness, const float c)
 {
@@ -141,7 +147,7 @@ void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3
         return;
     if (is_reflected) {
         weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
-            * (vec3(1.0) + mix(n, vec3(1.0), vec3(0.04761905)) * (1.0 / mx_ggx_albedo(roughness, v.z).x - 1.0));
+            * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), n);
         pdf = 0.25 * share;
     } else {
         weight = (vec3(1.0) - f) * (2.0 / ((-l).z + length(vec3((-l).xy * alpha, (-l).z))) * -l.z / (1.0 - share));
@@ -194,94 +200,103 @@ void scatter()
     float c = dot(N, vd.viewWorld);
     float c_2 = max(abs(c), 1e-8);
     // coat
-    vec2 reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (c_2 + 0.01), c_2);
-    vec3 reflection_f = mx_fresnel_schlick(max(1.0 - pow(reflection_albedo.y, 0.2), 1e-8), vec3(0.04));
-    float reflection_ggx_compensation = (1.0 / reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float reflection_product = reflection_albedo.x * reflection_ggx_compensation;
-    vec3 reflection_greater = max(vec3(1.0) - reflection_f * reflection_product, 0.0);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (c_2 + 0.01), c_2);
+    vec3 coat_reflection_f = mx_fresnel_schlick(max(1.0 - pow(coat_reflection_albedo.y, 0.2), 1e-8), vec3(0.04));
+    float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
+    float coat_reflection_product = coat_reflection_albedo.x * coat_reflection_ggx_compensation;
+    vec3 coat_reflection_greater = max(vec3(1.0) - coat_reflection_f * coat_reflection_product, 0.0);
     // milk
     float way = inversesqrt(c * c + 1.25) * 1.5;
-    vec3 medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
-    vec3 blended_bare_throughput = mix(vec3(1.0), reflection_greater * medium_throughput, 0.5);
+    vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
+    vec3 blended_coat_bare_throughput = mix(vec3(1.0), coat_reflection_greater * coat_medium_throughput, 0.5);
     vec2 albedo = mx_ggx_albedo_fit(0.25, 0.25 / (c_2 + 0.25), c_2);
     float cosine = max(1.0 - pow(albedo.y, 0.2), 1e-8);
-    vec3 second_reflection_f = mx_fresnel_schlick(cosine, vec3(0.04));
+    vec3 milk_second_reflection_f = mx_fresnel_schlick(cosine, vec3(0.04));
     float difference = 1.0 / albedo.x - 1.0;
-    float second_reflection_ggx_compensation = difference * 0.08571428 + 1.0;
-    float second_reflection_product = albedo.x * second_reflection_ggx_compensation;
-    vec3 second_reflection_throughput = max(vec3(1.0) - second_reflection_f * second_reflection_product, 0.0);
-    vec3 medium_transmitted;
-    vec3 medium = mx_medium_layer(way, medium_transmitted);
+    float milk_second_reflection_ggx_compensation = difference * 0.08571428 + 1.0;
+    float milk_second_reflection_product = albedo.x * milk_second_reflection_ggx_compensation;
+    vec3 milk_second_reflection_throughput = max(vec3(1.0) - milk_second_reflection_f * milk_second_reflection_product,
+        0.0);
+    vec3 milk_medium_transmitted;
+    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
-    vec3 second_reflection_ggx_compensation_2 = difference * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
+    vec3 metal_second_reflection_ggx_compensation = difference * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
     vec3 slab_reflection_bsdf_albedo = mx_fresnel_schlick(cosine, metal_constant) * albedo.x
-        * second_reflection_ggx_compensation_2;
-    const vec3 medium_constant = vec3(0.10193972, 0.102937125, 0.103155464);
-    vec3 medium_throughput_2 = medium_transmitted
-        / (vec3(1.0) - min(slab_reflection_bsdf_albedo * medium_constant, 0.999));
-    vec3 bare_product = second_reflection_throughput * (medium_throughput_2 * vec3(0.895498, 0.89649165, 0.8967095));
-    vec3 medium_throughput_3 = medium_throughput * vec3(0.9512294, 0.967216, 0.9753099);
-    vec3 blended_bare_throughput_2 = mix(vec3(1.0), reflection_greater * medium_throughput_3, 0.5);
-    vec3 second_reflection_difference = blended_bare_throughput * bare_product - blended_bare_throughput_2
-        * bare_product;
-    vec3 blended_bare_throughput_3 = mix(vec3(1.0), reflection_greater
-        * (medium_throughput_3 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
-    vec3 second_reflection_decay = clamp((blended_bare_throughput_2 * bare_product - blended_bare_throughput_3
-        * bare_product) / max(second_reflection_difference, 1e-6), 0.0, 0.999);
-    vec3 second_reflection_ratio = second_reflection_difference / (vec3(1.0) - second_reflection_decay);
-    vec3 second_reflection_steady = blended_bare_throughput * bare_product - second_reflection_ratio;
-    float greater = max(dot((second_reflection_steady + second_reflection_ratio
-        * pow(second_reflection_decay, vec3(1.145898))) * (slab_reflection_bsdf_albedo * 0.9 + vec3(0.1)),
+        * metal_second_reflection_ggx_compensation;
+    const vec3 milk_medium_constant = vec3(0.10193972, 0.102937125, 0.103155464);
+    vec3 milk_medium_throughput = milk_medium_transmitted
+        / (vec3(1.0) - min(slab_reflection_bsdf_albedo * milk_medium_constant, 0.999));
+    vec3 milk_bare_product = milk_second_reflection_throughput
+        * (milk_medium_throughput * vec3(0.895498, 0.89649165, 0.8967095));
+    vec3 coat_medium_throughput_2 = coat_medium_throughput * vec3(0.9512294, 0.967216, 0.9753099);
+    vec3 blended_coat_bare_throughput_2 = mix(vec3(1.0), coat_reflection_greater * coat_medium_throughput_2, 0.5);
+    vec3 metal_second_reflection_difference = blended_coat_bare_throughput * milk_bare_product
+        - blended_coat_bare_throughput_2 * milk_bare_product;
+    vec3 blended_coat_bare_throughput_3 = mix(vec3(1.0), coat_reflection_greater
+        * (coat_medium_throughput_2 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
+    vec3 metal_second_reflection_decay = clamp((blended_coat_bare_throughput_2 * milk_bare_product
+        - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_second_reflection_difference, 1e-6), 0.0,
+        0.999);
+    vec3 metal_second_reflection_ratio = metal_second_reflection_difference
+        / (vec3(1.0) - metal_second_reflection_decay);
+    vec3 metal_second_reflection_steady = blended_coat_bare_throughput * milk_bare_product
+        - metal_second_reflection_ratio;
+    float greater = max(dot((metal_second_reflection_steady + metal_second_reflection_ratio
+        * pow(metal_second_reflection_decay, vec3(1.145898))) * (slab_reflection_bsdf_albedo * 0.9 + vec3(0.1)),
         vec3(0.33333334)), 0.0);
-    vec3 second_reflection_greater = max(vec3(1.0) - slab_reflection_bsdf_albedo, 0.0);
-    vec3 bare_medium_weight = second_reflection_greater
-        * (second_reflection_throughput * medium_throughput_2 * blended_bare_throughput);
-    vec3 medium_throughput_4 = medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436);
-    vec3 bare_medium_weight_2 = second_reflection_greater
-        * (second_reflection_throughput * medium_throughput_4 * blended_bare_throughput_2);
-    vec3 medium_difference = bare_medium_weight_2 - second_reflection_greater
-        * (second_reflection_throughput * (medium_throughput_4 * vec3(0.9081714, 0.9090508, 0.9092436))
-        * blended_bare_throughput_3);
-    vec3 medium_decay = clamp(medium_difference / max(bare_medium_weight - bare_medium_weight_2, 1e-6), 0.0, 0.999);
-    vec3 medium_ratio = (bare_medium_weight - bare_medium_weight_2) / (vec3(1.0) - medium_decay);
-    float greater_2 = max(dot((bare_medium_weight - medium_ratio + medium_ratio * pow(medium_decay, vec3(1.145898)))
-        * 0.1, vec3(0.33333334)), 0.0);
-    vec3 clamped = clamp((blended_bare_throughput_2 - blended_bare_throughput_3)
-        / max(blended_bare_throughput - blended_bare_throughput_2, 1e-6), 0.0, 0.999);
-    vec3 ratio = (blended_bare_throughput - blended_bare_throughput_2) / (vec3(1.0) - clamped);
-    vec3 difference_2 = blended_bare_throughput - ratio;
+    vec3 metal_second_reflection_throughput = max(vec3(1.0) - slab_reflection_bsdf_albedo, 0.0);
+    vec3 metal_bare_metal_medium_weight = metal_second_reflection_throughput
+        * (milk_second_reflection_throughput * milk_medium_throughput * blended_coat_bare_throughput);
+    vec3 milk_medium_throughput_2 = milk_medium_throughput * vec3(0.9081714, 0.9090508, 0.9092436);
+    vec3 metal_bare_metal_medium_weight_2 = metal_second_reflection_throughput
+        * (milk_second_reflection_throughput * milk_medium_throughput_2 * blended_coat_bare_throughput_2);
+    vec3 metal_medium_difference = metal_bare_metal_medium_weight_2 - metal_second_reflection_throughput
+        * (milk_second_reflection_throughput * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436))
+        * blended_coat_bare_throughput_3);
+    vec3 metal_medium_decay = clamp(metal_medium_difference
+        / max(metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2, 1e-6), 0.0, 0.999);
+    vec3 metal_medium_ratio = (metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2)
+        / (vec3(1.0) - metal_medium_decay);
+    float greater_2 = max(dot((metal_bare_metal_medium_weight - metal_medium_ratio + metal_medium_ratio
+        * pow(metal_medium_decay, vec3(1.145898))) * 0.1, vec3(0.33333334)), 0.0);
+    vec3 clamped = clamp((blended_coat_bare_throughput_2 - blended_coat_bare_throughput_3)
+        / max(blended_coat_bare_throughput - blended_coat_bare_throughput_2, 1e-6), 0.0, 0.999);
+    vec3 ratio = (blended_coat_bare_throughput - blended_coat_bare_throughput_2) / (vec3(1.0) - clamped);
+    vec3 difference_2 = blended_coat_bare_throughput - ratio;
     vec3 sum = difference_2 + ratio * pow(clamped, vec3(1.145898));
-    float greater_3 = max(dot(sum * (second_reflection_f * (second_reflection_product * 0.9) + vec3(0.1)),
+    float greater_3 = max(dot(sum * (milk_second_reflection_f * (milk_second_reflection_product * 0.9) + vec3(0.1)),
         vec3(0.33333334)), 0.0);
-    vec3 medium_difference_2 = second_reflection_throughput * blended_bare_throughput - second_reflection_throughput
-        * blended_bare_throughput_2;
-    vec3 medium_decay_2 = clamp((second_reflection_throughput * blended_bare_throughput_2 - second_reflection_throughput
-        * blended_bare_throughput_3) / max(medium_difference_2, 1e-6), 0.0, 0.999);
-    vec3 medium_ratio_2 = medium_difference_2 / (vec3(1.0) - medium_decay_2);
-    vec3 medium_steady = second_reflection_throughput * blended_bare_throughput - medium_ratio_2;
-    float greater_4 = max(dot((medium_steady + medium_ratio_2 * pow(medium_decay_2, vec3(1.145898)))
-        * (medium * 0.9 + vec3(0.1)), vec3(0.33333334)), 0.0);
-    float greater_5 = max(dot((reflection_f * (reflection_product * 0.9) + vec3(0.1)) * 0.5, vec3(0.33333334)), 0.0);
-    float greater_6 = max(dot(reflection_greater * 0.05, vec3(0.33333334)), 0.0);
+    vec3 milk_medium_difference = milk_second_reflection_throughput * blended_coat_bare_throughput
+        - milk_second_reflection_throughput * blended_coat_bare_throughput_2;
+    vec3 milk_medium_decay = clamp((milk_second_reflection_throughput * blended_coat_bare_throughput_2
+        - milk_second_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0,
+        0.999);
+    vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
+    vec3 milk_medium_steady = milk_second_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
+    float greater_4 = max(dot((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
+        * (milk_medium * 0.9 + vec3(0.1)), vec3(0.33333334)), 0.0);
+    float greater_5 = max(dot((coat_reflection_f * (coat_reflection_product * 0.9) + vec3(0.1)) * 0.5,
+        vec3(0.33333334)), 0.0);
+    float greater_6 = max(dot(coat_reflection_greater * 0.05, vec3(0.33333334)), 0.0);
     float sum_2 = greater + greater_2 + greater_3 + greater_4 + greater_5 + greater_6;
     float pick = sum_2 * vd.random.w;
     vec3 L = vec3(0.0);
     float inside = 0.0;
     vec3 weight = vec3(0.0);
     float density = 0.0;
-    vec3 medium_2 = vec3(1.0);
+    vec3 medium = vec3(1.0);
     vec3 X = normalize(vd.tangentWorld);
     if (pick < greater && pick >= 0.0) {
-        vec3 second_reflection_L, second_reflection_weight;
-        float second_reflection_pdf;
-        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, metal_constant, second_reflection_L,
-            second_reflection_weight, second_reflection_pdf);
-        L = second_reflection_L;
-        float n_dot_l = dot(N, second_reflection_L);
-        weight = sum_2 / greater * (second_reflection_weight
-            * (second_reflection_steady + second_reflection_ratio
-            * pow(second_reflection_decay, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))));
-        density = second_reflection_pdf * (greater / sum_2);
+        vec3 metal_second_reflection_L, metal_second_reflection_weight;
+        float metal_second_reflection_pdf;
+        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, metal_constant, metal_second_reflection_L,
+            metal_second_reflection_weight, metal_second_reflection_pdf);
+        L = metal_second_reflection_L;
+        float n_dot_l = dot(N, metal_second_reflection_L);
+        weight = sum_2 / greater * (metal_second_reflection_weight
+            * (metal_second_reflection_steady + metal_second_reflection_ratio
+            * pow(metal_second_reflection_decay, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))));
+        density = metal_second_reflection_pdf * (greater / sum_2);
     }
     pick += -greater;
     vec3 Nf = faceforward(N, -vd.viewWorld, N);
@@ -296,35 +311,36 @@ void scatter()
     }
     pick += -greater_2;
     if (pick >= 0.0 && pick < greater_3) {
-        vec3 second_reflection_L, second_reflection_weight;
-        float second_reflection_pdf;
-        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), second_reflection_L,
-            second_reflection_weight, second_reflection_pdf);
-        L = second_reflection_L;
-        float n_dot_l = dot(N, second_reflection_L);
-        weight = sum_2 / greater_3 * (second_reflection_weight
-            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))));
-        density = second_reflection_pdf * (greater_3 / sum_2);
+        vec3 milk_second_reflection_L, milk_second_reflection_weight;
+        float milk_second_reflection_pdf;
+        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), milk_second_reflection_L,
+            milk_second_reflection_weight, milk_second_reflection_pdf);
+        L = milk_second_reflection_L;
+        float n_dot_l_2 = dot(N, milk_second_reflection_L);
+        weight = sum_2 / greater_3 * (milk_second_reflection_weight
+            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l_2 * n_dot_l_2 + 1.25) * 1.5))));
+        density = milk_second_reflection_pdf * (greater_3 / sum_2);
     }
     pick += -greater_3;
     if (pick >= 0.0 && pick < greater_4) {
         L = L_2;
         float c_3 = dot(N, L_2);
         float way_2 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
-        vec3 weight_2 = pdf * (mx_medium_reflected(way) * mx_medium_reflected(way_2) / medium_constant)
+        vec3 weight_2 = pdf * (mx_medium_reflected(way) * mx_medium_reflected(way_2) / milk_medium_constant)
             / max(pdf, 1e-8);
-        weight = sum_2 / greater_4 * (weight_2 * (medium_steady + medium_ratio_2 * pow(medium_decay_2, vec3(way_2))));
+        weight = sum_2 / greater_4 * (weight_2
+            * (milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2))));
         density = pdf * (greater_4 / sum_2);
     }
     pick += -greater_4;
     if (pick >= 0.0 && pick < greater_5) {
-        vec3 reflection_L, reflection_weight;
-        float reflection_pdf;
-        mx_ggx_scatter(vec2(0.01), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), reflection_L, reflection_weight,
-            reflection_pdf);
-        L = reflection_L;
-        weight = reflection_weight * (sum_2 / greater_5 * 0.5);
-        density = reflection_pdf * (greater_5 / sum_2);
+        vec3 coat_reflection_L, coat_reflection_weight;
+        float coat_reflection_pdf;
+        mx_ggx_scatter(vec2(0.01), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), coat_reflection_L,
+            coat_reflection_weight, coat_reflection_pdf);
+        L = coat_reflection_L;
+        weight = coat_reflection_weight * (sum_2 / greater_5 * 0.5);
+        density = coat_reflection_pdf * (greater_5 / sum_2);
     }
     pick += -greater_5;
     if (pick >= 0.0 && pick < greater_6) {
@@ -336,30 +352,31 @@ void scatter()
     out1 = vec4((ratio + difference_2) * vec3(0.0, 0.1, 0.0), 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
-    out4 = vec4(medium_2, 0.0);
+    out4 = vec4(medium, 0.0);
     mat3 frame = mx_frame(Nf, X);
     float ggx_smith_lobe = mx_ggx_smith_lobe(vec2(0.25), frame, vd.viewWorld, vd.lightWorld.xyz);
     float cosine_2 = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.5, 1e-8, 1.0));
-    vec3 second_reflection_slab_reflection_bsdf_eval = second_reflection_ggx_compensation_2 * ggx_smith_lobe
+    vec3 metal_second_reflection_slab_reflection_bsdf_eval = metal_second_reflection_ggx_compensation * ggx_smith_lobe
         * mx_fresnel_schlick(cosine_2, metal_constant);
     float c_4 = dot(N, vd.lightWorld.xyz);
     float way_3 = inversesqrt(c_4 * c_4 + 1.25) * 1.5;
-    vec3 product_2 = second_reflection_slab_reflection_bsdf_eval
-        * (second_reflection_steady + second_reflection_ratio * pow(second_reflection_decay, vec3(way_3)));
+    vec3 product_2 = metal_second_reflection_slab_reflection_bsdf_eval
+        * (metal_second_reflection_steady + metal_second_reflection_ratio
+        * pow(metal_second_reflection_decay, vec3(way_3)));
     float slab_reflection_bsdf_pdf = mx_ggx_pdf(vec2(0.25), N, X, vd.viewWorld, vd.lightWorld.xyz);
     vec3 ratio_2 = product_2 / (vd.lightWorld.w * (greater / sum_2 * slab_reflection_bsdf_pdf) + 1.0);
     vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
     vec3 sum_3 = difference_2 + ratio * pow(clamped, vec3(way_3));
     float sum_4 = vd.lightWorld.w * (greater_3 / sum_2 * slab_reflection_bsdf_pdf) + 1.0;
-    vec3 sum_5 = ratio_2 + second_reflection_ggx_compensation * ggx_smith_lobe * fresnel * sum_3 / sum_4;
+    vec3 sum_5 = ratio_2 + milk_second_reflection_ggx_compensation * ggx_smith_lobe * fresnel * sum_3 / sum_4;
     float slab_medium_bsdf_pdf = max(dot(Nf, vd.lightWorld.xyz), 0.0) / 3.1415927;
-    vec3 medium_transmitted_2;
-    vec3 medium_3 = mx_medium_layer(way_3, medium_transmitted_2);
-    vec3 sum_6 = medium_steady + medium_ratio_2 * pow(medium_decay_2, vec3(way_3));
-    vec3 product_3 = slab_medium_bsdf_pdf * (medium * medium_3 / medium_constant) * sum_6;
+    vec3 milk_medium_transmitted_2;
+    vec3 milk_medium_2 = mx_medium_layer(way_3, milk_medium_transmitted_2);
+    vec3 sum_6 = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_3));
+    vec3 product_3 = slab_medium_bsdf_pdf * (milk_medium * milk_medium_2 / milk_medium_constant) * sum_6;
     float sum_7 = vd.lightWorld.w * (greater_5 / sum_2 * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz))
         + 1.0;
-    vec3 ratio_3 = fresnel * (reflection_ggx_compensation
+    vec3 ratio_3 = fresnel * (coat_reflection_ggx_compensation
         * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz) * 0.5) / sum_7;
     out5 = vec4(sum_5 + product_3 / (vd.lightWorld.w * (greater_4 / sum_2 * slab_medium_bsdf_pdf) + 1.0) + ratio_3,
         0.0);
@@ -370,41 +387,46 @@ void scatter()
     float distance_ = 0.0;
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float magnitude_d = length(d);
-        float ratio_4 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+        float ratio_4 = intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio_4 : 0.0;
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio_4;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
         float point_light_choice = type == 2 ? ratio_4 : spot_light_choice;
-        vec3 directional_light_L = type == 1 ? -u_lightData[i].direction : to_light;
+        vec3 directional_light_to_light = -u_lightData[i].direction;
+        vec3 directional_light_L = type == 1 ? directional_light_to_light : to_light;
         float ggx_smith_lobe_2 = mx_ggx_smith_lobe(vec2(0.25), frame, vd.viewWorld, directional_light_L);
         float cosine_3 = sqrt(clamp(dot(vd.viewWorld, directional_light_L) * 0.5 + 0.5, 1e-8, 1.0));
-        vec3 second_reflection_slab_reflection_bsdf_eval_2 = second_reflection_ggx_compensation_2 * ggx_smith_lobe_2
-            * mx_fresnel_schlick(cosine_3, metal_constant);
+        vec3 metal_second_reflection_slab_reflection_bsdf_eval_2 = metal_second_reflection_ggx_compensation
+            * ggx_smith_lobe_2 * mx_fresnel_schlick(cosine_3, metal_constant);
         float c_5 = dot(N, directional_light_L);
         float way_4 = inversesqrt(c_5 * c_5 + 1.25) * 1.5;
-        vec3 product_4 = second_reflection_slab_reflection_bsdf_eval_2
-            * (second_reflection_steady + second_reflection_ratio * pow(second_reflection_decay, vec3(way_4)));
+        vec3 product_4 = metal_second_reflection_slab_reflection_bsdf_eval_2
+            * (metal_second_reflection_steady + metal_second_reflection_ratio
+            * pow(metal_second_reflection_decay, vec3(way_4)));
         vec3 fresnel_2 = mx_fresnel_schlick(cosine_3, vec3(0.04));
         vec3 sum_9 = difference_2 + ratio * pow(clamped, vec3(way_4));
-        vec3 medium_transmitted_3;
-        vec3 medium_4 = mx_medium_layer(way_4, medium_transmitted_3);
-        vec3 medium_ratio_3 = medium * medium_4 / medium_constant;
-        vec3 sum_10 = medium_steady + medium_ratio_2 * pow(medium_decay_2, vec3(way_4));
-        vec3 product_5 = medium_ratio_3 * (max(dot(Nf, directional_light_L), 0.0) / 3.1415927) * sum_10;
-        vec3 product_6 = fresnel_2 * (reflection_ggx_compensation
+        vec3 milk_medium_transmitted_3;
+        vec3 milk_medium_3 = mx_medium_layer(way_4, milk_medium_transmitted_3);
+        vec3 milk_medium_ratio_2 = milk_medium * milk_medium_3 / milk_medium_constant;
+        vec3 sum_10 = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_4));
+        vec3 product_5 = milk_medium_ratio_2 * (max(dot(Nf, directional_light_L), 0.0) / 3.1415927) * sum_10;
+        vec3 product_6 = fresnel_2 * (coat_reflection_ggx_compensation
             * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, directional_light_L) * 0.5);
-        vec3 sum_11 = product_4 + second_reflection_ggx_compensation * ggx_smith_lobe_2 * fresnel_2 * sum_9 + product_5
-            + product_6;
-        vec3 product_7 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_11;
+        vec3 sum_11 = product_4 + milk_second_reflection_ggx_compensation * ggx_smith_lobe_2 * fresnel_2 * sum_9
+            + product_5 + product_6;
+        vec3 product_7 = u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum_11;
         float greater_7 = max(dot(product_7, vec3(0.33333334)), 0.0);
         sum_8 += greater_7;
         if (sum_8 * chance < greater_7) {
             L_3 = directional_light_L;
-            distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
+            float choice = type == 3 ? magnitude_d : 1e30;
+            float choice_2 = type == 2 ? magnitude_d : choice;
+            distance_ = type == 1 ? 1e30 : choice_2;
             light = product_7 / greater_7;
         }
         if (greater_7 > 0.0) {

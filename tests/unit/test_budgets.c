@@ -292,6 +292,51 @@ static void save_nothing(struct generation *g)
     REQUIRE(g->result->graph.nodes.len <= before + 1);
 }
 
+/* ---- Code ---- */
+
+/* The bytes of the shader of a stack of layers whose media scatter. */
+static size_t size_of_layers(const struct run *run, int num)
+{
+    static char text[STACK_TEXT];
+    mxg_document *document = NULL;
+    mxg_result *result = NULL;
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    size_t len = (size_t)snprintf(text, sizeof text,
+                                  "<materialx version='1.39'><slab name='l0' type='BSDF'/>");
+    for (int i = 1; i <= num; i++)
+        len += (size_t)snprintf(
+            text + len, sizeof text - len,
+            "<slab name='s%d' type='BSDF'><input name='diffuse_albedo' type='color3' "
+            "value='0.5,0.%d,0.4'/><input name='roughness' type='float' value='0.%d'/>"
+            "<input name='mean_free_path' type='vector3' value='0.0%d,0.02,0.02'/></slab>"
+            "<slab_layer name='l%d' type='BSDF'><input name='top' type='BSDF' nodename='s%d'/>"
+            "<input name='base' type='BSDF' nodename='l%d'/></slab_layer>",
+            i, i % 8 + 1, i % 9 + 1, i % 7 + 1, i, i, i - 1);
+    snprintf(text + len, sizeof text - len,
+             "<slab_surface name='out' type='surfaceshader'><input name='bsdf' type='BSDF' "
+             "nodename='l%d'/></slab_surface></materialx>",
+             num);
+    size_t size = 0;
+    desc.target = "glsl";
+    REQUIRE(mxg_document_parse(run->context, run->library, "l.mtlx", text, strlen(text), &document)
+            == MXG_OK);
+    REQUIRE(mxg_generate(run->context, document, &desc, &result) == MXG_OK);
+    mxg_result_source(result, MXG_STAGE_PIXEL, &size);
+    mxg_result_destroy(result);
+    mxg_document_destroy(document);
+    return size;
+}
+
+/* Eight more layers take no more code than the eight before, but for the functions that those
+ * share. */
+static void test_code(const struct run *run)
+{
+    size_t two = size_of_layers(run, 2), ten = size_of_layers(run, 10),
+           eighteen = size_of_layers(run, 18);
+    printf("bytes of 2, 10 and 18 layers that scatter: %zu, %zu, %zu\n", two, ten, eighteen);
+    REQUIRE(two > 0 && (eighteen - ten) * 10 < (ten - two) * 13);
+}
+
 int main(int argc, char **argv)
 {
     struct run run = {.num_errors = 0};
@@ -301,6 +346,7 @@ int main(int argc, char **argv)
     REQUIRE(argc == 2 && mxg_context_create(NULL, &run.context) == MXG_OK);
     run.library = mxg_library_builtin(run.context);
     REQUIRE(mxg_document_load(run.context, run.library, argv[1], &document) == MXG_OK);
+    test_code(&run);
     test_closures(&run, document);
     with_document(&run, document, "CarPaint", save_error);
     with_document(&run, document, "WrappedSilk", save_bytes);

@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# slabs.sh MXGEN COMPILE EXAMPLES: budgets of slabs, profiles, `--slabs` and `inspect --slabs`, as a user calls them.
+mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")} examples=$(realpath "$3")
+. "$(dirname "$0")/common.sh"
+slabs=$examples/slabs.mtlx
+
+says() { grep -qF -- "$1" err; }
+compiles() { # document and options of generation: all its materials, for two languages
+    [ -z "$compile" ] || exits 0 "$compile" "$@" --targets vulkan,hlsl
+}
+
+# Budgets
+for closures in 1 2 3; do
+    check "materials with $closures closures" compiles "$slabs" --max-closures "$closures"
+done
+check 'a budget is silent' eval 'exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -o made && test ! -s err'
+check 'steps' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -Wbudget-step -o made
+check 'the mix is first' eval 'grep -F budget-step err | head -1 | grep -qE "the mix .paint.: closures 3 to 2, bytes 40 to 32, estimated error 0\.[0-9]+ "'
+check 'then the layer' eval 'grep -F budget-step err | tail -1 | grep -qE "the layer .coated.: closures 2 to 1, bytes 32 to 20"'
+check 'features go for bytes' exits 0 "$mxgen" "$slabs" -e CarPaint --max-bytes 12 -Wbudget-step -o made
+check 'the second lobe' says 'no second lobe: closures 1 to 1, bytes 20 to 12'
+check 'a small error' exits 0 "$mxgen" "$slabs" -e CarPaint --max-error 0.2 -Wbudget-step -o made
+check 'keeps the coat' eval 'says "the mix" && ! says "the layer"'
+check 'too few bytes' exits 1 "$mxgen" "$slabs" -e CarPaint --max-bytes 8 -o made
+check 'are impossible' says '[budget-impossible]'
+check 'closures within an error' exits 1 "$mxgen" "$slabs" -e CarPaint --max-closures 1 --max-error 0.01 -o made
+check 'too' says '1 closures, an error of 0.01'
+check 'no number' exits 2 "$mxgen" "$slabs" --max-error much -o made
+check 'is an error' says "expected a number of 0..100"
+
+# Features
+check 'a part that does not exist' exits 1 "$mxgen" "$slabs" --features -glimmer -o made
+check 'is named' says "-glints, -lut, -fuzz"
+sed 's/<slab name="dust" type="BSDF">/&<input name="glint_density" type="float" value="3"\/>/' "$slabs" >glints.mtlx
+check 'glints have no code' exits 1 "$mxgen" glints.mtlx -e DustyFibre -o made
+check 'but may be left out' compiles glints.mtlx --features -glints
+check 'without fuzz' exits 0 "$mxgen" inspect --closures "$slabs" -e DustyFibre --features -fuzz
+check 'there is none' eval '! grep -q mx_sheen out'
+
+# The document asks for one slab
+sed 's/<input name="mix" type="float" value="0.6"\/>/&<input name="blend_parameters" type="boolean" value="true"\/>/' "$slabs" >asked.mtlx
+check 'the document asks' exits 0 "$mxgen" asked.mtlx -e CarPaint -Wbudget-step -o made
+check 'for one slab' says "one slab for 'paint': closures 3 to 2"
+
+# Sums and products
+cat >sum.mtlx <<'END'
+<materialx version="1.39">
+  <slab name="a" type="BSDF"/>
+  <slab name="b" type="BSDF"><input name="roughness" type="float" value="0.2"/></slab>
+  <multiply name="half" type="BSDF"><input name="in1" type="BSDF" nodename="a"/><input name="in2" type="color3" value="0.5, 0.2, 0.1"/></multiply>
+  <add name="both" type="BSDF"><input name="in1" type="BSDF" nodename="half"/><input name="in2" type="BSDF" nodename="b"/></add>
+  <slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></slab_surface>
+</materialx>
+END
+check 'a sum' exits 0 "$mxgen" sum.mtlx --max-closures 1 -Wbudget-step -o made
+check 'is one slab' says "one slab for the sum 'both': closures 2 to 1"
+
+# Profiles
+for profile in desktop console mobile one-closure; do
+    check "profile $profile" compiles "$slabs" --profile "$profile"
+done
+check 'no such profile' exits 2 "$mxgen" "$slabs" --profile mobil -o made
+check 'has a neighbour' says "did you mean 'mobile'"
+printf '# ours\nmax-closures = 2 # as the others\nfeatures = ["-fuzz", "-f90"]\n' >own.toml
+check 'a file' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml -Wbudget-step -o made
+check 'is read' eval 'says "no fuzz" && says "closures 3 to 2"'
+check 'options override it' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml --max-closures 1 -Wbudget-step -o made
+check 'indeed' says 'closures 2 to 1'
+printf 'max-closures = 2\nmax-byts = 3\n' >wrong.toml
+check 'a wrong key' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
+check 'has a line' says "wrong.toml:2: error: unknown option 'max-byts'"
+printf 'max-closures 2\n' >wrong.toml
+check 'no pair' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
+check 'is told' says 'wrong.toml:1: error: a line is a comment'
+check 'no file' exits 2 "$mxgen" "$slabs" --profile gone.toml -o made
+check 'is an error' says "cannot read the profile 'gone.toml'"
+
+# Other materials
+for document in marble gold car_paint; do
+    check "$document as slabs" compiles "$examples/$document.mtlx" --slabs
+    check "$document as one closure" compiles "$examples/$document.mtlx" --max-closures 1
+done
+check 'marble as slabs' exits 0 "$mxgen" inspect --closures "$examples/marble.mtlx" --max-closures 1
+check 'is lobes of slabs' eval 'grep -q mx_slab_medium_bsdf out && ! grep -qE "mx_(oren|dielectric|conductor)" out'
+
+check 'albedo that varies' exits 0 "$mxgen" "$examples/marble.mtlx" --slabs --interface reduced -o made
+check 'adds the even environment once' eval '! sed -n "/void main/,\$p" made/Marble.frag | grep -q "< u_envRadianceSamples"'
+
+# Views
+check 'a sheet' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre
+check 'has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 48 bytes" out && grep -q "to one closure" out'
+check 'of another material' exits 0 "$mxgen" inspect --slabs "$examples/marble.mtlx"
+check 'as well' grep -q 'a body, as slabs' out
+check 'JSON' exits 0 "$mxgen" inspect --slabs --format json "$slabs" -e DustyFibre
+check 'is JSON' python3 -c 'import json
+sheet = json.load(open("out"))
+tree, = sheet["trees"]
+assert [row["kind"] for row in tree["rows"]] == ["layer", "coverage", "slab", "layer", "slab", "slab"], tree
+assert tree["cost"] == {"closures": 3, "bytes": 48} and len(sheet["steps"]) == 2
+lights = [row["lightFromAbove"] for row in tree["rows"] if row["kind"] == "slab"]
+assert lights[0] == 1 and 0 < lights[2] < lights[1] <= 1, lights'
+check 'a picture' exits 0 "$mxgen" inspect --slabs --format svg "$slabs" -e DustyFibre
+check 'is XML' python3 -c 'import xml.etree.ElementTree as e
+root = e.parse("out").getroot()
+assert root.tag == "{http://www.w3.org/2000/svg}svg" and len(root.findall("{*}text")) >= 8'
+check 'no format' exits 2 "$mxgen" inspect --slabs --format pdf "$slabs"
+check 'is told' says "'pdf' is no format"
+check 'a format without slabs' exits 2 "$mxgen" inspect --format json "$slabs"
+
+finish slabs
