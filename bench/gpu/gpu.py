@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-BUILD, EXAMPLES, PARTS = sys.argv[1], sys.argv[2], sys.argv[3:]
+BUILD, EXAMPLES, PARTS = sys.argv[1], "".join(sys.argv[2:3]), sys.argv[3:]
 GPUS = "navi21", "vega10"
 INTERFACES = "complete", "reduced"
 DRIVERS = "/usr/share/vulkan/icd.d/radeon_icd.*.json"
@@ -47,7 +47,11 @@ def modules(document, interface, folder):
     """SPIR-V of the vertex and the pixel stage of the document's first material."""
     path = next(pathlib.Path(EXAMPLES).glob(f"**/{document}.mtlx"))
     run(f"{BUILD}/mxgen", str(path), "-q", "--target", "vulkan", "--interface", interface, "-o", folder)
-    pixel = sorted(glob.glob(f"{folder}/*.frag"))[0]
+    return compiled(sorted(glob.glob(f"{folder}/*.frag"))[0])
+
+
+def compiled(pixel):
+    """SPIR-V of a pixel stage and of the vertex stage beside it."""
     made = []
     for source in pixel[:-len("frag")] + "vert", pixel:
         made.append(source + ".spv")
@@ -61,9 +65,12 @@ def measure(job):
     with tempfile.TemporaryDirectory() as folder:
         spirv = modules(document, interface, folder)
         for gpu in GPUS:
-            text = run(f"{BUILD}/bench/bench-gpustat", *spirv, VK_ICD_FILENAMES=driver(), RADV_FORCE_FAMILY=gpu,
-                       MESA_SHADER_CACHE_DISABLE="true")
-            yield document, interface, gpu, dict(line.split("=") for line in text.splitlines())
+            yield document, interface, gpu, statistics_of(spirv, gpu)
+
+
+def statistics_of(spirv, gpu):
+    text = run(f"{BUILD}/bench/bench-gpustat", *spirv, VK_ICD_FILENAMES=driver(), RADV_FORCE_FAMILY=gpu, MESA_SHADER_CACHE_DISABLE="true")
+    return dict(line.split("=") for line in text.splitlines())
 
 
 def value(figure, row):

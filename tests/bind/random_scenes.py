@@ -18,6 +18,7 @@ from resolver import Resolver
 MXGEN, COUNT, FIRST = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]), int(sys.argv[3])
 NAMES = ["a", "b", "ab", "c1", "c2", "x_y"]
 GLOBS = ["*", "?", "a*", "*b", "c[12]", "[a-c]?", "{a,b}", "{c1, x*}", "{a,{b,c}*}", "*_*"]
+SETS = {"V": "", "VS": ' node="surface"', "VD": ' node="displacement"', "VN": ' node="gltf_pbr"'}
 SLOTS = ["000", "010", "9", "10", "base", "_"]
 
 
@@ -84,10 +85,16 @@ class Scene:
         if self.chance(0.3):
             text += f' exclusive="{self.random.choice(["false", "false", "true"])}"'
         if self.collections and self.chance(0.5):
-            return f'{text} collection="{self.random.choice(self.collections)}"/>'
-        if self.chance(0.2):
-            return f'{text} geomprefix="{self.pattern()}" geom="{self.random.choice(["/a", "b", "", "*, c1"])}"/>'
-        return f'{text} geom="{self.geometry()}"/>'
+            text += f' collection="{self.random.choice(self.collections)}"'
+        elif self.chance(0.2):
+            text += f' geomprefix="{self.pattern()}" geom="{self.random.choice(["/a", "b", "", "*, c1"])}"'
+        else:
+            text += f' geom="{self.geometry()}"'
+        inner = "".join(self.make_variant(number, i) for i in range(2) if self.chance(0.1))
+        return f"{text}>{inner}</materialassign>" if inner else text + "/>"
+
+    def make_variant(self, number, i):
+        return f'<variantassign name="v{number}_{i}" variantset="{self.random.choice(list(SETS))}" variant="{self.random.choice(["x", "y"])}"/>'
 
     def make_looks(self):
         looks, number = [], 0
@@ -95,6 +102,7 @@ class Scene:
             parent = f' inherit="L{generation - 1}"' if generation else ""
             order = f' slotorder="{self.random.choice(["10, 9", "base", "", "000, _, 010"])}"' if self.chance(0.25) else ""
             looks.append(f'<look name="L{generation}"{parent}{order}>')
+            looks += [self.make_variant(f"look{generation}", i) for i in range(2) if self.chance(0.2)]
             for _ in range(self.random.randint(1, 8)):
                 looks.append(self.make_assign(number))
                 number += 1
@@ -118,6 +126,9 @@ class Scene:
         lines.append('<lightmaterial name="Lamp" type="material"><input name="lightshader" type="lightshader" nodename="l"/></lightmaterial>')
         for name in "NG1", "NG2":
             lines.append(f'<nodegraph name="{name}"><constant name="c" type="float"/><output name="o" type="float" nodename="c"/></nodegraph>')
+        for name, node in SETS.items():
+            variants = "".join(f'<variant name="{variant}"><input name="i" type="float" value="1"/></variant>' for variant in ("x", "y"))
+            lines.append(f'<variantset name="{name}"{node}>{variants}</variantset>')
         lines += [self.make_collection(number) for number in range(self.random.randint(0, 4))]
         return "\n".join(lines + self.make_looks() + ["</materialx>"])
 

@@ -156,6 +156,9 @@ class Assign:
         self.kind = "layer"
         if material is not None and "::" not in self.name:
             self.kind = {"volumematerial": "volume", "lightmaterial": "light"}.get(material.tag, "layer")
+        self.variants = element.findall("variantassign")
+        # the categories of the nodes that the material is made of
+        self.nodes = {look.top[child.get("nodename")].tag for child in (material if material is not None else []) if child.get("nodename") in look.top}
         self.products = [child.get("name") for child in (material if material is not None else []) if child.get("name") in PRODUCTS]
 
 
@@ -177,6 +180,7 @@ class Resolver:
             for element in look:
                 if element.tag == "materialassign":
                     self.assigns.append(Assign(self.look, element, generation, len(self.assigns)))
+        self.variants = [element for look in reversed(chain) for element in look if element.tag == "variantassign"]
         order = next((look.get("slotorder") for look in chain if "slotorder" in look.attrib), "")
         self.order = [part.strip() for part in order.split(",")] if order else []
 
@@ -247,6 +251,16 @@ class Resolver:
                 break
         return chain
 
+    def applies(self, variant, assign):
+        node = self.look.top[variant.get("variantset")].get("node")
+        return node is None or node in assign.nodes
+
+    def variants_of(self, assign):
+        """What a layer says of the variants that apply to its material, those of the looks first."""
+        variants = [{"variantset": variant.get("variantset"), "variant": variant.get("variant")}
+                    for variant in self.variants + assign.variants if self.applies(variant, assign)]
+        return {"variants": variants} if variants else {}
+
     def layer(self, name, names, path):
         """The layer of a name without override, with its overrides; None if there is none."""
         chain = self.chain_of(name, path)
@@ -262,6 +276,7 @@ class Resolver:
                     products[product] = self.source(assign, place, path)
         if products:
             layer["products"] = products
+        layer.update(self.variants_of(layers[0][0]))
         overrides = []
         for other in names:
             if other.startswith(name + "::"):
@@ -282,7 +297,7 @@ class Resolver:
             for kind in "volume", "light":
                 beside = [one for one in self.chain_of(name, path) if one[0].kind == kind]
                 if beside:
-                    result[kind] = {"slot": name, **self.source(*beside[0], path)}
+                    result[kind] = {"slot": name, **self.source(*beside[0], path), **self.variants_of(beside[0][0])}
             layer = self.layer(name, names, path)
             if not layer:
                 continue
