@@ -48,6 +48,9 @@ static void pack(struct cli *cli, const struct library_args *args)
     if (!args->output && isatty(STDOUT_FILENO))
         report_error(&cli->report, "output-failed",
                      "cannot write an image, which is no text, to a terminal; say -o FILE");
+    else if (mxg_library_image(cli->library, &data, &size) == MXG_ERROR_DOCUMENT)
+        report_error(&cli->report, "broken-implementation",
+                     "an image has no faulty implementations; correct those above");
     else if (report_status(&cli->report, mxg_library_image(cli->library, &data, &size)))
         write_output(cli, args->output, data, size);
 }

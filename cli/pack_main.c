@@ -91,6 +91,9 @@ static bool pack(struct recorder *recorder, const char *image, const char *const
         report_list(&report, mxg_library_diagnostics(library));
     if (status == MXG_OK)
         status = mxg_library_image(library, &data, &size);
+    if (status == MXG_ERROR_DOCUMENT && report.errors == 0)
+        report_error(&report, "broken-implementation",
+                     "the image has no faulty implementations; correct those above");
     bool good = report_status(&report, status);
     const char *reason = good ? files_write(image, data, size) : NULL;
     if (reason)

@@ -309,8 +309,9 @@ MXG_API mxg_library *mxg_library_builtin(mxg_context *context);
  * Makes a library from `base` (NULL: empty) and the given files, folders (every .mtlx below) or
  * library images (.mxlib). A new definition replaces a definition of the same name in `base`. An
  * image must be the first path and needs `base` NULL. *out_library is set even with
- * MXG_ERROR_DOCUMENT: it has the diagnostics. Folders belong to the file system; the resolver reads
- * the files in them.
+ * MXG_ERROR_DOCUMENT: it has the diagnostics. An implementation with faults is a warning here, and
+ * an error of each node that needs it. Folders belong to the file system; the resolver reads the
+ * files in them.
  */
 MXG_API mxg_status mxg_library_load(mxg_context *context, mxg_library *base,
                                     const char *const *paths, size_t num_paths,
@@ -327,7 +328,7 @@ MXG_API const char *mxg_library_file(const mxg_library *library, uint32_t index)
 
 /*
  * The library image, for mxg_library_load and for embedding. It lives as long as the library. The
- * library must have no base.
+ * library must have no base, and no implementation with faults (MXG_ERROR_DOCUMENT).
  */
 MXG_API mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size);
 /* The library as a plain MaterialX document with all templates expanded. */

@@ -96,15 +96,30 @@ static void read_path(struct load *load, const char *path)
         read_file(load, found.items[i]);
 }
 
-/*
- * Loading a library reports every fault at once. In a document, an implementation reports its
- * faults when a node needs it.
- */
-static void report_deferred(mxg_library *library)
+static const char *text_of(const struct library *lib, str_id id)
 {
-    const struct diag_list *deferred = library->layer.deferred;
-    for (uint32_t i = 0; i < deferred->items.len; i++)
-        diag_repeat(&library->object.diagnostics.list, &deferred->items.items[i]);
+    return str_text(&lib->strings, id);
+}
+
+/*
+ * Warns of each implementation with faults and tells the first of them. All are errors of the nodes
+ * that need it.
+ */
+static void report_broken(mxg_library *library)
+{
+    const struct library *layer = &library->layer;
+    struct diag_list *diags = &library->object.diagnostics.list;
+    for (uint32_t i = 0; i < layer->impls.len; i++) {
+        const struct implementation *impl = &layer->impls.items[i];
+        if (impl->kind != IMPL_BROKEN)
+            continue;
+        assert(impl->count > 0 && impl->ref + impl->count <= layer->deferred->items.len);
+        const struct diag *fault = &layer->deferred->items.items[impl->ref];
+        diag_add(diags, DIAG_ID_broken_implementation, doc_name_place(&layer->doc, impl->element),
+                 text_of(layer, impl->name),
+                 text_of(layer, library_nodedef(layer, impl->nodedef)->name));
+        diag_add(diags, DIAG_ID_fault_of_source, fault->place, fault->message);
+    }
 }
 
 static void read_paths(void *arg)
@@ -127,10 +142,10 @@ static void read_paths(void *arg)
     library->layer.target_user_data = library->object.context;
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     library->layer.digest = load->files.digest;
-    report_deferred(library);
+    library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
+    report_broken(library);
     library_report_foreign(&library->layer, &load->files.scratch,
                            &library->object.diagnostics.list);
-    library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
     lang_make_canonical(&library->layer.unit);
 }
 
@@ -242,7 +257,8 @@ mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t
 {
     if (!library || !out_data || !out_size || library->object.below)
         return MXG_ERROR_ARGUMENT;
-    if (object_status(&library->object) != MXG_OK)
+    const struct diag_list *deferred = library->layer.deferred; /* NULL: from an image */
+    if (object_status(&library->object) != MXG_OK || (deferred && deferred->items.len))
         return MXG_ERROR_DOCUMENT;
     *out_data = library->image;
     *out_size = library->image_size;
@@ -270,11 +286,6 @@ mxg_status mxg_library_expand(mxg_library *library, const char **out_text, size_
 }
 
 /* ---- Definitions ---- */
-
-static const char *text_of(const struct library *lib, str_id id)
-{
-    return str_text(&lib->strings, id);
-}
 
 static const char *attr_text(const struct library *lib, elem_id element, str_id name)
 {

@@ -112,6 +112,8 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
     const struct implementation *impl = build_best_implementation(b, nodedef);
     if (impl && impl->kind == IMPL_BROKEN) {
         report_deferred(b, impl);
+        diag_add(b->diags, DIAG_ID_needed_by, doc_place(&b->lib->doc, node),
+                 build_text(b, doc_element(&b->lib->doc, node)->name));
         return NULL;
     }
     if (!impl)

@@ -252,13 +252,13 @@ static void refuse_source(struct indexer *ix, const struct implementation *impl,
              index_text(ix, impl->name), reason);
 }
 
-void index_break(struct indexer *ix, struct implementation *impl, const struct diag_list *faults)
+void index_break(struct library *lib, struct implementation *impl, const struct diag_list *faults)
 {
     impl->kind = IMPL_BROKEN;
-    impl->ref = ix->lib->deferred->items.len;
+    impl->ref = lib->deferred->items.len;
     impl->count = faults->items.len;
     for (uint32_t i = 0; i < faults->items.len; i++)
-        vec_push(ix->arena, &ix->lib->deferred->items, faults->items.items[i]);
+        vec_push(lib->doc.arena, &lib->deferred->items, faults->items.items[i]);
 }
 
 /* Source for a target that does not parse stays verbatim; a portable implementation must parse. */
@@ -277,7 +277,7 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
     bool is_trusted = impl->target && ix->lib->trust == LIBRARY_TRUST_ALL;
     if (is_trusted && index_verbatim(ix, impl, &faults, &unfit))
         return;
-    index_break(ix, impl, is_trusted ? &unfit : &faults);
+    index_break(ix->lib, impl, is_trusted ? &unfit : &faults);
 }
 
 static bool are_in_one_file(const struct indexer *ix, elem_id a, elem_id b)

@@ -339,13 +339,36 @@ static void resolve_graph(struct library *lib, const struct implementation *impl
     }
 }
 
+/* A graph with errors is a broken implementation of its definitions, as source with errors is. */
+static void settle_graph(struct library *lib, uint32_t own, struct resolve_out *out,
+                         struct diag_list *diags)
+{
+    struct implementation *impl = &lib->impls.items[own];
+    uint32_t first = library_element_info(lib, impl->ref, NULL);
+    assert(first <= own);
+    if (first < own && lib->impls.items[first].kind == IMPL_BROKEN) {
+        impl->kind = IMPL_BROKEN;
+        impl->ref = lib->impls.items[first].ref;
+        impl->count = lib->impls.items[first].count;
+        return;
+    }
+    struct diag_list faults;
+    diag_list_init(&faults, lib->doc.arena);
+    faults.policy = diags->policy;
+    resolve_graph(lib, impl, out, &faults);
+    if (faults.num_errors)
+        index_break(lib, impl, &faults);
+    for (uint32_t i = 0; !faults.num_errors && i < faults.items.len; i++)
+        diag_repeat(diags, &faults.items.items[i]);
+}
+
 void library_resolve_graphs(struct library *lib, struct diag_list *diags)
 {
     struct resolve_out out = {.arena = lib->doc.arena};
     for (uint32_t i = 0; i < lib->impls.len; i++)
         if (lib->impls.items[i].kind == IMPL_GRAPH
             && lib->impls.items[i].ref >= lib->doc.first_element)
-            resolve_graph(lib, &lib->impls.items[i], &out, diags);
+            settle_graph(lib, i, &out, diags);
     lib->bindings.items = out.bindings.items;
     lib->bindings.len = out.bindings.len;
 }

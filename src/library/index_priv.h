@@ -62,7 +62,7 @@ bool index_find_function(struct indexer *ix, struct implementation *impl, str_id
 bool index_parse_expressions(struct indexer *ix, struct implementation *impl, str_id source,
                              uint32_t file, struct diag_list *diags);
 /* Makes an implementation report these diagnostics when a node uses it. */
-void index_break(struct indexer *ix, struct implementation *impl, const struct diag_list *faults);
+void index_break(struct library *lib, struct implementation *impl, const struct diag_list *faults);
 
 /*
  * served.c: makes an implementation without source one by portable source of mxgen; false if none

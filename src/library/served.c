@@ -51,6 +51,6 @@ bool index_served(struct indexer *ix, struct implementation *impl)
     bool is_good = row->function ? index_find_function(ix, impl, text, file, &faults)
                                  : index_parse_expressions(ix, impl, text, file, &faults);
     if (!is_good)
-        index_break(ix, impl, &faults);
+        index_break(ix->lib, impl, &faults);
     return true;
 }

@@ -34,7 +34,7 @@ draws() {
 }
 check '`file` from the folder above a library' draws 0.5 --library vendor/folder
 check 'a part of the library' exits 1 "$mxgen" document.mtlx --library vendor/folder/maker -o made
-check 'which lacks a file' grep -q "defs.mtlx:3:.*folder/maker/glsl/ash.glsl.*\[missing-source-file\]" err
+check 'which lacks a file' grep -q "defs.mtlx:3:.* error: .*folder/maker/glsl/ash.glsl.*\[missing-source-file\]" err
 check '--source-path' draws 0.5 --library vendor/folder/maker --source-path vendor
 check 'the later of two libraries' draws 0.75 --library vendor/folder/maker --library vendor/folder/changes --source-path vendor
 check 'names both' grep -q "'IM_ash' of 'vendor/folder/changes/defs.mtlx' replaces 'IM_ash' of 'vendor/folder/maker/defs.mtlx'" err
@@ -52,6 +52,46 @@ check 'no note' test "$(grep -c foreign-implementations err)" = 0
 check 'an image keeps it' exits 0 "$mxgen" library pack vendor/folder/maker --source-path vendor -o maker.mxlib
 check 'library list of an image' exits 0 "$mxgen" library list ash maker.mxlib
 check 'of foreign targets' grep -q 'genmsl (1) \[foreign-implementations\]' err
+
+# A broken implementation is an error of the nodes that need it; the rest of its library works.
+cat >partly.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_good" node="good"><output name="out" type="float"/></nodedef>
+  <implementation name="IM_good" nodedef="ND_good" sourcecode="0.25"/>
+  <nodedef name="ND_bad" node="bad"><output name="out" type="float"/></nodedef>
+  <implementation name="IM_bad" nodedef="ND_bad" sourcecode="0.25 *"/>
+  <nodedef name="ND_lost" node="lost"><output name="out" type="float"/></nodedef>
+  <implementation name="IM_lost" nodedef="ND_lost" target="genglsl" file="none.glsl" function="lost"/>
+  <nodedef name="ND_graph" node="graph"><output name="out" type="float"/></nodedef>
+  <nodegraph name="NG_graph" nodedef="ND_graph">
+    <add name="a" type="float"><input name="in1" type="float" nodename="nothing"/></add><output name="out" type="float" nodename="a"/>
+  </nodegraph>
+  <nodedef name="ND_same" node="same"><output name="out" type="float"/></nodedef>
+  <implementation name="IM_same" nodedef="ND_same" nodegraph="NG_graph"/>
+</materialx>
+END
+while read -r node code place id; do
+    echo "<materialx version='1.39'><$node name='n' type='float'/><output name='o' type='float' nodename='n'/></materialx>" >"$node.mtlx"
+    check "a library with faults: <$node>" exits "$code" "$mxgen" "$node.mtlx" --library partly.mtlx -o "made-$node"
+    check 'each fault is a warning' test "$(grep -c 'warning: .*\[broken-implementation\]' err)" = 4
+    check 'with the place of the fault' grep -q '^partly.mtlx:5:68: note: expected an expression' err
+    if [ "$code" = 0 ]; then
+        check 'nothing else is said' eval '! grep -q error: err'
+    else
+        check 'the fault is an error' grep -q "^partly.mtlx:$place: error: .*\[$id\]" err
+        check 'with the place of the use' grep -q "^$node.mtlx:1:27: note: 'n' needs it here" err
+    fi
+done <<'END'
+good 0
+bad 1 5:68 lang-expected
+lost 1 7:[0-9]* missing-source-file
+graph 1 10:[0-9]* dangling-nodename
+same 1 10:[0-9]* dangling-nodename
+END
+check 'no image has faults' exits 1 "$mxgen" library pack partly.mtlx -o partly.mxlib
+check 'which it says' grep -q '^error: an image has no faulty implementations' err
+check 'and writes nothing' test ! -e partly.mxlib
+check 'an error on demand' exits 1 "$mxgen" good.mtlx --library partly.mtlx -o made-strict -Werror=broken-implementation
 
 # Included documents, too.
 cat >documents/outer.mtlx <<'END'
