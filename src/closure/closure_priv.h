@@ -174,10 +174,15 @@ ir_ref closure_own_textures(struct shader *shader, ir_ref slots);
 struct closure_rewriting {
     struct shader *shader;
     struct ir_graph *graph;
-    ir_ref *became; /* by node: its copy */
+    ir_ref *became; /* by node: its copy; 0: itself */
 };
 /* The copy of a node, with one more operand if `last` is not 0. */
 ir_ref closure_over_copies(struct closure_rewriting *r, ir_ref ref, ir_ref last);
+/*
+ * Marks the nodes that `root` needs and that differ by light or sample, by node. Returns the first
+ * of them; root + 1: there are none.
+ */
+ir_ref closure_mark_loop(struct shader *shader, ir_ref root, uint8_t **out_needed);
 /*
  * The value in another loop over the lights or samples: 0 is the first one. The current light of
  * one loop is not that of another.

@@ -110,8 +110,8 @@ void closure_find_sample_loops(struct shader *shader, const struct closure_parts
 static bool reads_turn(struct shader *shader, ir_ref value)
 {
     const struct ir_graph *g = shader->graph;
-    const uint8_t *needed = ir_mark(g, &value, 1, shader->arena);
-    for (ir_ref ref = 1; ref <= value; ref++)
+    uint8_t *needed;
+    for (ir_ref ref = closure_mark_loop(shader, value, &needed); ref <= value; ref++)
         if (needed[ref] && ir_get(g, ref)->op == IR_SAMPLE
             && ir_get(g, ref)->attr == IR_SAMPLE_TURN)
             return true;

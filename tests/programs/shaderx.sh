@@ -21,6 +21,6 @@ for target in glsl osl; do
         esac
     done
 done
-check 'the film is there' grep -q mx_ggx_gather_film glsl/Over_varnished.frag
-check 'no film is below' grep -q mx_ggx_gather_conductor glsl/Over_varnished.frag
+check 'the film is there' grep -q 'mx_film_index(.*\.w)' glsl/Over_varnished.frag
+check 'no film is below' grep -q 'mx_fresnel_conductor(.*\.w)' glsl/Over_varnished.frag
 finish shaderx-compile
