@@ -52,39 +52,34 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - P;
-        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float product = smoothstep(difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio;
-        float choice = type == 3 ? product : 0.0;
+        float choice = type == 3 ? smoothstep(difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
         float choice_2 = type == 2 ? ratio : choice;
-        vec3 to_light_2 = -u_lightData[i].direction;
-        vec3 diffuse_response = max(dot(type == 1 ? to_light_2 : to_light, diffuse_facing), 1e-8) / 3.1415927
-            * vec3(0.8, 0.1, 0.1);
-        color += u_lightData[i].color * (type == 1 ? intensity : choice_2) * diffuse_response;
+        vec3 diffuse_response = max(dot(type == 1 ? -u_lightData[i].direction : to_light, diffuse_facing), 1e-8)
+            / 3.1415927 * vec3(0.8, 0.1, 0.1);
+        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : choice_2) * diffuse_response;
     }
     vec3 color_2 = vec3(0.0);
     // lights
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
-        int type_2 = u_lightData[i].type;
-        float intensity_2 = u_lightData[i].intensity;
-        float spot_light_ratio = intensity_2
-            / pow(length(u_lightData[i].position - P) + 1.0, u_lightData[i].decay_rate);
-        float inner_angle = u_lightData[i].inner_angle;
-        vec3 direction_2 = u_lightData[i].direction;
-        vec3 spot_light_direction = normalize(u_lightData[i].position - P);
-        float spot_light_product = smoothstep(min(inner_angle, u_lightData[i].outer_angle) - 0.00001, inner_angle,
-            -dot(direction_2, spot_light_direction)) * spot_light_ratio;
-        float spot_light_choice = type_2 == 3 ? spot_light_product : 0.0;
-        float point_light_choice = type_2 == 2 ? spot_light_ratio : spot_light_choice;
-        vec3 negative_direction_2 = -direction_2;
-        vec3 diffuse_product = max(dot(diffuse_facing, type_2 == 1 ? negative_direction_2 : spot_light_direction), 1e-8)
-            / 3.1415927 * vec3(0.8, 0.1, 0.1);
-        color_2 += u_lightData[i].color * (type_2 == 1 ? intensity_2 : point_light_choice) * diffuse_product;
+        int type = u_lightData[i].type;
+        vec3 spot_light_difference = u_lightData[i].position - P;
+        float spot_light_ratio = u_lightData[i].intensity
+            / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 spot_light_direction = normalize(spot_light_difference);
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, spot_light_direction)) * spot_light_ratio : 0.0;
+        float point_light_choice = type == 2 ? spot_light_ratio : spot_light_choice;
+        vec3 diffuse_product = max(dot(diffuse_facing, type == 1 ? -u_lightData[i].direction : spot_light_direction),
+            1e-8) / 3.1415927 * vec3(0.8, 0.1, 0.1);
+        color_2 += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * diffuse_product;
     }
     // opacity
     if (0.5 < u_alphaThreshold)

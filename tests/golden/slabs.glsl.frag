@@ -1,8 +1,9 @@
 #version 450
-// wet_metal · slab_surface · mxgen 0.1 · glsl · reduced · 6 closures · 0 textures
+// wet_metal · slab_surface · mxgen 0.1 · glsl · reduced · 5 closures · 0 textures
 
 struct mx_GgxLobe {
     vec3 N;
+    float cosine;
     vec3 x;
     vec2 alpha;
     float masking;
@@ -16,6 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
+    float level;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float shrink;
     float level;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
@@ -66,17 +72,12 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
     return mix(f0, vec3(1.0), x * x * x * x * x);
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(const float cosine, const float area)
-{
-    return sqrt(mix(cosine * cosine, 1.0, area));
-}
-
-// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    return mx_GgxLobe(N, normalize(X - dot(X, N) * N), alpha, mx_ggx_masking(max(dot(N, V), 1e-8), alpha.x * alpha.y));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -86,30 +87,36 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = dot(lobe.N, V) + dot(lobe.N, L);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = dot(slope, slope) + cos_h * cos_h;
     return square * square * cos_l / (6.2831855 * area * e * e
-        * (max(dot(lobe.N, V), 1e-8) * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // What the layer of the medium reflects and lets through, with all orders of scattering, of light on a way x.
-vec3 mx_medium_layer(const vec3 a, const vec3 t, const float way, out vec3 transmitted)
+vec3 mx_medium_layer(const float way, out vec3 transmitted)
 {
-    vec3 u = t / (vec3(1.0) + t);
     float x = way - 1.0;
-    vec3 s = 0.5 * a * way * (vec3(1.0) + u
-        * (vec3(-1.029) + u * (vec3(0.5422) - 0.3924 * a) + a * (vec3(0.7451) + 0.3145 * a) + x
-        * (vec3(1.1669) - 1.3629 * a)));
-    vec3 k = (vec3(1.0) - a) * way * (vec3(1.0) + a * u
-        * (vec3(0.604) + u * (vec3(-0.1979) - 0.4865 * a) + a * (vec3(1.393) - 0.5447 * a) + x
-        * (vec3(0.2436) - 2.0559 * a) + a * a * a * a * (vec3(-0.0215) + 0.5896 * u)));
+    vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
+        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
+        * vec3(-0.18317366, -0.19314766, -0.19532585)));
+    vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
+        * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
+        * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
+        + vec3(0.0739174, 0.07612604, 0.07661489)));
     vec3 g = sqrt(k * (k + 2.0 * s));
-    vec3 e = exp(-g * t);
-    vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 2.0 * t * (vec3(1.0) - g * t), step(g * t, vec3(0.001)));
+    vec3 e = exp(-g * 0.2);
+    vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 0.4 * (vec3(1.0) - g * 0.2), step(g * 0.2, vec3(0.001)));
     vec3 below = (k + s) * ways + vec3(1.0) + e * e;
     transmitted = 2.0 * e / below;
     return s * ways / below;
+}
+
+vec3 mx_medium_reflected(const float way)
+{
+    vec3 ignored;
+    return mx_medium_layer(way, ignored);
 }
 
 // The point of the picture for a unit direction in it.
@@ -126,23 +133,25 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// s of Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks": the albedo of one scattering is 1 -
-// s^2 where the medium scatters evenly and reflects `color` at infinite thickness.
-vec3 mx_medium_loss(const vec3 color)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
-    vec3 c = clamp(color, vec3(0.0), vec3(1.0));
-    return mix(clamp(vec3(4.09712) + 4.20863 * c - sqrt(vec3(9.59217) + c * (vec3(41.6808) + 17.7126 * c)), vec3(0.0),
-        vec3(1.0)), vec3(1.0), step(c, vec3(0.0)));
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
+    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
-vec3 mx_medium_reflected(const vec3 color, const vec3 mean_free_path, const float thickness, const float way)
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    if (max(color.x, max(color.y, color.z)) <= 0.0)
-        return vec3(0.0);
-    vec3 ignored;
-    vec3 loss = mx_medium_loss(color);
-    return mx_medium_layer(vec3(1.0) - loss * loss, max(thickness, 0.0) / max(mean_free_path, vec3(1e-6)), way,
-        ignored);
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
 // Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
@@ -150,24 +159,6 @@ vec3 mx_medium_reflected(const vec3 color, const vec3 mean_free_path, const floa
 vec3 mx_filtered_light(const vec3 d, const float level)
 {
     return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
-float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
-{
-    return 1.0 / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * masking);
-}
-
-// The light of a sample, and in the fourth component the cosine at its facet h, of any length; `spread` is its level
-// over that of the first.
-vec4 mx_ggx_sample_at(const mx_GgxSamples s, const vec3 h, const float shrink, const float spread)
-{
-    float cosine = dot(s.v, h);
-    vec3 l = 2.0 * shrink * cosine * h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    return vec4(cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, spread * spread * s.level), clamp(cosine * sqrt(shrink), 1e-8, 1.0));
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -178,38 +169,26 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
     return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-vec4 mx_ggx_sample(const mx_GgxSamples s, const vec2 around, const float depth)
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(around, depth, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
-    return mx_ggx_sample_at(s, h, shrink, shrink * dot(cap, cap));
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.level);
 }
 
-mx_GgxSamples mx_ggx_samples(const mx_GgxLobe lobe, const vec3 V)
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    float area = lobe.alpha.x * lobe.alpha.y;
-    vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
-}
-
-vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const vec3 V, const vec3 f0)
-{
-    mx_GgxSamples samples = mx_ggx_samples(lobe, V);
-    vec2 around = vec2(1.0, 0.0);
-    vec3 sum = vec3(0.0);
-    for (float depth = 0.5 * samples.step; depth < samples.top.z; depth += samples.step) {
-        vec4 light = mx_ggx_sample(samples, around, depth);
-        sum += mx_fresnel_schlick(light.w, f0) * light.xyz;
-        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
-    }
-    return samples.weight * sum;
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 void main()
@@ -238,11 +217,11 @@ void main()
     vec3 difference = blended_coat_bare_throughput - ratio;
     vec3 color = (ratio + difference) * vec3(0.0, 0.1, 0.0);
     // lights
-    vec3 Nf = faceforward(N, -V, N);
     vec3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coat_reflection_lobe = mx_ggx_lobe(vec2(0.01), Nf, X, V);
+    mx_GgxLobe coat_reflection_lobe = mx_ggx_lobe(vec2(0.01), N, X, V);
+    vec3 Nf = faceforward(N, -V, N);
     vec3 milk_medium_transmitted;
-    vec3 milk_medium = mx_medium_layer(vec3(0.990589, 0.99790716, 0.99950534), vec3(0.2), way, milk_medium_transmitted);
+    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
     vec2 albedo = mx_ggx_albedo_fit(0.25, 0.25 / (c_2 + 0.25), c_2);
     float difference_2 = 1.0 / albedo.x - 1.0;
     float milk_second_reflection_scale = difference_2 * 0.08571428 + 1.0;
@@ -256,7 +235,7 @@ void main()
     vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
     vec3 milk_medium_steady = milk_second_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
     vec3 metal_second_reflection_scale = difference_2 * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
-    mx_GgxLobe lobe = mx_ggx_lobe(vec2(0.25), Nf, X, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(vec2(0.25), N, X, V);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
     vec3 milk_bare_product = milk_second_reflection_throughput
         * (milk_medium_transmitted / (vec3(1.0)
@@ -274,17 +253,15 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // metal_second_reflection, milk_second_reflection, milk_medium, coat_reflection
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio_2 = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float ratio_2 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio_2;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio_2 : 0.0;
         float point_light_choice = type == 2 ? ratio_2 : spot_light_choice;
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
         vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
         vec3 coat_reflection_response = fresnel
@@ -292,8 +269,7 @@ void main()
         float c_3 = dot(N, L);
         float way_2 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
         vec3 milk_medium_transmitted_2;
-        vec3 milk_medium_2 = mx_medium_layer(vec3(0.990589, 0.99790716, 0.99950534), vec3(0.2), way_2,
-            milk_medium_transmitted_2);
+        vec3 milk_medium_2 = mx_medium_layer(way_2, milk_medium_transmitted_2);
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
         vec3 milk_medium_product = milk_medium * milk_medium_2 / vec3(0.10193972, 0.102937125, 0.103155464)
             * milk_medium_weight;
@@ -306,27 +282,38 @@ void main()
             * (ggx_light * (mx_fresnel_schlick(cosine, metal_constant) * metal_second_reflection_weight))
             + milk_second_reflection_response;
         vec3 sum_2 = coat_reflection_response + (max(dot(L, Nf), 0.0) / 3.1415927 * milk_medium_product + sum);
-        color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum_2;
+        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_2;
     }
     // environment
-    // milk_medium, coat_medium
-    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
-    vec3 milk_medium_product_2 = part * mx_medium_reflected(vec3(0.8, 0.9, 0.95), vec3(0.1), 0.02, way);
-    vec3 milk_medium_response = u_envLightIntensity
-        * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898))) * milk_medium_product_2);
-    vec3 coat_medium_product = part * mx_medium_reflected(vec3(0.0), vec3(0.2, 0.3, 0.4), 0.01, way);
-    color += milk_medium_response + coat_medium_product * (u_envLightIntensity * (coat_reflection_greater * 0.5));
-    // metal_second_reflection
-    vec3 slab_reflection_bsdf_environment = metal_second_reflection_scale
-        * mx_ggx_gather_schlick(lobe, V, metal_constant);
-    color += slab_reflection_bsdf_environment
+    // milk_medium
+    vec3 milk_medium_product = mx_medium_reflected(way)
+        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
+        * milk_medium_product);
+    // metal_second_reflection, milk_second_reflection
+    vec3 metal_second_reflection_product = metal_second_reflection_scale
         * (metal_second_reflection_steady + metal_second_reflection_ratio
         * pow(metal_second_reflection_decay, vec3(way)));
-    // milk_second_reflection
-    vec3 milk_second_reflection_weight = difference + ratio * pow(clamped, vec3(way));
-    color += milk_second_reflection_scale
-        * (mx_ggx_gather_schlick(lobe, V, vec3(0.04)) * milk_second_reflection_weight);
+    mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(0.25), N, X, V);
+    vec3 milk_second_reflection_product = milk_second_reflection_scale * (difference + ratio * pow(clamped, vec3(way)));
+    vec2 turn = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        // metal_second_reflection, milk_second_reflection
+        vec4 light = mx_ggx_reflected(ggx_samples, i, turn);
+        vec3 metal_second_reflection_response = metal_second_reflection_product
+            * (mx_fresnel_schlick(light.w, metal_constant) * light.xyz);
+        color += metal_second_reflection_response + milk_second_reflection_product
+            * (light.xyz * mx_fresnel_schlick(light.w, vec3(0.04)));
+        turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+    }
     // coat_reflection
-    color += coat_reflection_scale * 0.5 * mx_ggx_gather_schlick(coat_reflection_lobe, V, vec3(0.04));
+    mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), N, X, V);
+    vec2 turn_2 = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        vec4 coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_2);
+        color += coat_reflection_scale * 0.5
+            * (mx_fresnel_schlick(coat_reflection_ggx_reflected.w, vec3(0.04)) * coat_reflection_ggx_reflected.xyz);
+        turn_2 = turn_2 * -0.7373689 + vec2(-turn_2.y, turn_2.x) * 0.6754903;
+    }
     out1 = vec4(color, 1.0);
 }

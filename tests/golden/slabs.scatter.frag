@@ -91,12 +91,6 @@ float mx_ggx_smith_visibility(const vec3 v, const vec3 l, const vec2 alpha)
     return 0.5 * l.z / (v.z * length(vec3(l.xy * alpha, l.z)) + l.z * length(vec3(v.xy * alpha, v.z)));
 }
 
-// Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
-vec3 mx_ggx_compensation(const vec2 albedo, const vec3 n)
-{
-    return vec3(1.0) + mix(mx_fresnel_schlick(1.0, n), vec3(1.0), vec3(0.04761905)) * (1.0 / albedo.x - 1.0);
-}
-
 // What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y).
 vec2 mx_ggx_albedo(const vec2 roughness, const float c)
 {
@@ -147,7 +141,7 @@ void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3
         return;
     if (is_reflected) {
         weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
-            * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), n);
+            * (vec3(1.0) + mix(n, vec3(1.0), vec3(0.04761905)) * (1.0 / mx_ggx_albedo(roughness, v.z).x - 1.0));
         pdf = 0.25 * share;
     } else {
         weight = (vec3(1.0) - f) * (2.0 / ((-l).z + length(vec3((-l).xy * alpha, (-l).z))) * -l.z / (1.0 - share));
@@ -316,9 +310,9 @@ void scatter()
         mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), milk_second_reflection_L,
             milk_second_reflection_weight, milk_second_reflection_pdf);
         L = milk_second_reflection_L;
-        float n_dot_l_2 = dot(N, milk_second_reflection_L);
+        float n_dot_l = dot(N, milk_second_reflection_L);
         weight = sum_2 / greater_3 * (milk_second_reflection_weight
-            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l_2 * n_dot_l_2 + 1.25) * 1.5))));
+            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))));
         density = milk_second_reflection_pdf * (greater_3 / sum_2);
     }
     pick += -greater_3;
@@ -387,18 +381,16 @@ void scatter()
     float distance_ = 0.0;
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         int type = u_lightData[i].type;
-        float intensity = u_lightData[i].intensity;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float magnitude_d = length(d);
-        float ratio_4 = intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+        float ratio_4 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
         float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 to_light = normalize(d);
-        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio_4;
-        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio_4 : 0.0;
         float point_light_choice = type == 2 ? ratio_4 : spot_light_choice;
-        vec3 directional_light_to_light = -u_lightData[i].direction;
-        vec3 directional_light_L = type == 1 ? directional_light_to_light : to_light;
+        vec3 directional_light_L = type == 1 ? -u_lightData[i].direction : to_light;
         float ggx_smith_lobe_2 = mx_ggx_smith_lobe(vec2(0.25), frame, vd.viewWorld, directional_light_L);
         float cosine_3 = sqrt(clamp(dot(vd.viewWorld, directional_light_L) * 0.5 + 0.5, 1e-8, 1.0));
         vec3 metal_second_reflection_slab_reflection_bsdf_eval_2 = metal_second_reflection_ggx_compensation
@@ -419,14 +411,12 @@ void scatter()
             * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, directional_light_L) * 0.5);
         vec3 sum_11 = product_4 + milk_second_reflection_ggx_compensation * ggx_smith_lobe_2 * fresnel_2 * sum_9
             + product_5 + product_6;
-        vec3 product_7 = u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum_11;
+        vec3 product_7 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_11;
         float greater_7 = max(dot(product_7, vec3(0.33333334)), 0.0);
         sum_8 += greater_7;
         if (sum_8 * chance < greater_7) {
             L_3 = directional_light_L;
-            float choice = type == 3 ? magnitude_d : 1e30;
-            float choice_2 = type == 2 ? magnitude_d : choice;
-            distance_ = type == 1 ? 1e30 : choice_2;
+            distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
             light = product_7 / greater_7;
         }
         if (greater_7 > 0.0) {
