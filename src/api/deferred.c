@@ -119,8 +119,9 @@ void generation_tell_forward(struct generation *g)
                  (unsigned)shader->closures.len, (unsigned)DEFERRED_MAX_CLOSURES);
     if (!generation_stores(g) || shader->stored_words)
         return;
+    const char *why = !closure_is_surface(shader, g->root) ? "it is no surface"
+                      : shader->alpha == ALPHA_BLEND       ? "its opacity may be between 0 and 1"
+                                                           : "it has AOVs";
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_drawn_forward, doc_place(doc, g->element),
-             str_text(shader->strings, shader->name),
-             closure_is_surface(shader, g->root) ? "its opacity may be between 0 and 1"
-                                                 : "it is no surface");
+             str_text(shader->strings, shader->name), why);
 }

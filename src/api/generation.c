@@ -223,7 +223,8 @@ bool generation_start(struct generation *g)
     if (good) {
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena,
                                  context_dialect(g->result->object.context, g->result->target));
-        good = check_version(g) && generation_check_options(g) && generation_check_pipeline(g);
+        bool fits = generation_check_options(g), is_drawn = generation_check_pipeline(g);
+        good = check_version(g) && fits && is_drawn;
     }
     g->element = g->desc.bindings ? element_of_stack(g)
                                   : document_find_element(g->document, g->desc.element, diags_of(g),

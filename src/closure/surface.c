@@ -604,6 +604,14 @@ static bool is_output(const struct emitter *e, uint32_t aov)
     return e->shader->aovs.items[aov].is_output;
 }
 
+static bool has_aov_outputs(const struct emitter *e)
+{
+    for (uint32_t i = 0; i < e->shader->aovs.len; i++)
+        if (is_output(e, i))
+            return true;
+    return false;
+}
+
 static bool is_closure(const struct emitter *e, ir_ref value)
 {
     return value && ir_type_is_closure(ir_type_of(e->graph, value));
@@ -760,7 +768,8 @@ static void emit_surface(struct emitter *e, ir_ref root)
             alpha_test(e, s.alpha);
         return;
     }
-    if (e->host->store && (draws_all(e, s.alpha) || is_cut(e, s.alpha))) {
+    bool is_whole = draws_all(e, s.alpha) || is_cut(e, s.alpha);
+    if (e->host->store && is_whole && !has_aov_outputs(e)) {
         struct closure_list list;
         e->shader->alpha = draws_all(e, s.alpha) ? ALPHA_OPAQUE : ALPHA_MASK;
         flatten_surface(e, &s, &list);

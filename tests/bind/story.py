@@ -14,6 +14,8 @@ import sys
 import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "programs"))
+import exr
 from checks import check, finish, skip
 
 MXGEN, RENDER, ROOT = (pathlib.Path(arg).resolve() for arg in sys.argv[1:4])
@@ -175,6 +177,19 @@ def check_formats(pictures, folder):
         check(share < 0.02 * other.width * other.height, f"receiver.gltf: {share} pixels differ from receiver.usda")
 
 
+def check_matte(folder):
+    """The dirt that masks itself has an AOV, from none to much: it is not where the surface is open."""
+    path = folder / "matte.exr"
+    result = run(RENDER, SLOTS / "looks.mtlx", "--stage", SLOTS / "receiver.usda", "--look", "matte", "-s", "80x60", "--path-trace", "--paths", "2", "-o", path)
+    if result.returncode and "no-device" in result.stderr:
+        skip("no Vulkan device: the matte is not drawn")
+        return
+    check(result.returncode == 0 and not result.stderr, f"render, matte: {result.stderr}")
+    values = [value for row in exr.read(path)[2]["dirt"] for value in row]
+    check(max(values) > 0.5 and sum(values) / len(values) < 0.2, f"dirt has up to {max(values)}, and {sum(values) / len(values)} in the mean")
+    check(sum(value == 0 for value in values) > len(values) / 4, "dirt is everywhere")
+
+
 def check_library(folder):
     """Another library of substances under the same names: the bindings stay, byte by byte."""
     other = folder / "other"
@@ -196,7 +211,7 @@ def check_library(folder):
 
 def check_page():
     page = PAGE.read_text(encoding="utf-8")
-    for look in ["default", *STEPS]:
+    for look in ["default", *STEPS, "matte"]:
         check(f"](slots/{look}.jpg)" in page and (ROOT / f"docs/slots/{look}.jpg").exists(), f"docs/slots.md has no picture of {look}")
     for look, text in re.findall(r"^\| `(\w+)` .*?<br>(.*?) \|$", page, re.MULTILINE):
         table = run(MXGEN, "bind", SLOTS / "looks.mtlx", "--stage", SLOTS / "receiver.usda", "--look", look).stdout
@@ -220,4 +235,5 @@ with tempfile.TemporaryDirectory() as name:
     check_library(pathlib.Path(name))
     check_page()
     check_pictures(pathlib.Path(name))
+    check_matte(pathlib.Path(name))
 finish("story")

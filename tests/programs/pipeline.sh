@@ -101,6 +101,17 @@ check "17 slabs" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --tar
 check "16 slabs" "$mxgen" sixteen.mtlx -e SR --target vulkan --pipeline deferred -o many
 warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --pipeline deferred -o milky 2>&1 | grep -q drawn-forward; }
 check "a transparent surface is told" warns
+cat >aov.mtlx <<'X'
+<materialx version="1.39">
+  <slab name="matter" type="BSDF"/>
+  <surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="matter"/></surface>
+  <aov name="own" type="float"><input name="name" type="string" value="own"/><input name="value" type="float" value="1"/></aov>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
+</materialx>
+X
+aovs_are_told() { "$mxgen" aov.mtlx --target vulkan --interface reduced --pipeline deferred -o aovs "$@" 2>&1 | grep -q "drawn forward: it has AOVs"; }
+check "AOVs are told" aovs_are_told
+check "and may be left out" exits 1 aovs_are_told --aovs none
 for target in essl essl310 hlsl osl; do
     check "no passes for $target" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --pipeline deferred -o no
 done
@@ -110,7 +121,7 @@ check "no passes for OpenGL 3.3" reports options-clash "$mxgen" pipeline no --ta
 
 # Pairs of values without a meaning; every other combination has one.
 clashes='deferred:integrator=path deferred:integrator=scatter deferred:slots=stochastic deferred:transparency=blend
-deferred:transmission=opacity deferred:layering=two-sided deferred:encode=srgb depth:integrator=path depth:integrator=scatter
+deferred:form=function depth:form=function deferred:transmission=opacity deferred:layering=two-sided deferred:encode=srgb depth:integrator=path depth:integrator=scatter
 depth:slots=stochastic depth:transparency=blend'
 # expected PIPELINE OPTION=VALUE...: prints the pairs of a combination that clash.
 expected() {
@@ -128,9 +139,13 @@ combination() {
         arguments+=("--${pair%%=*}" "${pair#*=}")
     done
     wanted=$(expected "$pipeline" "$@")
+    # The caller of a path tracer's function decides about opacity, in every pipeline.
+    local idle=0
+    [[ "$*" == *integrator=scatter*transparency=* && "$*" != *transparency=auto* ]] && idle=1
     "$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --interface reduced --pipeline "$pipeline" "${arguments[@]}" -o walk \
         >out 2>err || got=$?
-    [ "$got" -eq "$([ -z "$wanted" ] && echo 0 || echo 1)" ] || { echo "exit code $got"; cat err; return 1; }
+    [ "$got" -eq "$([ -z "$wanted" ] && echo $idle || echo 1)" ] || { echo "exit code $got"; cat err; return 1; }
+    [ $idle = 0 ] || grep -q "'transparency' has no effect with 'integrator=scatter'" err || { echo "no message about transparency"; return 1; }
     for pair in $wanted; do
         grep -q "'pipeline=$pipeline' and '$pair'.*\[options-clash\]" err || { echo "no message about $pair"; return 1; }
     done
@@ -145,7 +160,7 @@ for pipeline in forward deferred depth; do
             done
         done
     done
-    for pair in transmission=opacity layering=two-sided encode=srgb; do
+    for pair in transmission=opacity layering=two-sided encode=srgb form=function; do
         check "$pipeline $pair" combination "$pipeline" "$pair"
     done
 done

@@ -85,7 +85,7 @@ check 'marble as slabs' exits 0 "$mxgen" inspect --closures "$examples/marble.mt
 check 'is lobes of slabs' eval 'grep -q mx_slab_medium_bsdf out && ! grep -qE "mx_(oren|dielectric|conductor)" out'
 
 check 'albedo that varies' exits 0 "$mxgen" "$examples/marble.mtlx" --slabs --interface reduced -o made
-check 'adds the even environment once' eval '! sed -n "/void main/,\$p" made/Marble.frag | grep -q "< u_envRadianceSamples"'
+check 'adds the even environment once' eval '! sed -n "/< u_envRadianceSamples/,/^    }/p" made/Marble.frag | grep -E "medium|u_envIrradiance"'
 
 # Views
 check 'a sheet' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre

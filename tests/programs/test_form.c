@@ -376,7 +376,7 @@ static void test_shadow(struct test *t)
         bool is_left = i / 4 % SIZE < SIZE / 2, is_alpha = i % 4 == 3;
         float expected = is_left && !is_alpha ? 0.0f : lit[i];
         if (fabsf(dark[i] - expected) > 1e-3f * fmaxf(lit[i], 0.01f)) {
-            REQUIRE(!"a shadow on the left");
+            REQUIRE(dark[i] == expected);
             printf("    at %d: %g instead of %g\n", i, (double)dark[i], (double)expected);
             return;
         }

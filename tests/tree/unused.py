@@ -37,8 +37,9 @@ def document(lines):
                 continue
             several = len(ports) > 1
             choice = f' output="{port}"' if several else ""
-            text.append(f'<nodegraph name="{name}_{port}"><{node} name="n" nodedef="{name}" type="{"multioutput" if several else kind}"/>'
-                        f'<output name="o" type="{kind}" nodename="n"{choice}/></nodegraph>')
+            inner = '<input name="name" type="string" value="a"/>' if node in ("aov", "aovpass") else ""  # each AOV needs one
+            text.append(f'<nodegraph name="{name}_{port}"><{node} name="n" nodedef="{name}" type="{"multioutput" if several else kind}">'
+                        f'{inner}</{node}><output name="o" type="{kind}" nodename="n"{choice}/></nodegraph>')
     return "\n".join(text + ["</materialx>"])
 
 
