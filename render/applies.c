@@ -39,7 +39,7 @@ static const struct {
     {"mesh", FACT_NO_STAGE, "the stage has the meshes"},
     {"turntable", FACT_NO_STAGE, "a turntable shows one element"},
     {"set", FACT_NO_STAGE, "a stage has many shaders; change the document"},
-    {"show", FACT_SHOWN, "only a stage has slots"},
+    {"show", FACT_SHOWN, "slots and weights need --stage, the other views --pipeline deferred"},
     {"mattes", FACT_STAGE, "only a stage has slots"},
     {"mattes", FACT_CHANNELS, "only EXR files have channels for the AOVs"},
     {"aovs", FACT_CHANNELS, "only EXR files have channels for the AOVs"},

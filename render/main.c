@@ -741,7 +741,9 @@ static unsigned find_facts(const struct job *job, bool is_grid, bool is_one)
            | fact(is_sampled(job), FACT_SAMPLED) | fact(!options->look, FACT_NO_LOOK)
            | fact(writes_channels(job), FACT_CHANNELS) | fact(options->stage, FACT_STAGE)
            | fact(!options->stage, FACT_NO_STAGE)
-           | fact(options->stage || !shows_slots(job), FACT_SHOWN);
+           | fact(shows_slots(job) ? options->stage != NULL
+                                   : args_is_given(&job->cli.parser, "pipeline"),
+                  FACT_SHOWN);
 }
 
 /* mxgen render --stage FILE --list */

@@ -152,4 +152,8 @@ check 'all of it' eval 'sed -i "s|geom=\"/a/floor\" vistype=\"camera\"|geom=\"/\
 check 'ten AOVs' exits 0 "$render" many.mtlx -e M -m plane -q -s 8 -o many.exr
 check 'all of them' reads many.exr a10 0.5 0.5 10 0.001
 check 'the first' reads many.exr a1 0.5 0.5 1 0.001
+for view in slots classes; do
+    check "$view of what is not there" exits 2 "$render" look.mtlx --show $view -o no.png
+    check "is an error" grep -q "'--show' does not apply" err
+done
 finish aovs

@@ -33,11 +33,11 @@ def document(lines):
     for name, node, _, outputs in lines:
         ports = [output.split(":") for output in outputs.split(", ")]
         for port, kind in ports:
-            if kind not in PATTERNS:
+            if kind not in PATTERNS or node == "aovpass":  # it reads a shader
                 continue
             several = len(ports) > 1
             choice = f' output="{port}"' if several else ""
-            inner = '<input name="name" type="string" value="a"/>' if node in ("aov", "aovpass") else ""  # each AOV needs one
+            inner = '<input name="name" type="string" value="a"/>' if node == "aov" else ""  # each AOV needs one
             text.append(f'<nodegraph name="{name}_{port}"><{node} name="n" nodedef="{name}" type="{"multioutput" if several else kind}">'
                         f'{inner}</{node}><output name="o" type="{kind}" nodename="n"{choice}/></nodegraph>')
     return "\n".join(text + ["</materialx>"])
