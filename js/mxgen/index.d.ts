@@ -11,7 +11,7 @@ export type Stage = "vertex" | "pixel";
 export type Block = "publicUniforms" | "privateUniforms" | "lightData" | "textures" | "appData" | "vertexData" | "outputs";
 /** opaque: without blending; mask: with the depth test alone; blend: back to front. Colours are premultiplied. */
 export type Alpha = "opaque" | "mask" | "blend";
-export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics" | "slabs";
+export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics" | "slabs" | "slabsJson" | "slabsSvg";
 /** The effect of a new value of an input on a shader. */
 export type InputState = "unknown" | "unused" | "uniform" | "compiled" | "connected";
 export type ChangeKind = "nothing" | "values" | "shader";
@@ -483,6 +483,12 @@ export interface ShaderInfo {
     lit: boolean;
     displaced: boolean;
     alpha: Alpha;
+    /** with form=function: the names of the function and of the struct that it returns; otherwise "" */
+    function: string;
+    functionType: string;
+    /** words of 32 bits that a material of the deferred pipeline stores; 0: the shader lights itself */
+    storedWords: number;
+    layout: number;
 }
 
 /** An input whose value is compiled in. */
