@@ -166,6 +166,31 @@ static bool allocate(struct gpu *gpu, VkMemoryRequirements needs, VkMemoryProper
                      "allocating device memory");
 }
 
+bool gpu_create_compute(struct gpu *gpu, const VkPipelineLayoutCreateInfo *layout,
+                        const uint32_t *code, size_t num_words, VkPipelineLayout *out_layout,
+                        VkPipeline *out)
+{
+    const VkShaderModuleCreateInfo source = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                             .codeSize = num_words * sizeof(uint32_t),
+                                             .pCode = code};
+    VkShaderModule module;
+    if (!gpu_check(gpu, vkCreatePipelineLayout(gpu->device, layout, NULL, out_layout),
+                   "making a pipeline layout")
+        || !gpu_check(gpu, vkCreateShaderModule(gpu->device, &source, NULL, &module),
+                      "loading the shader"))
+        return false;
+    const VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main"},
+        .layout = *out_layout};
+    VkResult result = vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, out);
+    vkDestroyShaderModule(gpu->device, module, NULL);
+    return gpu_check(gpu, result, "compiling the shader");
+}
+
 bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *data, size_t size,
                        struct gpu_buffer *out)
 {

@@ -46,6 +46,11 @@ void gpu_close(struct gpu *gpu);
 /* Keeps the reason of a failure; returns result == VK_SUCCESS. */
 bool gpu_check(struct gpu *gpu, VkResult result, const char *what);
 
+/* A compute program of SPIR-V and its layout, which the caller destroys, also after a failure. */
+bool gpu_create_compute(struct gpu *gpu, const VkPipelineLayoutCreateInfo *layout,
+                        const uint32_t *code, size_t num_words, VkPipelineLayout *out_layout,
+                        VkPipeline *out);
+
 /* Mapped memory that the processor can read and write. `data` may be NULL. */
 bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *data, size_t size,
                        struct gpu_buffer *out);

@@ -238,24 +238,8 @@ static bool create_pipeline(struct gpu *gpu, struct kernel *kernel,
                                                .pSetLayouts = layouts,
                                                .pushConstantRangeCount = 1,
                                                .pPushConstantRanges = &camera};
-    const VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                             .codeSize = code->num_words * sizeof(uint32_t),
-                                             .pCode = code->words};
-    if (!gpu_check(gpu, vkCreatePipelineLayout(gpu->device, &layout, NULL, &kernel->layout),
-                   "making a pipeline layout")
-        || !gpu_check(gpu, vkCreateShaderModule(gpu->device, &module, NULL, &kernel->module),
-                      "loading the shader"))
-        return false;
-    const VkComputePipelineCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .module = kernel->module,
-                  .pName = "main"},
-        .layout = kernel->layout};
-    VkResult result =
-        vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &kernel->pipeline);
-    return gpu_check(gpu, result, "compiling the shader");
+    return gpu_create_compute(gpu, &layout, code->words, code->num_words, &kernel->layout,
+                              &kernel->pipeline);
 }
 
 /* True if the pixel stage reads uniforms that differ between objects. */
@@ -292,7 +276,6 @@ bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayou
 void kernel_close(struct gpu *gpu, struct kernel *kernel)
 {
     vkDestroyPipeline(gpu->device, kernel->pipeline, NULL);
-    vkDestroyShaderModule(gpu->device, kernel->module, NULL);
     vkDestroyPipelineLayout(gpu->device, kernel->layout, NULL);
     inputs_destroy(gpu, &kernel->bind->draw, &kernel->inputs);
     compiled_finish(&kernel->compiled);

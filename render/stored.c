@@ -28,7 +28,6 @@ struct pass {
     struct stored_pass source;
     struct inputs inputs;
     VkPipelineLayout layout;
-    VkShaderModule module;
     VkPipeline pipeline;
 };
 
@@ -190,7 +189,6 @@ void stored_close(struct stored *stored)
     for (uint32_t i = 0; i < stored->num_passes; ++i) {
         struct pass *pass = &stored->passes[i];
         vkDestroyPipeline(gpu->device, pass->pipeline, NULL);
-        vkDestroyShaderModule(gpu->device, pass->module, NULL);
         vkDestroyPipelineLayout(gpu->device, pass->layout, NULL);
         inputs_destroy(gpu, pass->source.draw, &pass->inputs);
     }
@@ -211,7 +209,6 @@ void stored_close(struct stored *stored)
 
 static bool create_pipeline(struct stored *stored, struct pass *pass)
 {
-    VkDevice device = stored->gpu->device;
     const VkDescriptorSetLayout layouts[2] = {pass->inputs.num_sets ? pass->inputs.set_layouts[0]
                                                                     : stored->empty_layout,
                                               stored->set_layout};
@@ -219,24 +216,8 @@ static bool create_pipeline(struct stored *stored, struct pass *pass)
                                                    VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                                .setLayoutCount = 2,
                                                .pSetLayouts = layouts};
-    const VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                             .codeSize = pass->source.code_words * sizeof(uint32_t),
-                                             .pCode = pass->source.code};
-    if (!gpu_check(stored->gpu, vkCreatePipelineLayout(device, &layout, NULL, &pass->layout),
-                   "making a pipeline layout")
-        || !gpu_check(stored->gpu, vkCreateShaderModule(device, &module, NULL, &pass->module),
-                      "loading the shader"))
-        return false;
-    const VkComputePipelineCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .module = pass->module,
-                  .pName = "main"},
-        .layout = pass->layout};
-    VkResult result =
-        vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, NULL, &pass->pipeline);
-    return gpu_check(stored->gpu, result, "compiling the shader");
+    return gpu_create_compute(stored->gpu, &layout, pass->source.code, pass->source.code_words,
+                              &pass->layout, &pass->pipeline);
 }
 
 bool stored_add_pass(struct stored *stored, const struct stored_pass *source)

@@ -40,7 +40,6 @@ struct kernel {
     struct compiled compiled;
     struct inputs inputs;
     VkPipelineLayout layout;
-    VkShaderModule module;
     VkPipeline pipeline;
     uint32_t first_shader, num_shaders; /* numbers: one, or one for each object */
 };
