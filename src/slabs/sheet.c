@@ -5,6 +5,8 @@
 #include "slabs/estimate.h"
 #include "slabs/recognise.h"
 
+#include <math.h>
+
 const struct slab_shown slab_shown[] = {{SLAB_diffuse_albedo, "albedo"},
                                         {SLAB_f0, "f0"},
                                         {SLAB_roughness, "roughness"},
@@ -49,6 +51,13 @@ const char *slab_name(const struct slab_sheet *sheet, ir_ref ref)
     return name ? str_text(sheet->shader->strings, name) : "?";
 }
 
+void slab_write_number(float value, struct text *out)
+{
+    enum { DIGITS = 4 };
+    double scale = value == 0.0f ? 1.0 : pow(10.0, DIGITS - 1 - floor(log10(fabs(value))));
+    text_float(out, isfinite(scale) ? (float)(round(value * scale) / scale) : value);
+}
+
 void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *out)
 {
     struct ir_value value;
@@ -67,7 +76,7 @@ void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *o
     bool is_splat = count == 3 && value.w[0].u == value.w[1].u && value.w[0].u == value.w[2].u;
     for (unsigned i = 0; i < (is_splat ? 1 : count); i++) {
         text_str(out, i ? ", " : "");
-        text_float(out, value.w[i].f);
+        slab_write_number(value.w[i].f, out);
     }
 }
 
