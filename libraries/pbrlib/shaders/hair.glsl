@@ -37,8 +37,8 @@ void mx_chiang_hair_roughness(float longitudinal, float azimuthal, float scale_T
 }
 
 // ---- scattering -----------------------------------------------------------------------------------------------------
-// Directions are in the frame of the hair: x along it, z towards the viewer. A tilt is (cos, sin) of the angle to the section of the
-// hair. A turn is (cos, sin) of an angle around the hair. Angles add up as complex numbers multiply.
+// A tilt is (cos, sin) of the angle to the section of the hair, a turn (cos, sin) of an angle around the hair. Angles add up as complex
+// numbers multiply.
 
 vec2 mx_hair_add(vec2 a, vec2 b)
 {
@@ -55,70 +55,56 @@ vec2 mx_hair_tilt(vec3 w)
     return vec2(mx_hair_cosine(w.x), w.x);
 }
 
-// The slope of the cuticle's scales.
-vec2 mx_hair_slope(float cuticle_angle)
-{
-    float angle = (cuticle_angle - 0.5) * MX_PI;
-    return vec2(cos(angle), sin(angle));
-}
-
-// exp(-x) I0(x), with the modified Bessel function of the first kind. The program fits/bessel.c makes the constants.
-float mx_hair_bessel(float x)
-{
-    return sqrt((1.0 + x * (0.3840 + x * 0.5689)) / (1.0 + x * (2.5181 + x * (1.9457 + x * 2.0 * MX_PI * 0.5689))));
-}
-
 float mx_hair_width(float roughness)
 {
     return clamp(roughness, 0.001, 1.0);
 }
 
-// Longitudinal scattering M_p (d'Eon et al. 2011, equation 7): 2 sinh(k) is exp(k) (1 - exp(-2 k)).
+// Longitudinal scattering M_p (d'Eon et al. 2011, equation 7): 2 sinh(k) is exp(k) (1 - exp(-2 k)). The program fits/bessel.c makes
+// the constants of Bessel's function times exp(-x).
 float mx_hair_longitudinal(vec2 i, vec2 o, float roughness)
 {
     float k = 1.0 / mx_hair_width(roughness);
     float x = abs(k * i.x * o.x);
-    return k * mx_hair_bessel(x) * exp(x - k * (i.y * o.y + 1.0)) / (1.0 - exp(-2.0 * k));
+    float bessel = sqrt((1.0 + x * (0.3840 + x * 0.5689)) / (1.0 + x * (2.5181 + x * (1.9457 + x * 2.0 * MX_PI * 0.5689))));
+    return k * bessel * exp(x - k * (i.y * o.y + 1.0)) / (1.0 - exp(-2.0 * k));
 }
 
-// asin, by Abramowitz and Stegun 1964, equation 4.4.45; x from 0 to 1.
-float mx_hair_arc(float x)
-{
-    float p = 1.5707288 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x));
-    return 0.5 * MX_PI - sqrt(max(1.0 - x, 0.0)) * p;
-}
-
-// Scale of the logistic for a roughness.
-float mx_hair_scale(float roughness)
-{
-    return 0.626657 * mx_hair_width(roughness); // sqrt(pi / 8)
-}
-
-// Azimuthal scattering N_p: a logistic around 0, trimmed to one turn (Chiang et al. 2016, appendix A).
+// Azimuthal scattering N_p: a logistic around 0, trimmed to one turn (Chiang et al. 2016, appendix A). The angle is twice the arcsine of
+// half a chord (Abramowitz and Stegun 1964, equation 4.4.45).
 float mx_hair_azimuthal(vec2 turn, float roughness)
 {
-    float s = mx_hair_scale(roughness);
-    float angle = 2.0 * mx_hair_arc(0.5 * length(turn - vec2(1.0, 0.0)));
-    float f = exp(-angle / s);
+    float s = 0.626657 * mx_hair_width(roughness); // sqrt(pi / 8)
+    float chord = 0.5 * length(turn - vec2(1.0, 0.0));
+    float arc = 1.5707288 + chord * (-0.2121144 + chord * (0.0742610 - 0.0187293 * chord));
+    float f = exp((2.0 * sqrt(max(1.0 - chord, 0.0)) * arc - MX_PI) / s);
     float tail = exp(-MX_PI / s);
     return f * (1.0 + tail) / (s * (1.0 + f) * (1.0 + f) * (1.0 - tail));
 }
 
-// The circular section: how the light of a direction enters and crosses it.
-struct mx_HairSection {
+// The lobe for a viewer: how light enters and crosses the circular section.
+struct mx_HairLobe {
+    vec3 N;          // faces the viewer
+    vec3 x;          // unit tangent along the hair
+    vec3 v;          // the viewer in the frame
+    vec2 slope;      // of the scales of the cuticle, as a tilt
     vec2 crossing;   // turn by one crossing
-    float reflected; // part where the light enters
+    float reflected; // part where light enters
     vec3 through;    // part that one crossing lets through
 };
 
-mx_HairSection mx_hair_section(vec3 v, float ior, vec3 absorption)
+mx_HairLobe mx_hair_lobe(float ior, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V)
 {
-    vec2 tilt = mx_hair_tilt(v);
+    vec3 Nf = mx_facing(N, V);
+    vec3 x = mx_tangent(Nf, curve_direction);
+    vec3 v = mx_enter_frame(V, Nf, x);
+    float slope = (cuticle_angle - 0.5) * MX_PI;
     vec2 entry = v.zy / max(length(v.yz), MX_EPSILON);
-    float sin_t = clamp(entry.y * max(tilt.x, MX_EPSILON) * inversesqrt(max(ior * ior - v.x * v.x, MX_EPSILON)), -1.0, 1.0);
+    float cos_o = mx_hair_cosine(v.x);
+    float sin_t = clamp(entry.y * max(cos_o, MX_EPSILON) * inversesqrt(max(ior * ior - v.x * v.x, MX_EPSILON)), -1.0, 1.0);
     float cos_t = mx_hair_cosine(sin_t);
-    return mx_HairSection(vec2(2.0 * sin_t * sin_t - 1.0, -2.0 * sin_t * cos_t), mx_fresnel_dielectric(tilt.x * entry.x, ior),
-                          exp(absorption * (-2.0 * cos_t / mx_hair_cosine(v.x / ior))));
+    return mx_HairLobe(Nf, x, v, vec2(cos(slope), sin(slope)), vec2(2.0 * sin_t * sin_t - 1.0, -2.0 * sin_t * cos_t),
+                       mx_fresnel_dielectric(cos_o * entry.x, ior), exp(absorption * (-2.0 * cos_t / mx_hair_cosine(v.x / ior))));
 }
 
 // The parts A_p of the light by path: R, TT, TRT, and all longer ones (Chiang et al. 2016, section 3.3).
@@ -129,57 +115,43 @@ struct mx_HairParts {
     vec3 longer;
 };
 
-mx_HairParts mx_hair_parts(mx_HairSection section, vec3 tint_R, vec3 tint_TT, vec3 tint_TRT)
+mx_HairParts mx_hair_parts(mx_HairLobe lobe, vec3 tint_R, vec3 tint_TT, vec3 tint_TRT)
 {
-    float entered = 1.0 - section.reflected;
-    vec3 crossed = entered * entered * section.through;
-    vec3 again = section.reflected * section.through;
+    float entered = 1.0 - lobe.reflected;
+    vec3 crossed = entered * entered * lobe.through;
+    vec3 again = lobe.reflected * lobe.through;
     vec3 TRT = max(tint_TRT, 0.0) * crossed * again;
-    return mx_HairParts(max(tint_R, 0.0) * section.reflected, max(tint_TT, 0.0) * crossed, TRT, TRT * again / (1.0 - again));
+    return mx_HairParts(max(tint_R, 0.0) * lobe.reflected, max(tint_TT, 0.0) * crossed, TRT, TRT * again / (1.0 - again));
 }
 
-// M_p N_p of the paths between l and v, where `tilted` is the tilt of one of them, and `other` that of the other. The slope turns
-// `tilted` by 2, -1 and -4 times its angle (Chiang et al. 2016, section 3.4).
-vec4 mx_hair_densities(vec3 l, vec3 v, vec2 tilted, vec2 other, vec2 crossing, vec2 slope, vec2 roughness_R, vec2 roughness_TT,
-                       vec2 roughness_TRT)
+// What the cuticle does to a tilt on path p (Chiang et al. 2016, section 3.4).
+vec2 mx_hair_tilted(int p, vec2 tilt, vec2 slope)
 {
     vec2 twice = mx_hair_add(slope, slope);
     vec2 four = mx_hair_add(twice, twice);
-    vec2 turn_R = mx_hair_add(l.yz, -v.yz) / max(tilted.x * other.x, MX_EPSILON);
-    vec2 turn_TT = mx_hair_add(turn_R, crossing);
-    vec2 turn_TRT = mx_hair_add(turn_TT, crossing);
-    return vec4(mx_hair_longitudinal(mx_hair_add(tilted, twice), other, roughness_R.x) * mx_hair_azimuthal(turn_R, roughness_R.y),
-                mx_hair_longitudinal(mx_hair_add(tilted, vec2(slope.x, -slope.y)), other, roughness_TT.x)
-                    * mx_hair_azimuthal(turn_TT, roughness_TT.y),
-                mx_hair_longitudinal(mx_hair_add(tilted, vec2(four.x, -four.y)), other, roughness_TRT.x)
-                    * mx_hair_azimuthal(turn_TRT, roughness_TRT.y),
-                mx_hair_longitudinal(tilted, other, roughness_TRT.x) * 0.5 / MX_PI);
+    vec2 turn = p == 0 ? twice : p == 1 ? vec2(slope.x, -slope.y) : p == 2 ? vec2(four.x, -four.y) : vec2(1.0, 0.0);
+    return mx_hair_add(tilt, turn);
 }
 
-// The lobe as lights see it: all that the viewer decides.
-struct mx_HairLobe {
-    vec3 N; // faces the viewer
-    vec3 x; // unit tangent along the hair
-    vec3 v; // the viewer in the frame
-    vec2 slope;
-    mx_HairSection section;
-};
-
-mx_HairLobe mx_hair_lobe(float ior, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V)
+// M_p N_p of the paths from l, where `tilted` is the tilt of l or of the viewer, and `other` that of the other one.
+vec4 mx_hair_densities(mx_HairLobe lobe, vec3 l, vec2 tilted, vec2 other, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT)
 {
-    vec3 Nf = mx_facing(N, V);
-    vec3 x = mx_tangent(Nf, curve_direction);
-    vec3 v = mx_enter_frame(V, Nf, x);
-    return mx_HairLobe(Nf, x, v, mx_hair_slope(cuticle_angle), mx_hair_section(v, ior, absorption));
+    vec2 turn_R = mx_hair_add(l.yz, -lobe.v.yz) / max(tilted.x * other.x, MX_EPSILON);
+    vec2 turn_TT = mx_hair_add(turn_R, lobe.crossing);
+    vec2 s = lobe.slope;
+    return vec4(mx_hair_longitudinal(mx_hair_tilted(0, tilted, s), other, roughness_R.x) * mx_hair_azimuthal(turn_R, roughness_R.y),
+                mx_hair_longitudinal(mx_hair_tilted(1, tilted, s), other, roughness_TT.x) * mx_hair_azimuthal(turn_TT, roughness_TT.y),
+                mx_hair_longitudinal(mx_hair_tilted(2, tilted, s), other, roughness_TRT.x)
+                    * mx_hair_azimuthal(mx_hair_add(turn_TT, lobe.crossing), roughness_TRT.y),
+                mx_hair_longitudinal(tilted, other, roughness_TRT.x) * 0.5 / MX_PI);
 }
 
 vec3 mx_hair_light(mx_HairLobe lobe, vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, vec2 roughness_R, vec2 roughness_TT,
                    vec2 roughness_TRT, vec3 L)
 {
     vec3 l = mx_enter_frame(L, lobe.N, lobe.x);
-    mx_HairParts parts = mx_hair_parts(lobe.section, tint_R, tint_TT, tint_TRT);
-    vec4 d = mx_hair_densities(l, lobe.v, mx_hair_tilt(l), mx_hair_tilt(lobe.v), lobe.section.crossing, lobe.slope, roughness_R,
-                               roughness_TT, roughness_TRT);
+    mx_HairParts parts = mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT);
+    vec4 d = mx_hair_densities(lobe, l, mx_hair_tilt(l), mx_hair_tilt(lobe.v), roughness_R, roughness_TT, roughness_TRT);
     return (parts.R * d.x + parts.TT * d.y + parts.TRT * d.z + parts.longer * d.w) / MX_PI;
 }
 
@@ -194,32 +166,26 @@ vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float io
 vec3 mx_chiang_hair_bsdf_albedo(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT,
                                 vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V)
 {
-    vec3 v = V * mx_frame(mx_facing(N, V), curve_direction);
-    mx_HairParts parts = mx_hair_parts(mx_hair_section(v, ior, absorption), tint_R, tint_TT, tint_TRT);
+    mx_HairLobe lobe = mx_hair_lobe(ior, cuticle_angle, absorption, N, curve_direction, V);
+    mx_HairParts parts = mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT);
     return (parts.R + parts.TT + parts.TRT + parts.longer) / MX_PI;
 }
 
-float mx_hair_mean(vec3 color)
+// A path is chosen by its mean part.
+vec4 mx_hair_chances(mx_HairParts parts)
 {
-    return max(dot(color, vec3(1.0 / 3.0)), MX_EPSILON);
+    const vec3 mean = vec3(1.0 / 3.0);
+    return max(vec4(dot(parts.R, mean), dot(parts.TT, mean), dot(parts.TRT, mean), dot(parts.longer, mean)), MX_EPSILON);
 }
 
-vec4 mx_hair_means(mx_HairParts parts)
-{
-    return vec4(mx_hair_mean(parts.R), mx_hair_mean(parts.TT), mx_hair_mean(parts.TRT), mx_hair_mean(parts.longer));
-}
-
-// A path is chosen by its mean part, and tilts V instead of L, so that M_p stays a density.
+// The paths tilt V instead of L, so that M_p stays a density.
 float mx_chiang_hair_bsdf_pdf(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT,
                               float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 L)
 {
-    mat3 frame = mx_frame(mx_facing(N, V), curve_direction);
-    vec3 v = V * frame;
-    vec3 l = L * frame;
-    mx_HairSection section = mx_hair_section(v, ior, absorption);
-    vec4 chances = mx_hair_means(mx_hair_parts(section, tint_R, tint_TT, tint_TRT));
-    vec4 densities = mx_hair_densities(l, v, mx_hair_tilt(v), mx_hair_tilt(l), section.crossing, mx_hair_slope(cuticle_angle), roughness_R,
-                                       roughness_TT, roughness_TRT);
+    mx_HairLobe lobe = mx_hair_lobe(ior, cuticle_angle, absorption, N, curve_direction, V);
+    vec3 l = mx_enter_frame(L, lobe.N, lobe.x);
+    vec4 chances = mx_hair_chances(mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT));
+    vec4 densities = mx_hair_densities(lobe, l, mx_hair_tilt(lobe.v), mx_hair_tilt(l), roughness_R, roughness_TT, roughness_TRT);
     return dot(chances, densities) / dot(chances, vec4(1.0));
 }
 
@@ -229,40 +195,25 @@ void mx_chiang_hair_bsdf_sample(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float 
                                 vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 xi,
                                 out vec3 L, out vec3 weight, out float pdf)
 {
-    mat3 frame = mx_frame(mx_facing(N, V), curve_direction);
-    vec3 v = V * frame;
-    mx_HairSection section = mx_hair_section(v, ior, absorption);
-    vec4 chances = mx_hair_means(mx_hair_parts(section, tint_R, tint_TT, tint_TRT));
+    mx_HairLobe lobe = mx_hair_lobe(ior, cuticle_angle, absorption, N, curve_direction, V);
+    vec4 chances = mx_hair_chances(mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT));
     float chosen = xi.z * dot(chances, vec4(1.0));
     int p = 0;
-    for (int q = 0; q < 3; ++q)
-    {
-        if (p == q && chosen >= chances[q])
-        {
-            chosen -= chances[q];
-            p = q + 1;
-        }
-    }
+    for (; p < 3 && chosen >= chances[p]; ++p)
+        chosen -= chances[p];
     float around = clamp(chosen / chances[p], 0.0, 1.0);
 
-    vec2 slope = mx_hair_slope(cuticle_angle);
-    vec2 twice = mx_hair_add(slope, slope);
-    vec2 four = mx_hair_add(twice, twice);
-    vec2 turned = p == 0 ? twice : p == 1 ? vec2(slope.x, -slope.y) : p == 2 ? vec2(four.x, -four.y) : vec2(1.0, 0.0);
     vec2 roughness = p == 0 ? roughness_R : p == 1 ? roughness_TT : roughness_TRT;
-    vec2 o = mx_hair_add(mx_hair_tilt(v), turned);
+    vec2 o = mx_hair_tilted(p, mx_hair_tilt(lobe.v), lobe.slope);
     float width = mx_hair_width(roughness.x);
     float cone = clamp(1.0 + width * log(max(xi.x + (1.0 - xi.x) * exp(-2.0 / width), 1e-30)), -1.0, 1.0);
     float sin_i = clamp(-cone * o.y + mx_hair_cosine(cone) * cos(2.0 * MX_PI * around) * o.x, -1.0, 1.0);
 
-    float s = mx_hair_scale(roughness.y);
+    float s = 0.626657 * mx_hair_width(roughness.y); // as in mx_hair_azimuthal
     float tail = 1.0 / (1.0 + exp(MX_PI / s));
-    float phi = -s * log(1.0 / mix(tail, 1.0 - tail, xi.y) - 1.0);
-    if (p == 3)
-        phi = 2.0 * MX_PI * xi.y;
-    // the mirrored azimuth of V is the middle of path R; crossings turn it back
-    phi -= atan(-v.z, -v.y) + float(p) * atan(section.crossing.y, section.crossing.x);
-    L = frame * vec3(sin_i, mx_hair_cosine(sin_i) * cos(phi), mx_hair_cosine(sin_i) * sin(phi));
+    float phi = p == 3 ? 2.0 * MX_PI * xi.y : -s * log(1.0 / mix(tail, 1.0 - tail, xi.y) - 1.0);
+    phi -= atan(-lobe.v.z, -lobe.v.y) + float(p) * atan(lobe.crossing.y, lobe.crossing.x); // path R mirrors the azimuth of V
+    L = mx_leave_frame(vec3(sin_i, mx_hair_cosine(sin_i) * cos(phi), mx_hair_cosine(sin_i) * sin(phi)), lobe.N, lobe.x);
 
     pdf = mx_chiang_hair_bsdf_pdf(tint_R, tint_TT, tint_TRT, ior, roughness_R, roughness_TT, roughness_TRT,
                                   cuticle_angle, absorption, N, curve_direction, V, L);
