@@ -66,6 +66,10 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
                 const ir_ref *args, unsigned num_args)
 {
     assert_well_formed(graph, op, type, attr, args, num_args);
+    if (op == IR_KNOWN) {
+        const union ir_word *words = ir_constant_words(graph, args[0]);
+        return ir_const_bool(graph, words && words->u);
+    }
     if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
         return ir_intern(graph, op, type, attr, args, num_args);
     ir_ref own[MAX_FOLD_ARGS]; /* the simplifier adds nodes, and `args` may point into the graph */

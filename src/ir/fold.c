@@ -308,6 +308,12 @@ static bool eval_ne(const struct ir_value *args, struct ir_value *out)
     return true;
 }
 
+static bool eval_known(const struct ir_value *args, struct ir_value *out)
+{
+    out->w[0].u = args[0].w[0].u != 0;
+    return true;
+}
+
 static bool eval_select(const struct ir_value *args, struct ir_value *out)
 {
     *out = args[args[0].w[0].u ? 1 : 2];
@@ -334,6 +340,7 @@ static whole_fn *const wholes[IR_NUM_OPS] = {
     [IR_UINT_BITS_TO_FLOAT] = eval_bits,
     [IR_EQ] = eval_eq,
     [IR_NE] = eval_ne,
+    [IR_KNOWN] = eval_known,
     [IR_SELECT] = eval_select,
 };
 

@@ -20,6 +20,7 @@ struct copier {
     uint8_t *is_used;    /* by slot */
     struct table runs;   /* 1 + a function, for each distinct sequence of slots */
     bool is_simple;      /* no call has very many arguments, or arguments with effects */
+    bool asks;           /* whether the compiler knows a value */
 };
 
 static uint32_t copy_words(struct copier *c, const struct lang_unit *from, uint32_t first,
@@ -61,6 +62,7 @@ static lang_ref copy_node(void *user_data, struct lang_node node)
         break;
     case LANG_VAR: c->is_used[node.a] = true; break;
     case LANG_ASSIGN: node.c = 0; break;
+    case LANG_OP: c->asks |= node.op == IR_KNOWN; break;
     case LANG_CALL:
         node.a = given_function(c, node.a);
         c->is_simple &= is_simple_call(c, &node);
@@ -94,7 +96,7 @@ static bool reads_option(const struct copier *c, const struct lang_function *fn)
  */
 static bool is_final(const struct copier *c, const struct lang_function *fn)
 {
-    if (fn->flags & LANG_FN_EXPRESSION || !c->is_simple || reads_option(c, fn))
+    if (fn->flags & LANG_FN_EXPRESSION || !c->is_simple || c->asks || reads_option(c, fn))
         return false;
     for (uint32_t i = 0; i < fn->num_params; i++)
         if (!c->is_used[i] && ast_slot(c->to, fn, i)->mode == LANG_IN)
@@ -129,6 +131,7 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
     assert(fn.num_params <= fn.num_slots);
     c->calls.len = 0;
     c->is_simple = true;
+    c->asks = false;
     c->is_used = arena_zalloc(c->to->arena, fn.num_slots);
     fn.body = lang_copy(c->from, fn.body, c->to, copy_node, c);
     fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;

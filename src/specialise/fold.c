@@ -163,6 +163,14 @@ static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_r
     return 0;
 }
 
+/* The packer of a library does not know the arguments of a generation, so it leaves the op. */
+static lang_ref simplify_known(struct spec *s, lang_ref a)
+{
+    if (!s->unit->host.global || lang_has_effects(s->unit, a))
+        return 0;
+    return spec_constant(s, &(struct ir_value){.type = IR_TYPE_BOOL});
+}
+
 static lang_ref simplify(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {
     switch (op->op) {
@@ -179,6 +187,7 @@ static lang_ref simplify(struct spec *s, const struct lang_node *op, const lang_
     case IR_MIX: return simplify_mix(s, op, args);
     case IR_CONVERT: return spec_node(s, args[0])->type == op->type ? as_result(s, op, args[0]) : 0;
     case IR_SWIZZLE: return simplify_swizzle(s, op, args[0]);
+    case IR_KNOWN: return simplify_known(s, args[0]);
     default: return 0;
     }
 }

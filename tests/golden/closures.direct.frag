@@ -20,7 +20,6 @@ uniform LightData u_lightData[1];
 in VertexData {
     vec3 positionWorld;
     vec3 normalWorld;
-    vec3 tangentWorld;
 } vd;
 out vec4 out1;
 
@@ -40,18 +39,17 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 {
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.04),
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.04),
         sqrt(cosine * cosine + 0.0016 * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -79,20 +77,20 @@ void main()
     float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
     float ggx_compensation = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
-    mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
+    mx_GgxLobe lobe = mx_ggx_lobe(N, V);
     vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75
         * vec3(0.6, 0.1, 0.05);
-    vec3 paint_facing = faceforward(N, -V, N);
+    vec3 facing = faceforward(N, -V, N);
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
         float intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;
         float v_dot_l = dot(V, L);
         float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
-        float cos_l = max(dot(L, paint_facing), 1e-8);
+        float cos_l = max(dot(L, facing), 1e-8);
         vec3 paint_response = scaled_paint_weight
             * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = ggx_compensation * mx_ggx_light(coat_ggx_lobe, V, L) * fresnel + paint_response;
+        vec3 sum = ggx_compensation * mx_ggx_light(lobe, V, L) * fresnel + paint_response;
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * sum;
     }
     out1 = vec4(color, 1.0);

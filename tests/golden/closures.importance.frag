@@ -17,12 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
-    float level;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float level;
+    float spread;
 };
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
     float SR_varnish_opacity;
@@ -55,7 +54,6 @@ layout(set = 0, binding = 4) uniform sampler2D u_envIrradiance;
 layout(location = 0) in VertexData {
     vec3 positionWorld;
     vec3 normalWorld;
-    vec3 tangentWorld;
 } vd;
 layout(location = 0) out vec4 out1;
 
@@ -75,18 +73,17 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 {
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.04),
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.04),
         sqrt(cosine * cosine + 0.0016 * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -119,18 +116,17 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 X, const vec3 V)
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
 {
-    mx_GgxLobe lobe = mx_ggx_lobe(N, X, V);
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    mx_GgxLobe lobe = mx_ggx_lobe(N, V);
+    vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, stretch.x * stretch.y, v,
+        lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
@@ -140,11 +136,12 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -163,7 +160,7 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.level);
+    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
 // The light that the facet of sample i reflects, and in the fourth component the cosine at it.
@@ -173,8 +170,8 @@ vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 void main()
@@ -186,10 +183,9 @@ void main()
     float cos_v = max(abs(dot(normal_N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
-    vec3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe lobe = mx_ggx_lobe(normal_N, X, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(normal_N, V);
     vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75 * vec3(0.6, 0.1, 0.05);
-    vec3 paint_N = faceforward(normal_N, -V, normal_N);
+    vec3 N = faceforward(normal_N, -V, normal_N);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // coat, paint
         int type = u_lightData[i].type;
@@ -204,7 +200,7 @@ void main()
         vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float v_dot_l = dot(V, L);
         float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
-        float cos_l = max(dot(L, paint_N), 1e-8);
+        float cos_l = max(dot(L, N), 1e-8);
         vec3 paint_response = scaled_paint_weight
             * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         vec3 sum = scale * mx_ggx_light(lobe, V, L) * fresnel + paint_response;
@@ -213,11 +209,11 @@ void main()
     // environment
     // paint
     vec3 paint_product = scaled_paint_weight
-        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(paint_N, 0.0)).xyz)), 0.0).xyz;
+        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz;
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
     color += paint_product * (clamp(fit.x / fit.y, 0.0, 1.0) * u_envLightIntensity);
     // coat
-    mx_GgxSamples coat_ggx_samples = mx_ggx_samples(normal_N, X, V);
+    mx_GgxSamples coat_ggx_samples = mx_ggx_samples(normal_N, V);
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         vec4 light = mx_ggx_reflected(coat_ggx_samples, i, turn);

@@ -30,7 +30,6 @@ uniform sampler2D u_albedoTable;
 in VertexData {
     vec3 positionWorld;
     vec3 normalWorld;
-    vec3 tangentWorld;
 } vd;
 out vec4 out1;
 
@@ -42,18 +41,17 @@ vec2 mx_ggx_albedo(const float c)
     return vec2(sum, scales.y / sum);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 {
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.04),
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.04),
         sqrt(cosine * cosine + 0.0016 * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -109,7 +107,7 @@ void main()
     float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo(cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
-    mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
+    mx_GgxLobe lobe = mx_ggx_lobe(N, V);
     vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75 * vec3(0.6, 0.1, 0.05);
     vec3 h = faceforward(N, -V, N);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
@@ -129,7 +127,7 @@ void main()
         float cos_l = max(dot(L, h), 1e-8);
         vec3 paint_response = scaled_paint_weight
             * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = scale * mx_ggx_light(coat_ggx_lobe, V, L) * fresnel + paint_response;
+        vec3 sum = scale * mx_ggx_light(lobe, V, L) * fresnel + paint_response;
         color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum;
     }
     // environment

@@ -20,12 +20,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
-    float level;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float level;
+    float spread;
 };
 uniform vec3 SR_UsdPreviewSurface_diffuseColor;
 uniform vec3 SR_UsdPreviewSurface_emissiveColor;
@@ -95,19 +94,18 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
     return mix(f0, f90, x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha,
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -170,18 +168,17 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
 {
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
+    vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, stretch.x * stretch.y, v,
+        lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
@@ -191,11 +188,12 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -214,7 +212,7 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.level);
+    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
 // The light that the facet of sample i reflects, and in the fourth component the cosine at it.
@@ -224,8 +222,8 @@ vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -240,8 +238,8 @@ vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, con
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.level),
-        clamp(dot(s.v, h), 1e-8, 1.0));
+    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -257,10 +255,9 @@ void main()
 {
     vec3 color = SR_UsdPreviewSurface_emissiveColor;
     // lights
-    vec3 tangent_direction = normalize(vd_tangentWorld);
     // SR_UsdPreviewSurface
     vec3 shading_normal = mx_normalmap(SR_UsdPreviewSurface_normal * 0.5 + vec3(0.5), normalize(vd_normalWorld),
-        tangent_direction, normalize(vd_bitangentWorld));
+        normalize(vd_tangentWorld), normalize(vd_bitangentWorld));
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     vec3 N = faceforward(shading_normal, -V, shading_normal);
     float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
@@ -291,14 +288,14 @@ void main()
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
     vec3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), shading_normal, tangent_direction, V);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), shading_normal, V);
     vec3 metal_ior, metal_extinction;
     mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     vec3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     vec3 im = metal_extinction * (metal_ior * 2.0);
     vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, re, im), vec3(1.0), 0.04761905) + vec3(1.0))
         * (metal_weight * coating_difference);
-    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), shading_normal, tangent_direction, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), shading_normal, V);
     vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
@@ -338,7 +335,7 @@ void main()
             * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz);
     // coating
     if (SR_UsdPreviewSurface_clearcoat > 0.0) {
-        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_roughness), shading_normal, tangent_direction, V);
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_roughness), shading_normal, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             vec4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
@@ -349,7 +346,7 @@ void main()
     }
     // metal, reflection
     if (metal_weight > 0.0 || diffuse_weight > 0.0) {
-        mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(specular_roughness), shading_normal, tangent_direction, V);
+        mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(specular_roughness), shading_normal, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             // metal
@@ -368,7 +365,7 @@ void main()
     // refraction
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
-        mx_GgxSamples samples = mx_ggx_samples(vec2(0.0), shading_normal, tangent_direction, V);
+        mx_GgxSamples samples = mx_ggx_samples(vec2(0.0), shading_normal, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_UsdPreviewSurface_ior, i, turn);

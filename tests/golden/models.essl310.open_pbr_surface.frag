@@ -20,12 +20,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
-    float level;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float level;
+    float spread;
 };
 layout(binding = 1, std140) uniform PublicUniforms {
     float SR_open_pbr_surface_base_weight;
@@ -239,7 +238,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -387,18 +386,18 @@ vec3 mx_fujii_multiple(const vec3 color, const float mean)
     return color * mean / (vec3(1.0) - color * max(1.0 - mean, 0.0));
 }
 
+// The frame of a round lobe has V above its x.
 mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    vec3 x = lobe.x;
+    mat3 frame = mat3(x, cross(lobe.N, x), lobe.N);
+    vec3 v = vec3(vec2(dot(V, frame[0]), dot(V, frame[1])), lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, stretch.x * stretch.y, v, lobe.masking, top, share * top.z,
+        share * (v.z + lobe.masking));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
@@ -408,11 +407,12 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -431,7 +431,7 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.level);
+    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
 // The light that the facet of sample i reflects, and in the fourth component the cosine at it.
@@ -441,8 +441,8 @@ vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -457,8 +457,8 @@ vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, con
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.level),
-        clamp(dot(s.v, h), 1e-8, 1.0));
+    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()

@@ -17,12 +17,11 @@ struct mx_GgxSamples {
     float3 top;
     float step;
     float weight;
-    float level;
 };
 struct mx_GgxFacet {
     float3 h;
     float shrink;
-    float level;
+    float spread;
 };
 cbuffer PublicUniforms : register(b1)
 {
@@ -91,7 +90,7 @@ mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float
 }
 
 mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 top,
-    float step, float weight, float level)
+    float step, float weight)
 {
     mx_GgxSamples made;
     made.to_map = to_map;
@@ -102,16 +101,15 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     made.top = top;
     made.step = step;
     made.weight = weight;
-    made.level = level;
     return made;
 }
 
-mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float level)
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
 {
     mx_GgxFacet made;
     made.h = h;
     made.shrink = shrink;
-    made.level = level;
+    made.spread = spread;
     return made;
 }
 
@@ -145,19 +143,18 @@ float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
     return lerp(f0, f90, x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, float3(0.0, 0.0, 0.0), alpha,
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
-    float3 H = V + L;
-    float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -220,18 +217,17 @@ float2 mx_map_point(float3 d)
     return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
 {
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
-    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    float3 v = float3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
+    float3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    float3 v = float3(float2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
     float3 stretch = float3(lobe.alpha, 1.0);
     float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
-    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
-        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, stretch.x
+        * stretch.y, v, lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
@@ -241,12 +237,12 @@ float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float spread)
 {
     return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
-        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -265,7 +261,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     float3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return make_mx_GgxFacet(h, shrink, spread * spread * s.level);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
 // The light that the facet of sample i reflects, and in the fourth component the cosine at it.
@@ -275,8 +271,8 @@ float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     float cosine = dot(s.v, facet.h);
     float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return float4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(mul(l, s.to_map), facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return float4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(mul(l, s.to_map), facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -291,8 +287,9 @@ float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = facet.h * sqrt(facet.shrink);
-    return float4(s.weight * 0.5 / s.v.z
-        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.level), clamp(dot(s.v, h), 1e-8, 1.0));
+    return float4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread),
+        clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -310,10 +307,9 @@ void main(
 {
     float3 color = SR_UsdPreviewSurface_emissiveColor;
     // lights
-    float3 tangent_direction = normalize(vd.tangentWorld);
     // SR_UsdPreviewSurface
     float3 shading_normal = mx_normalmap(SR_UsdPreviewSurface_normal * 0.5 + float3(0.5, 0.5, 0.5),
-        normalize(vd.normalWorld), tangent_direction, normalize(vd.bitangentWorld));
+        normalize(vd.normalWorld), normalize(vd.tangentWorld), normalize(vd.bitangentWorld));
     float3 V = normalize(u_viewPosition - vd.positionWorld);
     float3 N = faceforward(shading_normal, -V, shading_normal);
     float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
@@ -346,14 +342,14 @@ void main(
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
     float3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_roughness, shading_normal, tangent_direction, V);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_roughness, shading_normal, V);
     float3 metal_ior, metal_extinction;
     mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     float3 im = metal_extinction * (metal_ior * 2.0);
     float3 metal_product = (difference * lerp(mx_fresnel_conductor(1.0, re, im), float3(1.0, 1.0, 1.0), 0.04761905)
         + float3(1.0, 1.0, 1.0)) * (metal_weight * coating_difference);
-    mx_GgxLobe lobe = mx_ggx_lobe((float2)specular_roughness, shading_normal, tangent_direction, V);
+    mx_GgxLobe lobe = mx_ggx_lobe((float2)specular_roughness, shading_normal, V);
     float3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // diffuse
@@ -394,8 +390,7 @@ void main(
             mx_map_point(normalize(mul(float4(N, 0.0), u_envMatrix).xyz)), 0.0).xyz);
     // coating
     if (SR_UsdPreviewSurface_clearcoat > 0.0) {
-        mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_roughness, shading_normal, tangent_direction,
-            V);
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
@@ -407,7 +402,7 @@ void main(
     }
     // metal, reflection
     if (metal_weight > 0.0 || diffuse_weight > 0.0) {
-        mx_GgxSamples ggx_samples = mx_ggx_samples((float2)specular_roughness, shading_normal, tangent_direction, V);
+        mx_GgxSamples ggx_samples = mx_ggx_samples((float2)specular_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             // metal
@@ -426,7 +421,7 @@ void main(
     // refraction
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
-        mx_GgxSamples samples = mx_ggx_samples(float2(0.0, 0.0), shading_normal, tangent_direction, V);
+        mx_GgxSamples samples = mx_ggx_samples(float2(0.0, 0.0), shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_UsdPreviewSurface_ior, i, turn);

@@ -17,12 +17,11 @@ struct mx_GgxSamples {
     float3 top;
     float step;
     float weight;
-    float level;
 };
 struct mx_GgxFacet {
     float3 h;
     float shrink;
-    float level;
+    float spread;
 };
 cbuffer PublicUniforms : register(b1)
 {
@@ -112,7 +111,7 @@ mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float
 }
 
 mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 top,
-    float step, float weight, float level)
+    float step, float weight)
 {
     mx_GgxSamples made;
     made.to_map = to_map;
@@ -123,16 +122,15 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     made.top = top;
     made.step = step;
     made.weight = weight;
-    made.level = level;
     return made;
 }
 
-mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float level)
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
 {
     mx_GgxFacet made;
     made.h = h;
     made.shrink = shrink;
-    made.level = level;
+    made.spread = spread;
     return made;
 }
 
@@ -263,7 +261,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
     float3 H = V + L;
-    float2 slope = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -388,18 +386,18 @@ float2 mx_map_point(float3 d)
     return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
+// The frame of a round lobe has V above its x.
 mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
-    float3x3 frame = float3x3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    float3 v = float3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    float3 x = lobe.x;
+    float3x3 frame = float3x3(x, cross(lobe.N, x), lobe.N);
+    float3 v = float3(float2(dot(V, frame[0]), dot(V, frame[1])), lobe.cosine);
     float3 stretch = float3(lobe.alpha, 1.0);
     float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
-    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, top, share * top.z,
-        weight * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, stretch.x * stretch.y, v, lobe.masking, top,
+        share * top.z, share * (v.z + lobe.masking));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
@@ -409,12 +407,12 @@ float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float spread)
 {
     return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
-        max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -433,7 +431,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     float3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return make_mx_GgxFacet(h, shrink, spread * spread * s.level);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
 // The light that the facet of sample i reflects, and in the fourth component the cosine at it.
@@ -443,8 +441,8 @@ float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     float cosine = dot(s.v, facet.h);
     float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return float4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(mul(l, s.to_map), facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return float4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(mul(l, s.to_map), facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -459,8 +457,9 @@ float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = facet.h * sqrt(facet.shrink);
-    return float4(s.weight * 0.5 / s.v.z
-        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.level), clamp(dot(s.v, h), 1e-8, 1.0));
+    return float4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread),
+        clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main(

@@ -17,12 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
-    float level;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float level;
+    float spread;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -46,7 +45,6 @@ uniform sampler2D u_envIrradiance;
 in VertexData {
     vec3 positionWorld;
     vec3 normalWorld;
-    vec3 tangentWorld;
 } vd;
 out vec4 out1;
 
@@ -72,19 +70,18 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
     return mix(f0, vec3(1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha,
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -133,18 +130,17 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
 {
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
+    vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, stretch.x * stretch.y, v,
+        lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
@@ -154,11 +150,12 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -177,7 +174,7 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.level);
+    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
 // The light that the facet of sample i reflects, and in the fourth component the cosine at it.
@@ -187,8 +184,8 @@ vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 void main()
@@ -197,9 +194,9 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // metal
     float c = dot(N, V);
-    float c_2 = max(abs(c), 1e-8);
+    float cosine = max(abs(c), 1e-8);
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (c_2 + 0.01), c_2);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cosine + 0.01), cosine);
     float coat_reflection_scale = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_greater = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_scale, 0.0);
@@ -217,12 +214,11 @@ void main()
     vec3 difference = blended_coat_bare_throughput - ratio;
     vec3 color = (ratio + difference) * vec3(0.0, 0.1, 0.0);
     // lights
-    vec3 X = normalize(vd.tangentWorld);
-    mx_GgxLobe coat_reflection_lobe = mx_ggx_lobe(vec2(0.01), N, X, V);
+    mx_GgxLobe coat_reflection_lobe = mx_ggx_lobe(vec2(0.01), N, V);
     vec3 Nf = faceforward(N, -V, N);
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    vec2 albedo = mx_ggx_albedo_fit(0.25, 0.25 / (c_2 + 0.25), c_2);
+    vec2 albedo = mx_ggx_albedo_fit(0.25, 0.25 / (cosine + 0.25), cosine);
     float difference_2 = 1.0 / albedo.x - 1.0;
     float milk_second_reflection_scale = difference_2 * 0.08571428 + 1.0;
     float milk_second_reflection_throughput = max(1.0 - albedo.x * mix(0.04, 1.0, albedo.y)
@@ -235,7 +231,7 @@ void main()
     vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
     vec3 milk_medium_steady = milk_second_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
     vec3 metal_second_reflection_scale = difference_2 * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
-    mx_GgxLobe lobe = mx_ggx_lobe(vec2(0.25), N, X, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(vec2(0.25), N, V);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
     vec3 milk_bare_product = milk_second_reflection_throughput
         * (milk_medium_transmitted / (vec3(1.0)
@@ -262,12 +258,12 @@ void main()
             * ratio_2 : 0.0;
         float point_light_choice = type == 2 ? ratio_2 : spot_light_choice;
         vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
-        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
-        vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
+        float cosine_2 = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
+        vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
         vec3 coat_reflection_response = fresnel
             * (mx_ggx_light(coat_reflection_lobe, V, L) * (coat_reflection_scale * 0.5));
-        float c_3 = dot(N, L);
-        float way_2 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
+        float c_2 = dot(N, L);
+        float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
         vec3 milk_medium_transmitted_2;
         vec3 milk_medium_2 = mx_medium_layer(way_2, milk_medium_transmitted_2);
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
@@ -279,7 +275,7 @@ void main()
         vec3 milk_second_reflection_response = milk_second_reflection_scale * ggx_light
             * (fresnel * (difference + ratio * pow(clamped, vec3(way_2))));
         vec3 sum = metal_second_reflection_scale
-            * (ggx_light * (mx_fresnel_schlick(cosine, metal_constant) * metal_second_reflection_weight))
+            * (ggx_light * (mx_fresnel_schlick(cosine_2, metal_constant) * metal_second_reflection_weight))
             + milk_second_reflection_response;
         vec3 sum_2 = coat_reflection_response + (max(dot(L, Nf), 0.0) / 3.1415927 * milk_medium_product + sum);
         color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_2;
@@ -294,7 +290,7 @@ void main()
     vec3 metal_second_reflection_product = metal_second_reflection_scale
         * (metal_second_reflection_steady + metal_second_reflection_ratio
         * pow(metal_second_reflection_decay, vec3(way)));
-    mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(0.25), N, X, V);
+    mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(0.25), N, V);
     vec3 milk_second_reflection_product = milk_second_reflection_scale * (difference + ratio * pow(clamped, vec3(way)));
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -307,7 +303,7 @@ void main()
         turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
     }
     // coat_reflection
-    mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), N, X, V);
+    mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), N, V);
     vec2 turn_2 = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         vec4 coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_2);

@@ -17,12 +17,11 @@ struct mx_GgxSamples {
     vec3 top;
     float step;
     float weight;
-    float level;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float level;
+    float spread;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -45,7 +44,6 @@ uniform sampler2D u_envRadiance;
 in VertexData {
     vec3 positionWorld;
     vec3 normalWorld;
-    vec3 tangentWorld;
 } vd;
 out vec4 out1;
 
@@ -65,18 +63,17 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 {
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.0001),
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.0001),
         sqrt(cosine * cosine + 1e-8 * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -95,18 +92,17 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 X, const vec3 V)
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
 {
-    mx_GgxLobe lobe = mx_ggx_lobe(N, X, V);
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    mx_GgxLobe lobe = mx_ggx_lobe(N, V);
+    vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, top, share * top.z, weight
-        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, stretch.x * stretch.y, v,
+        lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
@@ -130,11 +126,12 @@ vec2 mx_map_point(const vec3 d)
     return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the
-// mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -153,7 +150,7 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.level);
+    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
 // The light that the facet of sample i reflects, and in the fourth component the cosine at it.
@@ -163,8 +160,8 @@ vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -179,8 +176,8 @@ vec4 mx_ggx_transmitted(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h), facet.level),
-        clamp(dot(s.v, h), 1e-8, 1.0));
+    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h), facet.spread), clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -190,11 +187,10 @@ void main()
     vec3 direction = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_glass
-    float c = max(abs(dot(direction, V)), 1e-8);
-    vec2 albedo = mx_ggx_albedo_fit(0.0001 / (c + 0.0001), c);
+    float cosine = max(abs(dot(direction, V)), 1e-8);
+    vec2 albedo = mx_ggx_albedo_fit(0.0001 / (cosine + 0.0001), cosine);
     float scale = (1.0 / albedo.x - 1.0) * 0.08817142 + 1.0;
-    vec3 coat_tangent = normalize(vd.tangentWorld);
-    mx_GgxLobe lobe = mx_ggx_lobe(direction, coat_tangent, V);
+    mx_GgxLobe lobe = mx_ggx_lobe(direction, V);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // reflection
         int type = u_lightData[i].type;
@@ -214,7 +210,7 @@ void main()
     }
     // environment
     // reflection
-    mx_GgxSamples samples = mx_ggx_samples(direction, coat_tangent, V);
+    mx_GgxSamples samples = mx_ggx_samples(direction, V);
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         vec4 reflection_light = mx_ggx_reflected(samples, i, turn);

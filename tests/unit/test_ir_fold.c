@@ -282,11 +282,33 @@ static void test_values(void)
     }
 }
 
+/* The answer is a constant, whatever the graph folds. */
+static void test_known(void)
+{
+    for (int no_fold = 0; no_fold < 2; no_fold++) {
+        struct mem mem;
+        struct arena arena;
+        struct strpool strings;
+        struct ir_graph graph;
+        mem_init(&mem, NULL, NULL);
+        arena_init(&arena, &mem);
+        strpool_init(&strings, &arena, NULL);
+        ir_graph_init(&graph, &arena, &strings);
+        graph.no_fold = no_fold;
+        ir_ref a = ir_build(&graph, IR_PARAM, IR_TYPE_FLOAT, 0, NULL, 0);
+        ir_ref b = ir_build(&graph, IR_PARAM, IR_TYPE_FLOAT, 1, NULL, 0);
+        ir_ref same = ir_op2(&graph, IR_EQ, a, a), other = ir_op2(&graph, IR_EQ, a, b);
+        REQUIRE_EQ(ir_op1(&graph, IR_KNOWN, same), ir_const_bool(&graph, !no_fold));
+        REQUIRE_EQ(ir_op1(&graph, IR_KNOWN, other), ir_const_bool(&graph, false));
+        arena_finish(&arena);
+    }
+}
+
 static void test_coverage(void)
 {
     for (unsigned op = 0; op < IR_NUM_OPS; op++) {
-        bool foldable =
-            (ir_op_info((enum ir_op)op)->flags & OP_PURE) && op != IR_CONST && op != IR_MEMBER;
+        bool foldable = (ir_op_info((enum ir_op)op)->flags & OP_PURE) && op != IR_CONST
+                        && op != IR_MEMBER && op != IR_KNOWN; /* test_known */
         if (!REQUIRE_EQ(seen[op], foldable))
             printf("    op %s\n", ir_op_info((enum ir_op)op)->text);
     }
@@ -396,6 +418,7 @@ int main(void)
 {
     test_values();
     test_coverage();
+    test_known();
     test_typing();
     test_partial();
     return test_report("ir_fold");

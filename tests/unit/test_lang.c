@@ -541,6 +541,14 @@ static void test_specialise_branches(void)
                 "x2 + x2;\n    return t_ * t_;\n}\n");
 }
 
+/* The same condition holds where it is known, and does not where it may only turn out to hold. */
+static void test_specialise_known(void)
+{
+    const char *round = "float f(vec2 a, float x) { return mx_known(a.x == a.y) ? x : x * a.y; }";
+    specialises(round, "f", "a=2", "float f0(float x)\n{\n    return x;\n}\n");
+    specialises(round, "f", "x=3", "float f0(vec2 a)\n{\n    return 3.0 * a.y;\n}\n");
+}
+
 static void test_specialise_loops(void)
 {
     specialises(
@@ -886,6 +894,7 @@ int main(void)
     test_eval();
     test_specialise_values();
     test_specialise_branches();
+    test_specialise_known();
     test_specialise_loops();
     test_specialise_calls();
     test_plan();

@@ -56,11 +56,12 @@ vec3 mx_environment_irradiance(vec3 N)
     return textureLod(u_envIrradiance, mx_latlong(N), 0.0).rgb * u_envLightIntensity;
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is
-// equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(vec3 d, float level)
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and Colbert 2008; the mip
+// level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(vec3 d, float spread)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), max(0.25 * log2(level * level / dot(d.xz, d.xz)), 0.0)).rgb;
+    float level = 0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425 - 0.65 * float(option_sample_filter);
+    return textureLod(u_envRadiance, mx_map_point(d), max(level, 0.0)).rgb;
 }
 
 // ---- lobes by their own samples: with `--integrator path`, where an average over the hemisphere stands in for them otherwise
@@ -75,6 +76,6 @@ vec3 mx_lobe_random(int i)
 vec3 mx_lobe_light(vec3 L, vec3 weight, float pdf)
 {
     float count = float(u_envRadianceSamples);
-    float level = exp2(2.0 * float(u_envRadianceMips) - 5.0 - 1.3 * float(option_sample_filter)) / max(pdf * count, MX_EPSILON);
-    return weight * (u_envLightIntensity / count) * mx_filtered_light(normalize(mat3(u_envMatrix) * L), level);
+    float spread = 0.5 / (MX_PI * max(pdf * count, MX_EPSILON));
+    return weight * (u_envLightIntensity / count) * mx_filtered_light(normalize(mat3(u_envMatrix) * L), spread);
 }

@@ -28,6 +28,12 @@ int mx_ggx_mode(string scatter_mode)
     return scatter_mode == "R" ? MX_REFLECTS : scatter_mode == "T" ? MX_REFRACTS : MX_REFLECTS + MX_REFRACTS;
 }
 
+// True if the compiler knows that a lobe has one roughness. Such a lobe needs no tangents.
+bool mx_ggx_round(vec2 roughness)
+{
+    return mx_known(roughness.x == roughness.y);
+}
+
 // Roughness that the formulas can bear.
 vec2 mx_ggx_alpha(vec2 roughness)
 {
@@ -44,16 +50,16 @@ vec3 mx_ggx_local(mat3 frame, vec3 V)
 struct mx_GgxLobe {
     vec3 N;        // faces the viewer
     float cosine;  // of the viewer
-    vec3 x;        // unit tangent
+    vec3 x;        // unit tangent, unless the lobe is round
     vec2 alpha;    // roughness along x and across
     float masking; // of the viewer
 };
 
-mx_GgxLobe mx_ggx_lobe(vec2 roughness, vec3 N, vec3 X, vec3 V)
+mx_GgxLobe mx_ggx_lobe(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3 V)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
     float cosine = mx_view_cosine(N, V);
-    return mx_GgxLobe(mx_facing(N, V), cosine, mx_tangent(N, X), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
+    return mx_GgxLobe(mx_facing(N, V), cosine, is_round ? vec3(0.0) : mx_tangent(N, X), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor of the reflection
@@ -123,10 +129,11 @@ float mx_half_cosine(vec3 V, vec3 L)
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor. The facet's normal V + L has any length. Its
 // cross product with N serves all lobes of one normal.
-float mx_ggx_light(mx_GgxLobe lobe, vec3 V, vec3 L)
+float mx_ggx_light(mx_GgxLobe lobe, bool is_round, vec3 V, vec3 L)
 {
     vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 across = cross(H, lobe.N);
+    vec3 slope = is_round ? across / lobe.alpha.x : vec3(vec2(dot(H, lobe.x), dot(across, lobe.x)) / lobe.alpha, 0.0);
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), MX_EPSILON);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -161,7 +168,7 @@ vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, v
 {
     return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior)
          * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
-                                   : mx_ggx_light(mx_ggx_lobe(roughness, N, X, V), V, L))
+                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness), V, L))
          * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior);
 }
 
@@ -210,28 +217,28 @@ struct mx_GgxSamples {
     vec3 top;      // of the cap of visible normals; its z is the depth of the cap
     float step;    // between the depths of samples
     float weight;  // of one
-    float level;   // where their mip levels begin
 };
 
-mx_GgxSamples mx_ggx_samples(vec2 roughness, vec3 N, vec3 X, vec3 V)
+// The frame of a round lobe has V above its x. Where V is N, another tiny vector chooses x.
+mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3 V)
 {
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
-    mat3 frame = mat3(lobe.x, cross(lobe.N, lobe.x), lobe.N);
-    vec3 v = vec3(dot(V, frame[0]), dot(V, frame[1]), lobe.cosine);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, is_round, N, X, V);
+    vec3 x = is_round ? normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx) : lobe.x;
+    mat3 frame = mat3(x, cross(lobe.N, x), lobe.N);
+    vec2 side = is_round ? vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0) : (V * frame).xy;
+    vec3 v = vec3(side, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, top, share * top.z, weight * u_envLightIntensity,
-                         weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)));
+    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
 // A facet by its normal.
 struct mx_GgxFacet {
     vec3 h;       // of any length
     float shrink; // 1 over the square of its length
-    float level;  // of the mip level of its sample
+    float spread; // of its sample, as a solid angle
 };
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before, by its `turn`.
@@ -241,7 +248,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.level);
+    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
 // The light that the facet of sample i reflects, and in the fourth component the cosine at it. A visible normal weighs G2 / G1.
@@ -251,8 +258,8 @@ vec4 mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, MX_EPSILON);
-    return vec4(s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-                    * mx_filtered_light(s.to_map * l, facet.level), clamp(cosine * sqrt(facet.shrink), MX_EPSILON, 1.0));
+    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+                    * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), MX_EPSILON, 1.0));
 }
 
 // The light that comes through it and a solid sphere of an index behind it. A visible normal weighs 1 / G1.
@@ -260,7 +267,7 @@ vec4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return vec4(s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.level),
+    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread),
                 clamp(dot(s.v, h), MX_EPSILON, 1.0));
 }
 
@@ -276,7 +283,7 @@ vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string
     vec3 turned = reflect(-s.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
     vec3 f = mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
     return (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
-         * mix(light.xyz, s.weight * 0.5 / s.v.z * mx_filtered_light(s.to_map * turned, facet.level), f / (1.0 + f));
+         * mix(light.xyz, s.weight * u_envLightIntensity * 0.5 / s.v.z * mx_filtered_light(s.to_map * turned, facet.spread), f / (1.0 + f));
 }
 
 // Sample i of what the lobe reflects of all directions. A choice that all samples make alike stands here, where the compiler sees it.
@@ -288,7 +295,7 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn
     vec3 scale = mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior);
     if (option_environment == 1)
         return scale * mx_ggx_prefiltered(roughness, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-    vec4 light = mx_ggx_reflected(mx_ggx_samples(roughness, N, X, V), i, turn);
+    vec4 light = mx_ggx_reflected(mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V), i, turn);
     return scale * (film > 0.0 ? mx_fresnel_film(light.w, model, n, k, f90, exponent, film, film_ior)
                                : mx_fresnel_bare(light.w, model, n, k, f90, exponent))
          * light.xyz;
@@ -302,7 +309,7 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn,
         return vec3(0.0);
     if (option_environment == 1)
         return mx_ggx_prefiltered(roughness, N, V, ior, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
+    mx_GgxSamples samples = mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V);
     if (option_integrator == 1)
         return mx_ggx_solid(samples, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior);
     vec4 light = mx_ggx_transmitted(samples, ior, i, turn);

@@ -45,14 +45,9 @@ vec2 mx_hair_add(vec2 a, vec2 b)
     return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-float mx_hair_cosine(float sine)
+vec2 mx_hair_tilt(float sine)
 {
-    return sqrt(max(1.0 - sine * sine, 0.0));
-}
-
-vec2 mx_hair_tilt(vec3 w)
-{
-    return vec2(mx_hair_cosine(w.x), w.x);
+    return vec2(sqrt(max(1.0 - sine * sine, 0.0)), sine);
 }
 
 float mx_hair_width(float roughness)
@@ -100,11 +95,11 @@ mx_HairLobe mx_hair_lobe(float ior, float cuticle_angle, vec3 absorption, vec3 N
     vec3 v = mx_enter_frame(V, Nf, x);
     float slope = (cuticle_angle - 0.5) * MX_PI;
     vec2 entry = v.zy / max(length(v.yz), MX_EPSILON);
-    float cos_o = mx_hair_cosine(v.x);
+    float cos_o = mx_hair_tilt(v.x).x;
     float sin_t = clamp(entry.y * max(cos_o, MX_EPSILON) * inversesqrt(max(ior * ior - v.x * v.x, MX_EPSILON)), -1.0, 1.0);
-    float cos_t = mx_hair_cosine(sin_t);
+    float cos_t = mx_hair_tilt(sin_t).x;
     return mx_HairLobe(Nf, x, v, vec2(cos(slope), sin(slope)), vec2(2.0 * sin_t * sin_t - 1.0, -2.0 * sin_t * cos_t),
-                       mx_fresnel_dielectric(cos_o * entry.x, ior), exp(absorption * (-2.0 * cos_t / mx_hair_cosine(v.x / ior))));
+                       mx_fresnel_dielectric(cos_o * entry.x, ior), exp(absorption * (-2.0 * cos_t / mx_hair_tilt(v.x / ior).x)));
 }
 
 // The parts A_p of the light by path: R, TT, TRT, and all longer ones (Chiang et al. 2016, section 3.3).
@@ -151,7 +146,7 @@ vec3 mx_hair_light(mx_HairLobe lobe, vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, v
 {
     vec3 l = mx_enter_frame(L, lobe.N, lobe.x);
     mx_HairParts parts = mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT);
-    vec4 d = mx_hair_densities(lobe, l, mx_hair_tilt(l), mx_hair_tilt(lobe.v), roughness_R, roughness_TT, roughness_TRT);
+    vec4 d = mx_hair_densities(lobe, l, mx_hair_tilt(l.x), mx_hair_tilt(lobe.v.x), roughness_R, roughness_TT, roughness_TRT);
     return (parts.R * d.x + parts.TT * d.y + parts.TRT * d.z + parts.longer * d.w) / MX_PI;
 }
 
@@ -185,8 +180,8 @@ float mx_chiang_hair_bsdf_pdf(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float io
     mx_HairLobe lobe = mx_hair_lobe(ior, cuticle_angle, absorption, N, curve_direction, V);
     vec3 l = mx_enter_frame(L, lobe.N, lobe.x);
     vec4 chances = mx_hair_chances(mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT));
-    vec4 densities = mx_hair_densities(lobe, l, mx_hair_tilt(lobe.v), mx_hair_tilt(l), roughness_R, roughness_TT, roughness_TRT);
-    return dot(chances, densities) / dot(chances, vec4(1.0));
+    vec4 d = mx_hair_densities(lobe, l, mx_hair_tilt(lobe.v.x), mx_hair_tilt(l.x), roughness_R, roughness_TT, roughness_TRT);
+    return dot(chances, d) / dot(chances, vec4(1.0));
 }
 
 // M_p after d'Eon et al. 2013, "Importance Sampling for Physically-Based Hair Fiber Models", N_p by inversion; xi.z chooses the path,
@@ -204,16 +199,16 @@ void mx_chiang_hair_bsdf_sample(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float 
     float around = clamp(chosen / chances[p], 0.0, 1.0);
 
     vec2 roughness = p == 0 ? roughness_R : p == 1 ? roughness_TT : roughness_TRT;
-    vec2 o = mx_hair_tilted(p, mx_hair_tilt(lobe.v), lobe.slope);
+    vec2 o = mx_hair_tilted(p, mx_hair_tilt(lobe.v.x), lobe.slope);
     float width = mx_hair_width(roughness.x);
     float cone = clamp(1.0 + width * log(max(xi.x + (1.0 - xi.x) * exp(-2.0 / width), 1e-30)), -1.0, 1.0);
-    float sin_i = clamp(-cone * o.y + mx_hair_cosine(cone) * cos(2.0 * MX_PI * around) * o.x, -1.0, 1.0);
+    float sin_i = clamp(-cone * o.y + mx_hair_tilt(cone).x * cos(2.0 * MX_PI * around) * o.x, -1.0, 1.0);
 
     float s = 0.626657 * mx_hair_width(roughness.y); // as in mx_hair_azimuthal
     float tail = 1.0 / (1.0 + exp(MX_PI / s));
     float phi = p == 3 ? 2.0 * MX_PI * xi.y : -s * log(1.0 / mix(tail, 1.0 - tail, xi.y) - 1.0);
     phi -= atan(-lobe.v.z, -lobe.v.y) + float(p) * atan(lobe.crossing.y, lobe.crossing.x); // path R mirrors the azimuth of V
-    L = mx_leave_frame(vec3(sin_i, mx_hair_cosine(sin_i) * cos(phi), mx_hair_cosine(sin_i) * sin(phi)), lobe.N, lobe.x);
+    L = mx_leave_frame(vec3(sin_i, mx_hair_tilt(sin_i).x * cos(phi), mx_hair_tilt(sin_i).x * sin(phi)), lobe.N, lobe.x);
 
     pdf = mx_chiang_hair_bsdf_pdf(tint_R, tint_TT, tint_TRT, ior, roughness_R, roughness_TT, roughness_TRT,
                                   cuticle_angle, absorption, N, curve_direction, V, L);
