@@ -8,7 +8,7 @@ export function instantiate(source: BufferSource | WebAssembly.Module, defaults?
 
 export type Severity = "error" | "warning" | "note";
 export type Stage = "vertex" | "pixel";
-export type Block = "publicUniforms" | "privateUniforms" | "lightData" | "textures" | "appData" | "vertexData" | "outputs";
+export type Block = "publicUniforms" | "privateUniforms" | "lightData" | "textures" | "appData" | "vertexData" | "outputs" | "own1" | "own2" | "own3" | "own4";
 /** opaque: without blending; mask: with the depth test alone; blend: back to front. Colours are premultiplied. */
 export type Alpha = "opaque" | "mask" | "blend";
 export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics" | "slabs" | "slabsJson" | "slabsSvg";
