@@ -2,6 +2,10 @@
 /* The deferred pipeline in a generation, for materials and for the passes that light them. */
 #include "api/generation.h"
 
+#include "slabs/bytes.h"
+
+#include <assert.h>
+
 /* ---- Options ---- */
 
 static const struct clash {
@@ -113,6 +117,8 @@ void generation_tell_forward(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
     const struct document *doc = &g->document->layer.doc;
+    assert(!shader->closures.len || g->result->storage.storage == STORAGE_FLOAT
+           || shader->stored_words * SLAB_WORD_BYTES <= g->result->slabs.after.bytes);
     if (shader->stored_words && shader->closures.len > DEFERRED_MAX_CLOSURES)
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,
                  doc_place(doc, g->element), str_text(shader->strings, shader->name),

@@ -14,6 +14,7 @@
 #include "deferred/deferred_priv.h"
 #include "deferred/texts.h"
 #include "shader/source.h"
+#include "slabs/bytes.h"
 
 #include <assert.h>
 
@@ -110,64 +111,88 @@ enum mark_operand {
     NUM_MARK_OPERANDS
 };
 
+/* ---- Order ---- */
+
+/* The order of a walk from a closure to its operands, tops before bases: from 1; 0: no part. */
+static void visit_operands(const struct shader *shader, ir_ref root, uint32_t *out_order)
+{
+    const struct ir_graph *g = shader->graph;
+    VEC(ir_ref) open = {0};
+    uint32_t num = 0;
+    vec_push(shader->arena, &open, root);
+    while (open.len) {
+        ir_ref ref = vec_last(&open);
+        open.len--;
+        if (!ref || out_order[ref])
+            continue;
+        out_order[ref] = ++num;
+        const struct ir_node *node = ir_get(g, ref);
+        bool is_layer = node->op == IR_LAYER;
+        for (uint32_t i = 0; i < node->num_args; i++) {
+            ir_ref arg = ir_arg(g, ref, is_layer ? node->num_args - 1 - i : i);
+            if (arg && ir_type_is_closure(ir_type_of(g, arg)))
+                vec_push(shader->arena, &open, arg);
+        }
+    }
+}
+
+/* The marks of a list, the top first. Of a mix, the second operand comes first. */
+static struct closure_list marks_of(const struct shader *shader, ir_ref bsdf,
+                                    const struct closure_list *list)
+{
+    struct closure_list marks = {0};
+    uint32_t *order = ARENA_ARRAY(shader->arena, uint32_t, bsdf + 1);
+    visit_operands(shader, bsdf, order);
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        struct closure_leaf leaf = list->leaves.items[i];
+        if (!is_mark(shader, leaf.leaf))
+            continue;
+        assert(leaf.leaf <= bsdf && order[leaf.leaf]);
+        vec_push(shader->arena, &marks.leaves, leaf);
+        uint32_t at = marks.leaves.len - 1;
+        for (; at > 0 && order[marks.leaves.items[at - 1].leaf] > order[leaf.leaf]; at--)
+            marks.leaves.items[at] = marks.leaves.items[at - 1];
+        marks.leaves.items[at] = leaf;
+    }
+    return marks;
+}
+
 /* ---- Sizes ---- */
 
-enum { WHOLE_WORDS = 39 }; /* of a closure in whole floats: as many as mx_put_whole writes */
-
-static bool is_black(const struct ir_graph *g, ir_ref mark, enum mark_operand operand)
-{
-    return ir_const_is(g, ir_arg(g, mark, operand), 0.0f);
-}
-
-/* True for a grey constant: the hue of a reflectance without one. */
-static bool is_grey(const struct ir_graph *g, ir_ref value)
-{
-    struct ir_value constant;
-    return ir_get_const(g, value, &constant) && constant.w[0].u == constant.w[1].u
-           && constant.w[0].u == constant.w[2].u;
-}
+enum {
+    NUM_TARGET_WORDS = 3, /* that are render targets */
+    WHOLE_WORDS = 39      /* of a closure in whole floats: as many as mx_put_whole writes */
+};
 
 static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
 {
     return !leaf->decay && !leaf->color && ir_const_is(g, leaf->scalar, 1.0f);
 }
 
-/* True if no closure above it has the same normal. The first one is the top. */
-static bool has_own_normal(const struct ir_graph *g, const struct closure_list *marks, uint32_t i)
-{
-    ir_ref normal = ir_arg(g, marks->leaves.items[i].leaf, MARK_normal);
-    for (uint32_t k = 0; k < i; k++)
-        if (ir_arg(g, marks->leaves.items[k].leaf, MARK_normal) == normal)
-            return false;
-    return i > 0;
-}
-
-/* The most words of a closure: features that are known to be off take none. */
-static uint32_t most_words(const struct ir_graph *g, const struct closure_list *marks, uint32_t i)
-{
-    const struct closure_leaf *leaf = &marks->leaves.items[i];
-    ir_ref mark = leaf->leaf;
-    bool is_last = i + 1 == marks->leaves.len, is_clear = is_black(g, mark, MARK_diffuse_albedo);
-    bool is_smooth = i == 0 && !is_last && is_clear;
-    bool has_medium = !is_clear && !is_black(g, mark, MARK_free_path);
-    bool has_lobes =
-        !is_black(g, mark, MARK_second_roughness_weight) || !is_grey(g, ir_arg(g, mark, MARK_f90));
-    unsigned words = is_smooth ? 1 : 2;
-    words += is_white(g, leaf) ? 0 : 2;
-    words += has_medium;
-    words += has_lobes;
-    words += !is_black(g, mark, MARK_fuzz_amount);
-    words += !is_black(g, mark, MARK_anisotropy);
-    return words + has_own_normal(g, marks, i);
-}
-
-static uint32_t count_words(const struct ir_graph *g, const struct closure_list *marks,
+/* marks: the top first. */
+static uint32_t count_words(const struct shader *shader, const struct closure_list *marks,
                             enum deferred_storage storage)
 {
-    uint32_t words = storage == STORAGE_FLOAT ? 3 + WHOLE_WORDS * marks->leaves.len : 1;
-    for (uint32_t i = 0; storage != STORAGE_FLOAT && i < marks->leaves.len; i++)
-        words += most_words(g, marks, i);
-    return words > 3 ? words : 3;
+    const struct ir_graph *g = shader->graph;
+    uint32_t num = marks->leaves.len;
+    if (storage == STORAGE_FLOAT)
+        return NUM_TARGET_WORDS + WHOLE_WORDS * num;
+    struct stored_slab *slabs = ARENA_ARRAY(shader->arena, struct stored_slab, num + 1);
+    for (uint32_t i = 0; i < num; i++) {
+        const ir_ref *in = ir_args(g, marks->leaves.items[i].leaf);
+        slabs[i] = (struct stored_slab){
+            .diffuse_albedo = in[MARK_diffuse_albedo],
+            .f90 = in[MARK_f90],
+            .anisotropy = in[MARK_anisotropy],
+            .second_roughness_weight = in[MARK_second_roughness_weight],
+            .fuzz_amount = in[MARK_fuzz_amount],
+            .free_path = in[MARK_free_path],
+            .normal = in[MARK_normal],
+            .is_whole = is_white(g, &marks->leaves.items[i]),
+        };
+    }
+    uint32_t words = slab_stored_pixel(g, slabs, num);
+    return words > NUM_TARGET_WORDS ? words : NUM_TARGET_WORDS;
 }
 
 /* ---- Effects ---- */
@@ -175,7 +200,8 @@ static uint32_t count_words(const struct ir_graph *g, const struct closure_list 
 /* A tangent that nobody reads needs no vertex attribute. Whole storage has the samples' frame. */
 static ir_ref value_of(struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
 {
-    bool is_unread = operand == MARK_tangent && !is_whole && is_black(g, mark, MARK_anisotropy);
+    bool is_unread = operand == MARK_tangent && !is_whole
+                     && ir_const_is(g, ir_arg(g, mark, MARK_anisotropy), 0.0f);
     return is_unread ? ir_const_splat(g, IR_TYPE_VEC3, 0.0f) : ir_arg(g, mark, operand);
 }
 
@@ -232,17 +258,14 @@ void deferred_store(struct shader *shader, const struct closure_host *host, ir_r
     closure_flatten(shader, &spreading, bsdf, &spread);
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
     assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
-    struct closure_list marks = {0};
+    struct closure_list marks = marks_of(shader, bsdf, list);
     shader->closures.len = 0; /* lights of slabs are no closures of their own here */
-    for (uint32_t i = list->leaves.len; i-- > 0;)
-        if (is_mark(shader, list->leaves.items[i].leaf))
-            vec_push(shader->arena, &marks.leaves, list->leaves.items[i]);
     for (uint32_t i = 0; i < marks.leaves.len; i++) {
         const struct closure_leaf *leaf = &marks.leaves.items[i];
         store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
                    layout->storage == STORAGE_FLOAT);
     }
-    shader->stored_words = count_words(shader->graph, &marks, layout->storage);
+    shader->stored_words = count_words(shader, &marks, layout->storage);
     ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_finish_closures", source, &stored, 1));
     write_color(shader, emission);

@@ -1,29 +1,111 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slabs/bytes.h"
 
-#include "slabs/spots.h"
+enum stored_part {
+#define STORED_PART(id, words, doc) STORED_##id,
+#include "slabs/bytes.def"
+#undef STORED_PART
+    NUM_STORED_PARTS
+};
 
-static bool has(uint32_t features, enum slab_feature feature)
+enum { REMEMBERED_NORMALS = 3 }; /* that a slab refers to instead of a word of its own */
+
+static const uint8_t words_of_parts[NUM_STORED_PARTS] = {
+#define STORED_PART(id, words, doc) words,
+#include "slabs/bytes.def"
+#undef STORED_PART
+};
+
+struct stored_slab slab_stored(const struct ir_graph *g, ir_ref closure, bool is_whole)
 {
-    return features & 1u << feature;
+    if (ir_get(g, closure)->op != IR_SLAB)
+        return (struct stored_slab){.is_whole = is_whole, .is_other = true};
+    const ir_ref *in = ir_args(g, closure);
+    return (struct stored_slab){
+        .diffuse_albedo = in[SLAB_diffuse_albedo],
+        .f90 = in[SLAB_f90],
+        .anisotropy = in[SLAB_anisotropy],
+        .second_roughness_weight = in[SLAB_second_roughness_weight],
+        .fuzz_amount = in[SLAB_fuzz_amount],
+        .free_path = in[SLAB_mean_free_path],
+        .normal = in[SLAB_normal],
+        .is_whole = is_whole && ir_const_is(g, in[SLAB_coverage], 1.0f),
+    };
 }
 
-uint32_t slab_bytes_of(uint32_t features)
+static bool is_zero(const struct ir_graph *g, ir_ref value)
 {
-    uint32_t bytes = 0;
-    if (has(features, SLAB_SECOND_LOBE) || has(features, SLAB_F90))
-        bytes += SLAB_BYTES_LOBE;
-    bytes += has(features, SLAB_FUZZ) ? SLAB_BYTES_FUZZ : 0;
-    bytes += has(features, SLAB_ANISOTROPY) ? SLAB_BYTES_ANISOTROPY : 0;
-    bytes += has(features, SLAB_LUT) ? SLAB_BYTES_LUT : 0;
-    bytes += has(features, SLAB_GLINTS) ? SLAB_BYTES_GLINTS : 0;
-    return bytes;
+    return ir_const_is(g, value, 0.0f);
 }
 
-uint32_t slab_bytes_of_pixel(uint32_t num_slabs, uint32_t part_bytes, bool is_plain)
+/* True for a grey constant: the hue of a reflectance without one. */
+static bool is_grey(const struct ir_graph *g, ir_ref value)
 {
-    if (num_slabs == 0)
-        return 0;
-    uint32_t bytes = SLAB_BYTES_FIRST + part_bytes + (num_slabs - 1) * SLAB_BYTES_OTHER;
-    return is_plain ? bytes : bytes + SLAB_BYTES_MORE;
+    struct ir_value constant;
+    return ir_get_const(g, value, &constant) && constant.w[0].u == constant.w[1].u
+           && constant.w[0].u == constant.w[2].u;
+}
+
+/* Other closures may get any normal. */
+static bool has_normal_of(const struct stored_slab *a, const struct stored_slab *b)
+{
+    return !a->is_other && !b->is_other && a->normal == b->normal;
+}
+
+static bool is_first_with_normal(const struct stored_slab *slabs, uint32_t i)
+{
+    for (uint32_t k = 0; k < i; k++)
+        if (has_normal_of(&slabs[k], &slabs[i]))
+            return false;
+    return true;
+}
+
+static uint32_t count_normals(const struct stored_slab *slabs, uint32_t num_slabs)
+{
+    uint32_t num = 0;
+    for (uint32_t i = 0; i < num_slabs; i++)
+        num += is_first_with_normal(slabs, i);
+    return num;
+}
+
+/* The parts that a slab may have, as bits of enum stored_part. */
+static uint32_t parts_of(const struct ir_graph *g, const struct stored_slab *slab, bool is_over,
+                         bool has_normal)
+{
+    bool is_clear = !slab->is_other && is_zero(g, slab->diffuse_albedo);
+    bool has[NUM_STORED_PARTS] = {
+        [STORED_ALBEDO] = !is_clear || !is_over, /* the word of the top has its roughness */
+        [STORED_WEIGHTS] = !slab->is_whole,
+        [STORED_NORMAL] = has_normal,
+    };
+    has[STORED_MEDIUM] = slab->is_other || (!is_clear && !is_zero(g, slab->free_path));
+    has[STORED_LOBES] =
+        slab->is_other || !is_zero(g, slab->second_roughness_weight) || !is_grey(g, slab->f90);
+    has[STORED_FUZZ] = slab->is_other || !is_zero(g, slab->fuzz_amount);
+    has[STORED_ANISOTROPY] = slab->is_other || !is_zero(g, slab->anisotropy);
+    uint32_t bits = 0;
+    for (unsigned part = 0; part < NUM_STORED_PARTS; part++)
+        bits |= (uint32_t)has[part] << part;
+    return bits;
+}
+
+uint32_t slab_stored_words(const struct ir_graph *g, const struct stored_slab *slab, bool is_over,
+                           bool has_normal)
+{
+    uint32_t words = 1, parts = parts_of(g, slab, is_over, has_normal);
+    for (unsigned part = 0; part < NUM_STORED_PARTS; part++)
+        words += parts >> part & 1u ? words_of_parts[part] : 0u;
+    return words;
+}
+
+uint32_t slab_stored_pixel(const struct ir_graph *g, const struct stored_slab *slabs,
+                           uint32_t num_slabs)
+{
+    bool are_remembered = count_normals(slabs, num_slabs) <= REMEMBERED_NORMALS;
+    uint32_t words = num_slabs > 0;
+    for (uint32_t i = 0; i < num_slabs; i++) {
+        bool has_normal = i > 0 && (!are_remembered || is_first_with_normal(slabs, i));
+        words += slab_stored_words(g, &slabs[i], i == 0 && num_slabs > 1, has_normal);
+    }
+    return words;
 }

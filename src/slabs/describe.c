@@ -23,7 +23,7 @@ static void write_slab(const struct slab_sheet *sheet, const struct slab_row *ro
     text_fmt(out, "; %u bytes", (unsigned)row->bytes);
     if (row->through >= 0.0f) {
         text_str(out, "; light from above ");
-        text_float(out, row->through);
+        slab_write_number(row->through, out);
     }
 }
 
@@ -85,7 +85,7 @@ static void write_error(float error, struct text *out)
     if (error < 0.0f)
         text_str(out, "unknown");
     else
-        text_float(out, error);
+        slab_write_number(error, out);
 }
 
 static void write_steps(const struct slab_sheet *sheet, struct text *out)

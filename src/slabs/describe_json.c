@@ -18,7 +18,7 @@ static void put_float(struct json *json, const char *key, float value)
     if (value < 0.0f)
         return;
     json_key(json, key);
-    text_float(json->out, value);
+    slab_write_number(value, json->out);
 }
 
 static void put_cost(struct json *json, const char *key, const struct slab_cost *cost)

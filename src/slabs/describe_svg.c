@@ -98,7 +98,7 @@ static void write_step(const struct slab_sheet *sheet, const struct slab_step *s
              (unsigned)step->after.bytes);
     if (step->error >= 0.0f) {
         text_str(out, ", estimated error ");
-        text_float(out, step->error);
+        slab_write_number(step->error, out);
     }
     text_str(out, "</text>\n");
 }

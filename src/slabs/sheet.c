@@ -5,6 +5,8 @@
 #include "slabs/estimate.h"
 #include "slabs/recognise.h"
 
+#include <math.h>
+
 const struct slab_shown slab_shown[] = {{SLAB_diffuse_albedo, "albedo"},
                                         {SLAB_f0, "f0"},
                                         {SLAB_roughness, "roughness"},
@@ -49,6 +51,13 @@ const char *slab_name(const struct slab_sheet *sheet, ir_ref ref)
     return name ? str_text(sheet->shader->strings, name) : "?";
 }
 
+void slab_write_number(float value, struct text *out)
+{
+    enum { DIGITS = 4 };
+    double scale = value == 0.0f ? 1.0 : pow(10.0, DIGITS - 1 - floor(log10(fabs(value))));
+    text_float(out, isfinite(scale) ? (float)(round(value * scale) / scale) : value);
+}
+
 void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *out)
 {
     struct ir_value value;
@@ -67,7 +76,7 @@ void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *o
     bool is_splat = count == 3 && value.w[0].u == value.w[1].u && value.w[0].u == value.w[2].u;
     for (unsigned i = 0; i < (is_splat ? 1 : count); i++) {
         text_str(out, i ? ", " : "");
-        text_float(out, value.w[i].f);
+        slab_write_number(value.w[i].f, out);
     }
 }
 
@@ -105,13 +114,34 @@ static void note_basis(struct filler *f, ir_ref slab)
     f->tree->num_bases++;
 }
 
+/* True if neither the top nor an earlier row has the normal of a slab. */
+static bool has_new_normal(const struct filler *f, ir_ref slab, ir_ref top)
+{
+    ir_ref normal = ir_arg(f->graph, slab, SLAB_normal);
+    bool is_new =
+        ir_get(f->graph, top)->op != IR_SLAB || ir_arg(f->graph, top, SLAB_normal) != normal;
+    for (uint32_t i = 0; is_new && i < f->bases.len; i += 2)
+        is_new = f->bases.items[i] != normal;
+    return is_new;
+}
+
+/* The top has the word of its normal and roughness, which all pixels have. */
+static uint32_t bytes_of(const struct filler *f, const struct line *line)
+{
+    struct slab_top top = slabs_top(f->graph, f->tree->root);
+    bool is_top = line->ref == top.ref, is_over = is_top && f->tree->cost.closures > 1;
+    struct stored_slab slab = slab_stored(f->graph, line->ref, is_top && top.is_whole);
+    uint32_t words =
+        slab_stored_words(f->graph, &slab, is_over, has_new_normal(f, line->ref, top.ref));
+    return SLAB_WORD_BYTES * (words + is_top);
+}
+
 static void fill_slab(struct filler *f, const struct line *line, struct slab_row *row)
 {
     struct slab_spot spot = {.ref = line->ref, .thickness = line->thickness};
     row->regime = regime_of(f->graph, line->ref, !line->thickness);
     row->features = slab_features(f->graph, &spot);
-    row->bytes = slab_bytes_of(row->features)
-                 + (f->tree->num_slabs ? (unsigned)SLAB_BYTES_OTHER : (unsigned)SLAB_BYTES_FIRST);
+    row->bytes = bytes_of(f, line);
     row->through = slabs_brightness(f->shader, f->host, line->above);
     f->tree->num_slabs++;
     note_basis(f, line->ref);

@@ -61,7 +61,9 @@ extern const unsigned num_slab_shown;
 extern const char *const slab_row_names[]; /* by enum slab_row_kind */
 extern const char *const slab_feature_names[NUM_SLAB_FEATURES];
 
-/* sheet.c: the name of a node, and a value as text: a number, a colour or what computes it. */
+/* sheet.c: a number with four digits. */
+void slab_write_number(float value, struct text *out);
+/* The name of a node, and a value as text: a number, a colour or what computes it. */
 const char *slab_name(const struct slab_sheet *sheet, ir_ref ref);
 void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *out);
 /* The input of an operator: the thickness of a layer, the share of a mix; 0: it has none. */

@@ -77,10 +77,6 @@ static bool differs(const struct ir_graph *g, ir_ref slab, enum slab_operand inp
     return !ir_const_is(g, ir_arg(g, slab, input), off);
 }
 
-/* A closure that is no slab takes as much as a slab with these, because it may become one. */
-static const uint32_t features_of_others =
-    1u << SLAB_SECOND_LOBE | 1u << SLAB_FUZZ | 1u << SLAB_ANISOTROPY;
-
 uint32_t slab_features(const struct ir_graph *g, const struct slab_spot *spot)
 {
     static const struct {
@@ -114,12 +110,40 @@ static bool is_repeated(const struct slab_spots *spots, const struct slab_spot *
     return false;
 }
 
+/* The operand that is on top of the others: of mixes and stacks the last one. 0: there is none. */
+static ir_ref top_operand(const struct ir_graph *g, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(g, ref);
+    bool is_last = node->op == IR_CLOSURE_MIX || node->op == IR_CLOSURE_ADD
+                   || node->op == IR_SHADER_MIX || node->op == IR_SLOTS;
+    ir_ref top = 0;
+    for (uint32_t i = 0; i < node->num_args && (is_last || !top); i++) {
+        ir_ref arg = ir_arg(g, ref, i);
+        if (is_closure(g, arg) || (arg && ir_type_is_shader(ir_type_of(g, arg))))
+            top = arg;
+    }
+    return top;
+}
+
+struct slab_top slabs_top(const struct ir_graph *g, ir_ref root)
+{
+    struct slab_top top = {root, true};
+    while (top.ref && ir_get(g, top.ref)->op != IR_SLAB && ir_get(g, top.ref)->op != IR_LEAF) {
+        uint8_t op = ir_get(g, top.ref)->op;
+        top.is_whole &= op == IR_LAYER || op == IR_SLAB_LAYER || op == IR_SURFACE_SHADER
+                        || op == IR_SLAB_SURFACE || op == IR_MATERIAL;
+        top.ref = top_operand(g, top.ref);
+    }
+    return top;
+}
+
 struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots *spots)
 {
     const struct ir_graph *g = shader->graph;
     struct slab_cost cost = {0};
-    uint32_t parts = 0;
-    bool is_plain = true;
+    VEC(struct stored_slab) stored = {0};
+    struct slab_top top = slabs_top(g, spots->num_nodes - 1);
+    bool has_top = false;
     for (uint32_t i = 0; i < spots->items.len; i++) {
         const struct slab_spot *spot = &spots->items.items[i];
         uint8_t op = ir_get(g, spot->ref)->op;
@@ -127,12 +151,16 @@ struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots
             continue;
         cost.closures++;
         cost.others += op == IR_LEAF;
-        uint32_t features = slab_features(g, spot);
-        cost.features |= features;
-        parts += slab_bytes_of(op == IR_LEAF ? features_of_others : features);
-        is_plain &= op == IR_SLAB && !features && !differs(g, spot->ref, SLAB_mean_free_path, 0.0f)
-                    && !differs(g, spot->ref, SLAB_coverage, 1.0f);
+        cost.features |= slab_features(g, spot);
+        bool is_top = spot->ref == top.ref && !has_top;
+        vec_push(shader->arena, &stored, slab_stored(g, spot->ref, is_top && top.is_whole));
+        if (is_top) {
+            struct stored_slab first = stored.items[0];
+            stored.items[0] = vec_last(&stored);
+            vec_last(&stored) = first;
+            has_top = true; /* the same slab may also lie elsewhere */
+        }
     }
-    cost.bytes = slab_bytes_of_pixel(cost.closures, parts, is_plain && cost.closures == 1);
+    cost.bytes = SLAB_WORD_BYTES * slab_stored_pixel(g, stored.items, stored.len);
     return cost;
 }

@@ -31,6 +31,13 @@ static inline const struct slab_spot *slab_spot_of(const struct slab_spots *spot
     return &spots->items.items[spots->first[ref] - 1];
 }
 
+/* The closure on top of all others below a root; ref 0: there is none. */
+struct slab_top {
+    ir_ref ref;
+    bool is_whole; /* no operator takes light from it */
+};
+struct slab_top slabs_top(const struct ir_graph *graph, ir_ref root);
+
 /* The features of a slab, as bits of enum slab_feature. */
 uint32_t slab_features(const struct ir_graph *graph, const struct slab_spot *spot);
 

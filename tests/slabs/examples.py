@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The examples of slabs: what `mxgen inspect --slabs` says of each stands in a file beside this test, the table of docs/slabs.md has the
+errors of their budgets as they are drawn, and what the examples show is in the pictures.
+
+Arguments: mxgen, mxgen-render ('' to draw nothing), the root of the project; --update rewrites the reports and prints the table."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path += [str(HERE.parent), str(HERE.parent.parent / "bench")]
+import slabs
+from checks import check, finish, skip
+
+MXGEN, RENDER, ROOT = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:4])
+UPDATE = "--update" in sys.argv
+PAGE = ROOT / "docs/slabs.md"
+# Each example with the most bytes that its slabs may take; the talk's own sizes for three closures, two and the opal.
+EXAMPLES = {"slabs": {"CoatedMetal": 48, "DustyFibre": 72, "WrappedSilk": 72, "CarPaint": 72, "MilkySheet": 20},
+            "slab_blends": {"CarbonAndMetal": 72, "SkinIntoGold": 48, "CoatedSkin": 48, "MetalToPlastic": 48, "Opal": 76}}
+NUMBER = re.compile(r"\d+\.\d+(?:e-?\d+)?")
+SIZE, SWEEP = 48, 64
+# How far a drawn error may be from the page, as another device rounds otherwise.
+NEAR = 0.06
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+
+
+def document_of(material):
+    return next(ROOT / "examples" / f"{name}.mtlx" for name, materials in EXAMPLES.items() if material in materials)
+
+
+# ---- Reports ----
+
+def agree(kept, now):
+    """The same text, with numbers that differ by half a percent at most: another compiler rounds otherwise."""
+    pairs = list(zip(map(float, NUMBER.findall(kept)), map(float, NUMBER.findall(now))))
+    return NUMBER.sub("#", kept) == NUMBER.sub("#", now) and all(abs(a - b) <= 0.005 * max(a, b, 0.1) for a, b in pairs)
+
+
+def check_report(material, most_bytes):
+    result = run(MXGEN, "inspect", "--slabs", document_of(material), "-e", material)
+    path = HERE / f"{material}.txt"
+    if UPDATE:
+        path.write_text(result.stdout)
+    kept = path.read_text() if path.exists() else ""
+    check(result.returncode == 0 and agree(kept, result.stdout), f"{path.name} is not the report:\n{result.stdout}{result.stderr}")
+    costs = [(int(a), int(b)) for a, b in re.findall(r"(\d+) closures, (\d+) bytes", result.stdout)]
+    steps = [tuple(map(int, step)) for step in re.findall(r"closures (\d+) to (\d+), bytes (\d+) to (\d+)", result.stdout)]
+    check(len(costs) == 1 and costs[0][1] <= most_bytes, f"{material} takes more than {most_bytes} bytes: {costs}")
+    check(all(b <= a and d <= c for a, b, c, d in steps) and (not steps or steps[-1][1] == 1), f"{material}: steps {steps}")
+
+
+# ---- Errors of budgets ----
+
+def draw(folder, name, document, *options):
+    """The file of a picture; None: there is no device."""
+    path = folder / f"{name}.ppm"
+    result = run(RENDER, document, "-q", "-o", path, *options)
+    if result.returncode and "no-device" in result.stderr:
+        return None
+    check(result.returncode == 0 and not result.stderr, f"render {name}: {result.stderr}")
+    return path if result.returncode == 0 else None
+
+
+def estimates(material):
+    """By closures: the last estimated error of the steps that lead to so many."""
+    result = run(MXGEN, document_of(material), "-e", material, "--max-closures", "1", "-Wbudget-step", "--stdout")
+    return {int(count): float(error) for count, error in re.findall(r"closures \d+ to (\d+),.*?estimated error ([\d.e-]+)", result.stderr)}
+
+
+def row_of(material, folder):
+    """The row of the page: the errors with two closures, and with one."""
+    ball = ("-m", "sphere", "-s", SIZE, "-e", material)
+    document = document_of(material)
+    whole = draw(folder, material, document, *ball)
+    columns, estimated = [], estimates(material)
+    for count in (2, 1):
+        if count not in estimated:
+            columns.append("")
+            continue
+        picture = draw(folder, f"{material}-{count}", document, *ball, "--max-closures", count)
+        columns.append(f"{estimated[count]:.2f}, {slabs.compare(whole, picture):.2f}" if whole and picture else "?")
+    return f"| `{material}` | {' | '.join(columns)} |"
+
+
+def check_row(row):
+    name = row.split(" | ")[0]
+    kept = next((line for line in PAGE.read_text().splitlines() if line.startswith(name + " |")), "")
+    drawn, listed = (list(map(float, NUMBER.findall(text))) for text in (row, kept))
+    check(len(drawn) == len(listed) and all(abs(a - b) <= NEAR for a, b in zip(drawn, listed)), f"docs/slabs.md has not the row {row}")
+
+
+# ---- What pictures show ----
+
+def columns_of(picture):
+    """The mean colour of each column in the lower middle of a square that fills the picture."""
+    width, height, data = slabs.read_ppm(picture)
+    rows = range(height // 2, 3 * height // 4)
+    return [[sum(data[3 * (y * width + x) + c] for y in rows) / len(rows) for c in range(3)] for x in range(width)]
+
+
+def sweep(folder, name, document, *options):
+    """A plane from the front, which fills the picture: u from 0 to 1."""
+    return draw(folder, name, document, "-m", "plane", "--camera", "0,0,2.6,30", "-s", SWEEP, *options)
+
+
+def only(folder, root, bsdf):
+    """The document of blends with another matter below a root."""
+    text = (ROOT / "examples/slab_blends.mtlx").read_text()
+    path = folder / f"{bsdf}.mtlx"
+    path.write_text(text.replace(f'name="bsdf" type="BSDF" nodename="{root}"', f'name="bsdf" type="BSDF" nodename="{bsdf}"'))
+    return path
+
+
+def difference(a, b):
+    return slabs.difference(slabs.lab(a), slabs.lab(b))
+
+
+def check_halo(folder):
+    """Where no mirror sends the lights to the eye, metal and plastic are dark, and so is what lies between; a halo is not."""
+    variants = {"slabs": ("MetalToPlastic",), "one slab": ("MetalToPlastic", "--max-closures", 1), "metalness": ("MetalToPlasticHalo",)}
+    for name, options in variants.items():
+        picture = sweep(folder, name, ROOT / "examples/slab_blends.mtlx", "--environment", "none", "-e", *options)
+        means = [sum(color) / 3 for color in columns_of(picture)]
+        ends, middle = max(means[0], means[-1]), max(means[8:-8])
+        check(middle > 1.5 * ends if name == "metalness" else middle <= 1.15 * ends, f"{name}: {middle} between {means[0]} and {means[-1]}")
+
+
+def check_sweeps(folder):
+    """Without coverage there is the metal alone; without thickness the reflection of the coat is still there."""
+    document = ROOT / "examples/slab_blends.mtlx"
+    light = ("--environment", "none", "--set", "u_lightData[0].direction=0.26,0.1,-0.96") # the left edge mirrors it
+    metal, covered, thick = (columns_of(sweep(folder, name, source, "-e", name, *light)) for name, source in (
+        ("CoverageSweep", only(folder, "covered_silver", "silver")), ("CoverageSweep", document), ("ThicknessSweep", document)))
+    near, middle = 0, SWEEP // 2
+    check(difference(metal[near], covered[near]) < 1.5, f"no coverage is not the metal: {metal[near]}, {covered[near]}")
+    check(difference(metal[near], thick[near]) > 1.5, f"no thickness is the metal: {metal[near]}, {thick[near]}")
+    check(difference(covered[middle], thick[middle]) > 5, "a coat that covers half is a coat of half the thickness")
+
+
+def main():
+    for materials in EXAMPLES.values():
+        for material, most_bytes in materials.items():
+            check_report(material, most_bytes)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        if not RENDER or not sweep(folder, "first", ROOT / "examples/slab_blends.mtlx"):
+            skip("without a Vulkan device nothing is drawn")
+            finish("slab-examples")
+        for material in (material for materials in EXAMPLES.values() for material in materials):
+            row = row_of(material, folder)
+            if UPDATE:
+                print(row)
+            check_row(row)
+        check_halo(folder)
+        check_sweeps(folder)
+    finish("slab-examples")
+
+
+if __name__ == "__main__":
+    main()
