@@ -324,7 +324,7 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     vec3 x = lobe.x;
     mat3 frame = mat3(x, cross(lobe.N, x), lobe.N);
-    vec3 v = vec3(vec2(dot(V, frame[0]), dot(V, frame[1])), lobe.cosine);
+    vec3 v = vec3((V * frame).xy, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));

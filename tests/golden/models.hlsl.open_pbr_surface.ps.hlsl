@@ -438,7 +438,7 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     float3 x = lobe.x;
     float3x3 frame = float3x3(x, cross(lobe.N, x), lobe.N);
-    float3 v = float3(float2(dot(V, frame[0]), dot(V, frame[1])), lobe.cosine);
+    float3 v = float3(mul(frame, V).xy, lobe.cosine);
     float3 stretch = float3(lobe.alpha, 1.0);
     float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
