@@ -117,7 +117,7 @@ void generation_tell_forward(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
     const struct document *doc = &g->document->layer.doc;
-    assert(!shader->stored_words || g->result->storage.storage == STORAGE_FLOAT
+    assert(!shader->closures.len || g->result->storage.storage == STORAGE_FLOAT
            || shader->stored_words * SLAB_WORD_BYTES <= g->result->slabs.after.bytes);
     if (shader->stored_words && shader->closures.len > DEFERRED_MAX_CLOSURES)
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,

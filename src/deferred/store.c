@@ -111,6 +111,52 @@ enum mark_operand {
     NUM_MARK_OPERANDS
 };
 
+/* ---- Order ---- */
+
+/* The order of a walk from a closure to its operands, tops before bases: from 1; 0: no part. */
+static void visit_operands(const struct shader *shader, ir_ref root, uint32_t *out_order)
+{
+    const struct ir_graph *g = shader->graph;
+    VEC(ir_ref) open = {0};
+    uint32_t num = 0;
+    vec_push(shader->arena, &open, root);
+    while (open.len) {
+        ir_ref ref = vec_last(&open);
+        open.len--;
+        if (!ref || out_order[ref])
+            continue;
+        out_order[ref] = ++num;
+        const struct ir_node *node = ir_get(g, ref);
+        bool is_layer = node->op == IR_LAYER;
+        for (uint32_t i = 0; i < node->num_args; i++) {
+            ir_ref arg = ir_arg(g, ref, is_layer ? node->num_args - 1 - i : i);
+            if (arg && ir_type_is_closure(ir_type_of(g, arg)))
+                vec_push(shader->arena, &open, arg);
+        }
+    }
+}
+
+/* The marks of a list, the top first. Of a mix, the second operand comes first. */
+static struct closure_list marks_of(const struct shader *shader, ir_ref bsdf,
+                                    const struct closure_list *list)
+{
+    struct closure_list marks = {0};
+    uint32_t *order = ARENA_ARRAY(shader->arena, uint32_t, bsdf + 1);
+    visit_operands(shader, bsdf, order);
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        struct closure_leaf leaf = list->leaves.items[i];
+        if (!is_mark(shader, leaf.leaf))
+            continue;
+        assert(leaf.leaf <= bsdf && order[leaf.leaf]);
+        vec_push(shader->arena, &marks.leaves, leaf);
+        uint32_t at = marks.leaves.len - 1;
+        for (; at > 0 && order[marks.leaves.items[at - 1].leaf] > order[leaf.leaf]; at--)
+            marks.leaves.items[at] = marks.leaves.items[at - 1];
+        marks.leaves.items[at] = leaf;
+    }
+    return marks;
+}
+
 /* ---- Sizes ---- */
 
 enum {
@@ -212,11 +258,8 @@ void deferred_store(struct shader *shader, const struct closure_host *host, ir_r
     closure_flatten(shader, &spreading, bsdf, &spread);
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
     assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
-    struct closure_list marks = {0};
+    struct closure_list marks = marks_of(shader, bsdf, list);
     shader->closures.len = 0; /* lights of slabs are no closures of their own here */
-    for (uint32_t i = list->leaves.len; i-- > 0;)
-        if (is_mark(shader, list->leaves.items[i].leaf))
-            vec_push(shader->arena, &marks.leaves, list->leaves.items[i]);
     for (uint32_t i = 0; i < marks.leaves.len; i++) {
         const struct closure_leaf *leaf = &marks.leaves.items[i];
         store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,

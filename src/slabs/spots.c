@@ -143,6 +143,7 @@ struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots
     struct slab_cost cost = {0};
     VEC(struct stored_slab) stored = {0};
     struct slab_top top = slabs_top(g, spots->num_nodes - 1);
+    bool has_top = false;
     for (uint32_t i = 0; i < spots->items.len; i++) {
         const struct slab_spot *spot = &spots->items.items[i];
         uint8_t op = ir_get(g, spot->ref)->op;
@@ -151,12 +152,13 @@ struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots
         cost.closures++;
         cost.others += op == IR_LEAF;
         cost.features |= slab_features(g, spot);
-        vec_push(shader->arena, &stored,
-                 slab_stored(g, spot->ref, spot->ref == top.ref && top.is_whole));
-        if (spot->ref == top.ref) {
+        bool is_top = spot->ref == top.ref && !has_top;
+        vec_push(shader->arena, &stored, slab_stored(g, spot->ref, is_top && top.is_whole));
+        if (is_top) {
             struct stored_slab first = stored.items[0];
             stored.items[0] = vec_last(&stored);
             vec_last(&stored) = first;
+            has_top = true; /* the same slab may also lie elsewhere */
         }
     }
     cost.bytes = SLAB_WORD_BYTES * slab_stored_pixel(g, stored.items, stored.len);

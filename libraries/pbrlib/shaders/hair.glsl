@@ -37,147 +37,156 @@ void mx_chiang_hair_roughness(float longitudinal, float azimuthal, float scale_T
 }
 
 // ---- scattering -----------------------------------------------------------------------------------------------------
+// A tilt is (cos, sin) of the angle to the section of the hair, a turn (cos, sin) of an angle around the hair. Angles add up as complex
+// numbers multiply.
+
+vec2 mx_hair_add(vec2 a, vec2 b)
+{
+    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
 
 float mx_hair_cosine(float sine)
 {
     return sqrt(max(1.0 - sine * sine, 0.0));
 }
 
-// Modified Bessel function of the first kind, by its power series.
-float mx_hair_bessel(float x)
+vec2 mx_hair_tilt(vec3 w)
 {
-    float term = 1.0;
-    float sum = 1.0;
-    for (int i = 1; i < 16; ++i)
-    {
-        term *= x * x / (4.0 * float(i * i));
-        sum += term;
-    }
-    return sum;
+    return vec2(mx_hair_cosine(w.x), w.x);
 }
 
-// Longitudinal scattering M_p (d'Eon et al. 2011, equation 7) between tilts given as (sin, cos), through logarithms: 2 sinh(1/v) is
-// exp(1/v) (1 - exp(-2/v)). Bessel's function of a large argument is asymptotic.
-float mx_hair_longitudinal(vec2 i, vec2 o, float v)
+float mx_hair_width(float roughness)
 {
-    float a = i.y * o.y / v;
-    float log_bessel = a > 12.0 ? a + 0.125 / a - 0.5 * log(2.0 * MX_PI * a) : log(mx_hair_bessel(a));
-    return exp(log_bessel - (i.x * o.x + 1.0) / v) / (v * (1.0 - exp(-2.0 / v)));
+    return clamp(roughness, 0.001, 1.0);
 }
 
-// Azimuthal scattering N_p: a logistic around 0, trimmed to one turn (Chiang et al. 2016, appendix A).
-float mx_hair_azimuthal(float angle, float roughness)
+// Longitudinal scattering M_p (d'Eon et al. 2011, equation 7): 2 sinh(k) is exp(k) (1 - exp(-2 k)). The program fits/bessel.c makes
+// the constants of Bessel's function times exp(-x).
+float mx_hair_longitudinal(vec2 i, vec2 o, float roughness)
 {
-    float s = 0.626657 * roughness; // sqrt(pi / 8)
-    float x = abs(mod(angle + MX_PI, 2.0 * MX_PI) - MX_PI);
-    float f = exp(-x / s);
+    float k = 1.0 / mx_hair_width(roughness);
+    float x = abs(k * i.x * o.x);
+    float bessel = sqrt((1.0 + x * (0.3840 + x * 0.5689)) / (1.0 + x * (2.5181 + x * (1.9457 + x * 2.0 * MX_PI * 0.5689))));
+    return k * bessel * exp(x - k * (i.y * o.y + 1.0)) / (1.0 - exp(-2.0 * k));
+}
+
+// Azimuthal scattering N_p: a logistic around 0, trimmed to one turn (Chiang et al. 2016, appendix A). The angle is twice the arcsine of
+// half a chord (Abramowitz and Stegun 1964, equation 4.4.45).
+float mx_hair_azimuthal(vec2 turn, float roughness)
+{
+    float s = 0.626657 * mx_hair_width(roughness); // sqrt(pi / 8)
+    float chord = 0.5 * length(turn - vec2(1.0, 0.0));
+    float arc = 1.5707288 + chord * (-0.2121144 + chord * (0.0742610 - 0.0187293 * chord));
+    float f = exp((2.0 * sqrt(max(1.0 - chord, 0.0)) * arc - MX_PI) / s);
     float tail = exp(-MX_PI / s);
     return f * (1.0 + tail) / (s * (1.0 + f) * (1.0 + f) * (1.0 - tail));
 }
 
-// Azimuths where the light of v enters the circular section (x) and, refracted, crosses it (y); reflectance there, and what a
-// crossing lets through.
-vec2 mx_hair_section(vec3 v, float ior, vec3 absorption, out float reflected, out vec3 through)
+// The lobe for a viewer: how light enters and crosses the circular section.
+struct mx_HairLobe {
+    vec3 N;          // faces the viewer
+    vec3 x;          // unit tangent along the hair
+    vec3 v;          // the viewer in the frame
+    vec2 slope;      // of the scales of the cuticle, as a tilt
+    vec2 crossing;   // turn by one crossing
+    float reflected; // part where light enters
+    vec3 through;    // part that one crossing lets through
+};
+
+mx_HairLobe mx_hair_lobe(float ior, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V)
 {
+    vec3 Nf = mx_facing(N, V);
+    vec3 x = mx_tangent(Nf, curve_direction);
+    vec3 v = mx_enter_frame(V, Nf, x);
+    float slope = (cuticle_angle - 0.5) * MX_PI;
+    vec2 entry = v.zy / max(length(v.yz), MX_EPSILON);
     float cos_o = mx_hair_cosine(v.x);
-    float sin_o = -v.y / max(length(v.yz), MX_EPSILON);
-    float ior_seen = sqrt(max(ior * ior - v.x * v.x, 0.0)) / max(cos_o, MX_EPSILON);
-    float sin_t = clamp(sin_o / ior_seen, -1.0, 1.0);
-    through = exp(-2.0 * absorption * (mx_hair_cosine(sin_t) / mx_hair_cosine(v.x / ior)));
-    reflected = mx_fresnel_dielectric(cos_o * mx_hair_cosine(sin_o), ior);
-    return asin(vec2(sin_o, sin_t));
+    float sin_t = clamp(entry.y * max(cos_o, MX_EPSILON) * inversesqrt(max(ior * ior - v.x * v.x, MX_EPSILON)), -1.0, 1.0);
+    float cos_t = mx_hair_cosine(sin_t);
+    return mx_HairLobe(Nf, x, v, vec2(cos(slope), sin(slope)), vec2(2.0 * sin_t * sin_t - 1.0, -2.0 * sin_t * cos_t),
+                       mx_fresnel_dielectric(cos_o * entry.x, ior), exp(absorption * (-2.0 * cos_t / mx_hair_cosine(v.x / ior))));
 }
 
-// The part A_p of the light on path p: R, TT, TRT, and all longer ones as the fourth (Chiang et al. 2016, section 3.3).
-vec3 mx_hair_attenuation(int p, vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float reflected, vec3 through)
+// The parts A_p of the light by path: R, TT, TRT, and all longer ones (Chiang et al. 2016, section 3.3).
+struct mx_HairParts {
+    vec3 R;
+    vec3 TT;
+    vec3 TRT;
+    vec3 longer;
+};
+
+mx_HairParts mx_hair_parts(mx_HairLobe lobe, vec3 tint_R, vec3 tint_TT, vec3 tint_TRT)
 {
-    vec3 crossed = (1.0 - reflected) * (1.0 - reflected) * through;
-    vec3 again = reflected * through;
-    vec3 longer = p == 2 ? again : again * again / (1.0 - again);
-    return p == 0 ? max(tint_R, 0.0) * reflected
-         : p == 1 ? max(tint_TT, 0.0) * crossed : max(tint_TRT, 0.0) * crossed * longer;
+    float entered = 1.0 - lobe.reflected;
+    vec3 crossed = entered * entered * lobe.through;
+    vec3 again = lobe.reflected * lobe.through;
+    vec3 TRT = max(tint_TRT, 0.0) * crossed * again;
+    return mx_HairParts(max(tint_R, 0.0) * lobe.reflected, max(tint_TT, 0.0) * crossed, TRT, TRT * again / (1.0 - again));
 }
 
-vec2 mx_hair_width(int p, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT)
+// What the cuticle does to a tilt on path p (Chiang et al. 2016, section 3.4).
+vec2 mx_hair_tilted(int p, vec2 tilt, vec2 slope)
 {
-    return clamp(p == 0 ? roughness_R : p == 1 ? roughness_TT : roughness_TRT, 0.001, 1.0);
+    vec2 twice = mx_hair_add(slope, slope);
+    vec2 four = mx_hair_add(twice, twice);
+    vec2 turn = p == 0 ? twice : p == 1 ? vec2(slope.x, -slope.y) : p == 2 ? vec2(four.x, -four.y) : vec2(1.0, 0.0);
+    return mx_hair_add(tilt, turn);
 }
 
-// (sin, cos) of a tilt, turned by the slope that the cuticle's scales have on path p.
-vec2 mx_hair_tilt(int p, float sine, float cuticle_angle)
+// M_p N_p of the paths from l, where `tilted` is the tilt of l or of the viewer, and `other` that of the other one.
+vec4 mx_hair_densities(mx_HairLobe lobe, vec3 l, vec2 tilted, vec2 other, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT)
 {
-    float angle = (p < 3 ? 2.0 - 3.0 * float(p) : 0.0) * (cuticle_angle - 0.5) * MX_PI;
-    vec2 tilt = vec2(sine, mx_hair_cosine(sine));
-    return tilt * cos(angle) + vec2(tilt.y, -tilt.x) * sin(angle);
+    vec2 turn_R = mx_hair_add(l.yz, -lobe.v.yz) / max(tilted.x * other.x, MX_EPSILON);
+    vec2 turn_TT = mx_hair_add(turn_R, lobe.crossing);
+    vec2 s = lobe.slope;
+    return vec4(mx_hair_longitudinal(mx_hair_tilted(0, tilted, s), other, roughness_R.x) * mx_hair_azimuthal(turn_R, roughness_R.y),
+                mx_hair_longitudinal(mx_hair_tilted(1, tilted, s), other, roughness_TT.x) * mx_hair_azimuthal(turn_TT, roughness_TT.y),
+                mx_hair_longitudinal(mx_hair_tilted(2, tilted, s), other, roughness_TRT.x)
+                    * mx_hair_azimuthal(mx_hair_add(turn_TT, lobe.crossing), roughness_TRT.y),
+                mx_hair_longitudinal(tilted, other, roughness_TRT.x) * 0.5 / MX_PI);
 }
 
-float mx_hair_mean(vec3 color)
+vec3 mx_hair_light(mx_HairLobe lobe, vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, vec2 roughness_R, vec2 roughness_TT,
+                   vec2 roughness_TRT, vec3 L)
 {
-    return max(dot(color, vec3(1.0 / 3.0)), MX_EPSILON);
-}
-
-// N_p for azimuth phi of L around V.
-float mx_hair_around(int p, float phi, vec2 gamma, float roughness)
-{
-    float direct = phi - float(p) * (2.0 * gamma.y + MX_PI) + 2.0 * gamma.x;
-    return p == 3 ? 0.5 / MX_PI : mx_hair_azimuthal(direct, roughness);
+    vec3 l = mx_enter_frame(L, lobe.N, lobe.x);
+    mx_HairParts parts = mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT);
+    vec4 d = mx_hair_densities(lobe, l, mx_hair_tilt(l), mx_hair_tilt(lobe.v), roughness_R, roughness_TT, roughness_TRT);
+    return (parts.R * d.x + parts.TT * d.y + parts.TRT * d.z + parts.longer * d.w) / MX_PI;
 }
 
 vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT,
                               float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 L)
 {
-    vec3 Nf = mx_facing(N, V);
-    vec3 x = mx_tangent(Nf, curve_direction);
-    vec3 v = mx_enter_frame(V, Nf, x);
-    vec3 l = mx_enter_frame(L, Nf, x);
-    float phi = atan(l.z * v.y - v.z * l.y, l.y * v.y + l.z * v.z);
-    float reflected;
-    vec3 through;
-    vec2 gamma = mx_hair_section(v, ior, absorption, reflected, through);
-    vec3 sum = vec3(0.0);
-    for (int p = 0; p < 4; ++p)
-    {
-        vec2 width = mx_hair_width(p, roughness_R, roughness_TT, roughness_TRT);
-        sum += mx_hair_attenuation(p, tint_R, tint_TT, tint_TRT, reflected, through)
-             * (mx_hair_longitudinal(mx_hair_tilt(p, l.x, cuticle_angle), vec2(v.x, mx_hair_cosine(v.x)), width.x)
-                * mx_hair_around(p, phi, gamma, width.y));
-    }
-    return sum / MX_PI;
+    return mx_hair_light(mx_hair_lobe(ior, cuticle_angle, absorption, N, curve_direction, V), tint_R, tint_TT, tint_TRT, roughness_R,
+                         roughness_TT, roughness_TRT, L);
 }
 
 // M_p and N_p are densities, but for the tilt of M_p: what is left are the paths' parts.
 vec3 mx_chiang_hair_bsdf_albedo(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT,
                                 vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V)
 {
-    float reflected;
-    vec3 through;
-    mx_hair_section(V * mx_frame(mx_facing(N, V), curve_direction), ior, absorption, reflected, through);
-    vec3 sum = vec3(0.0);
-    for (int p = 0; p < 4; ++p)
-        sum += mx_hair_attenuation(p, tint_R, tint_TT, tint_TRT, reflected, through);
-    return sum / MX_PI;
+    mx_HairLobe lobe = mx_hair_lobe(ior, cuticle_angle, absorption, N, curve_direction, V);
+    mx_HairParts parts = mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT);
+    return (parts.R + parts.TT + parts.TRT + parts.longer) / MX_PI;
 }
 
-// A path is chosen by its mean part, and tilts V instead of L, so that M_p stays a density.
+// A path is chosen by its mean part.
+vec4 mx_hair_chances(mx_HairParts parts)
+{
+    const vec3 mean = vec3(1.0 / 3.0);
+    return max(vec4(dot(parts.R, mean), dot(parts.TT, mean), dot(parts.TRT, mean), dot(parts.longer, mean)), MX_EPSILON);
+}
+
+// The paths tilt V instead of L, so that M_p stays a density.
 float mx_chiang_hair_bsdf_pdf(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT,
                               float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 L)
 {
-    mat3 frame = mx_frame(mx_facing(N, V), curve_direction);
-    vec3 v = V * frame;
-    vec3 l = L * frame;
-    float phi = atan(l.z * v.y - v.z * l.y, l.y * v.y + l.z * v.z);
-    float reflected;
-    vec3 through;
-    vec2 gamma = mx_hair_section(v, ior, absorption, reflected, through);
-    vec2 sum = vec2(0.0);
-    for (int p = 0; p < 4; ++p)
-    {
-        vec2 width = mx_hair_width(p, roughness_R, roughness_TT, roughness_TRT);
-        float density = mx_hair_longitudinal(vec2(l.x, mx_hair_cosine(l.x)), mx_hair_tilt(p, v.x, cuticle_angle), width.x)
-                      * mx_hair_around(p, phi, gamma, width.y);
-        sum += mx_hair_mean(mx_hair_attenuation(p, tint_R, tint_TT, tint_TRT, reflected, through)) * vec2(density, 1.0);
-    }
-    return sum.x / sum.y;
+    mx_HairLobe lobe = mx_hair_lobe(ior, cuticle_angle, absorption, N, curve_direction, V);
+    vec3 l = mx_enter_frame(L, lobe.N, lobe.x);
+    vec4 chances = mx_hair_chances(mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT));
+    vec4 densities = mx_hair_densities(lobe, l, mx_hair_tilt(lobe.v), mx_hair_tilt(l), roughness_R, roughness_TT, roughness_TRT);
+    return dot(chances, densities) / dot(chances, vec4(1.0));
 }
 
 // M_p after d'Eon et al. 2013, "Importance Sampling for Physically-Based Hair Fiber Models", N_p by inversion; xi.z chooses the path,
@@ -186,35 +195,25 @@ void mx_chiang_hair_bsdf_sample(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float 
                                 vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 xi,
                                 out vec3 L, out vec3 weight, out float pdf)
 {
-    mat3 frame = mx_frame(mx_facing(N, V), curve_direction);
-    vec3 v = V * frame;
-    float reflected;
-    vec3 through;
-    vec2 gamma = mx_hair_section(v, ior, absorption, reflected, through);
-    vec4 ends; // of the paths' ranges in xi.z
-    float end = 0.0;
-    for (int q = 0; q < 4; ++q)
-    {
-        end += mx_hair_mean(mx_hair_attenuation(q, tint_R, tint_TT, tint_TRT, reflected, through));
-        ends[q] = end;
-    }
-    float chosen = xi.z * end;
-    int p = chosen < ends.x ? 0 : chosen < ends.y ? 1 : chosen < ends.z ? 2 : 3;
-    float begin = p == 0 ? 0.0 : ends[p - 1];
-    float turn = (chosen - begin) / (ends[p] - begin);
+    mx_HairLobe lobe = mx_hair_lobe(ior, cuticle_angle, absorption, N, curve_direction, V);
+    vec4 chances = mx_hair_chances(mx_hair_parts(lobe, tint_R, tint_TT, tint_TRT));
+    float chosen = xi.z * dot(chances, vec4(1.0));
+    int p = 0;
+    for (; p < 3 && chosen >= chances[p]; ++p)
+        chosen -= chances[p];
+    float around = clamp(chosen / chances[p], 0.0, 1.0);
 
-    vec2 width = mx_hair_width(p, roughness_R, roughness_TT, roughness_TRT);
-    vec2 o = mx_hair_tilt(p, v.x, cuticle_angle);
-    float cone = clamp(1.0 + width.x * log(max(xi.x + (1.0 - xi.x) * exp(-2.0 / width.x), 1e-30)), -1.0, 1.0);
-    float sin_i = clamp(-cone * o.x + mx_hair_cosine(cone) * cos(2.0 * MX_PI * turn) * o.y, -1.0, 1.0);
+    vec2 roughness = p == 0 ? roughness_R : p == 1 ? roughness_TT : roughness_TRT;
+    vec2 o = mx_hair_tilted(p, mx_hair_tilt(lobe.v), lobe.slope);
+    float width = mx_hair_width(roughness.x);
+    float cone = clamp(1.0 + width * log(max(xi.x + (1.0 - xi.x) * exp(-2.0 / width), 1e-30)), -1.0, 1.0);
+    float sin_i = clamp(-cone * o.y + mx_hair_cosine(cone) * cos(2.0 * MX_PI * around) * o.x, -1.0, 1.0);
 
-    float s = 0.626657 * width.y; // as in mx_hair_azimuthal
+    float s = 0.626657 * mx_hair_width(roughness.y); // as in mx_hair_azimuthal
     float tail = 1.0 / (1.0 + exp(MX_PI / s));
-    float phi = float(p) * (2.0 * gamma.y + MX_PI) - 2.0 * gamma.x - s * log(1.0 / mix(tail, 1.0 - tail, xi.y) - 1.0);
-    if (p == 3)
-        phi = 2.0 * MX_PI * xi.y;
-    phi += atan(v.z, v.y);
-    L = frame * vec3(sin_i, mx_hair_cosine(sin_i) * cos(phi), mx_hair_cosine(sin_i) * sin(phi));
+    float phi = p == 3 ? 2.0 * MX_PI * xi.y : -s * log(1.0 / mix(tail, 1.0 - tail, xi.y) - 1.0);
+    phi -= atan(-lobe.v.z, -lobe.v.y) + float(p) * atan(lobe.crossing.y, lobe.crossing.x); // path R mirrors the azimuth of V
+    L = mx_leave_frame(vec3(sin_i, mx_hair_cosine(sin_i) * cos(phi), mx_hair_cosine(sin_i) * sin(phi)), lobe.N, lobe.x);
 
     pdf = mx_chiang_hair_bsdf_pdf(tint_R, tint_TT, tint_TRT, ior, roughness_R, roughness_TT, roughness_TRT,
                                   cuticle_angle, absorption, N, curve_direction, V, L);
