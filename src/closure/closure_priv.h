@@ -170,26 +170,27 @@ ir_ref closure_layer_number(struct shader *shader, ir_ref point);
  * run a layer; except textures that the weights read, too.
  */
 ir_ref closure_own_textures(struct shader *shader, ir_ref slots);
-/* rewrite.c: nodes over copies of their operands. */
-struct closure_rewriting {
+/* rewrite.c: copies of nodes, which the values that are copied one after the other share. */
+struct closure_copies {
     struct shader *shader;
-    struct ir_graph *graph;
-    ir_ref *became; /* by node: its copy; 0: itself */
+    VEC(ir_ref) became; /* by node: its copy; 0: itself */
+    uint32_t loop;      /* of lights or samples */
 };
-/* The copy of a node, with one more operand if `last` is not 0. */
-ir_ref closure_over_copies(struct closure_rewriting *r, ir_ref ref, ir_ref last);
+/* `became` with room for the nodes up to `last`. */
+ir_ref *closure_room_for_copies(struct closure_copies *c, ir_ref last);
+/* The copy of a node, with one more operand if `last` is not 0. The room suffices for the node. */
+ir_ref closure_over_copies(struct closure_copies *c, ir_ref ref, ir_ref last);
+/* The next values are those of another loop. */
+void closure_enter_loop(struct closure_copies *c, uint32_t loop);
 /*
- * Marks the nodes that `root` needs and that differ by light or sample, by node. Returns the first
- * of them; root + 1: there are none.
+ * The value in the current loop over the lights or samples: 0 is the first one. The current light
+ * of one loop is not that of another.
  */
-ir_ref closure_mark_loop(struct shader *shader, ir_ref root, uint8_t **out_needed);
-/*
- * The value in another loop over the lights or samples: 0 is the first one. The current light of
- * one loop is not that of another.
- */
-ir_ref closure_in_loop(struct shader *shader, ir_ref root, uint32_t loop);
-/* A value of a sample where the choice is true, or false. */
-ir_ref closure_chosen(struct shader *shader, ir_ref root, ir_ref choice, bool is_true);
+ir_ref closure_in_loop(struct closure_copies *c, ir_ref root);
+/* A value of a sample where the choice is true, or false: always the same for one `c`. */
+ir_ref closure_chosen(struct closure_copies *c, ir_ref root, ir_ref choice, bool is_true);
+/* True if the value reads the turn of the sample, unless an earlier value of `c` told that. */
+bool closure_reads_turn(struct closure_copies *c, ir_ref root);
 
 /* samples.c: the loops over the samples of the environment, in the order of their first parts. */
 struct closure_sample_loop {

@@ -127,10 +127,10 @@ void closure_choose(struct shader *shader, const struct closure_host *host, ir_r
 /* ---- The layers ---- */
 
 /* texture(s, uv) with the derivatives of uv */
-static ir_ref with_derivatives(struct closure_rewriting *r, ir_ref ref)
+static ir_ref with_derivatives(struct closure_copies *r, ir_ref ref)
 {
-    struct ir_graph *g = r->graph;
-    ir_ref uv = r->became[ir_arg(g, ref, 1)];
+    struct ir_graph *g = r->shader->graph;
+    ir_ref uv = r->became.items[ir_arg(g, ref, 1)];
     ir_ref args[4] = {ir_arg(g, ref, 0), uv, ir_op1(g, IR_DFDX, uv), ir_op1(g, IR_DFDY, uv)};
     return ir_build(g, IR_TEX_GRAD, ir_type_of(g, ref), 0, args, 4);
 }
@@ -149,19 +149,19 @@ static const uint8_t *mark_shared(struct shader *shader, ir_ref slots)
 
 ir_ref closure_own_textures(struct shader *shader, ir_ref slots)
 {
-    struct closure_rewriting r = {shader, shader->graph, NULL};
-    uint32_t num_nodes = slots + 1;
+    struct ir_graph *g = shader->graph;
+    struct closure_copies r = {.shader = shader};
     const uint8_t *is_shared = mark_shared(shader, slots),
-                  *needed = ir_mark(r.graph, &slots, 1, shader->arena);
-    r.became = ARENA_ARRAY(shader->arena, ir_ref, num_nodes);
-    for (ir_ref ref = 1; ref < num_nodes; ref++) {
-        r.became[ref] = ref;
+                  *needed = ir_mark(g, &slots, 1, shader->arena);
+    ir_ref *became = closure_room_for_copies(&r, slots);
+    for (ir_ref ref = 1; ref <= slots; ref++) {
+        became[ref] = ref;
         if (!needed[ref] || is_shared[ref])
             continue;
-        ir_push_origin_of(r.graph, ref);
-        bool is_texture = ir_get(r.graph, ref)->op == IR_TEX;
-        r.became[ref] = is_texture ? with_derivatives(&r, ref) : closure_over_copies(&r, ref, 0);
-        ir_pop_origin(r.graph);
+        ir_push_origin_of(g, ref);
+        bool is_texture = ir_get(g, ref)->op == IR_TEX;
+        became[ref] = is_texture ? with_derivatives(&r, ref) : closure_over_copies(&r, ref, 0);
+        ir_pop_origin(g);
     }
-    return r.became[slots];
+    return became[slots];
 }

@@ -1,86 +1,124 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Copies of values for a loop over lights or samples. */
+/*
+ * Copies of values: for a loop over lights or samples, or where a choice is known. Values share
+ * copies, so a value that is copied after another one costs only the nodes that differ.
+ */
 #include "closure/closure_priv.h"
 
-ir_ref closure_over_copies(struct closure_rewriting *r, ir_ref ref, ir_ref last)
+#include <assert.h>
+#include <string.h>
+
+enum { OPEN = UINT32_MAX }; /* needs a copy */
+
+ir_ref *closure_room_for_copies(struct closure_copies *c, ir_ref last)
 {
-    const struct ir_node node = *ir_get(r->graph, ref);
-    ir_ref *args = ARENA_ARRAY(r->shader->arena, ir_ref, node.num_args + 1u);
+    uint32_t len = c->became.len;
+    if (last >= len)
+        memset(vec_extend(c->shader->arena, &c->became, last + 1 - len), 0,
+               (last + 1 - len) * sizeof(ir_ref));
+    return c->became.items;
+}
+
+ir_ref closure_over_copies(struct closure_copies *c, ir_ref ref, ir_ref last)
+{
+    struct ir_graph *g = c->shader->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref *args = ARENA_ARRAY(c->shader->arena, ir_ref, node.num_args + 1u);
     bool changed = last != 0;
     uint32_t n = 0;
     for (; n < node.num_args; n++) {
-        ir_ref arg = ir_arg(r->graph, ref, n);
-        args[n] = r->became[arg] ? r->became[arg] : arg;
+        ir_ref arg = ir_arg(g, ref, n), copy = c->became.items[arg];
+        assert(copy != OPEN);
+        args[n] = copy ? copy : arg;
         changed |= args[n] != arg;
     }
     if (last)
         args[n++] = last;
-    return changed ? ir_build(r->graph, (enum ir_op)node.op, node.type, node.attr, args, n) : ref;
+    return changed ? ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, n) : ref;
 }
 
-/* Nodes of a loop are younger than most others, so the pass down ends long before node 1. */
-ir_ref closure_mark_loop(struct shader *shader, ir_ref root, uint8_t **out_needed)
+static bool open(struct closure_copies *c, ir_ref ref)
 {
-    const struct ir_graph *g = shader->graph;
-    uint8_t *needed = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
+    if (c->became.items[ref] || !(ir_get(c->shader->graph, ref)->flags & IR_NODE_LOOP))
+        return false;
+    c->became.items[ref] = OPEN;
+    return true;
+}
+
+/*
+ * Opens the nodes of a loop that `root` needs and that have no copy. Returns the first of them;
+ * root + 1: there are none. Nodes of a loop are younger than most others, so the pass down ends
+ * long before node 1.
+ */
+static ir_ref open_needed(struct closure_copies *c, ir_ref root)
+{
+    const struct ir_graph *g = c->shader->graph;
+    closure_room_for_copies(c, root);
     ir_ref ref = root + 1;
-    uint32_t num_open = needed[root] = (ir_get(g, root)->flags & IR_NODE_LOOP) != 0;
-    while (num_open > 0) {
-        if (!needed[--ref])
+    for (uint32_t num_open = open(c, root); num_open > 0;) {
+        if (c->became.items[--ref] != OPEN)
             continue;
         num_open--;
-        for (uint32_t i = 0; i < ir_get(g, ref)->num_args; i++) {
-            ir_ref arg = ir_arg(g, ref, i);
-            if (!(ir_get(g, arg)->flags & IR_NODE_LOOP) || needed[arg])
-                continue;
-            needed[arg] = 1;
-            num_open++;
-        }
+        for (uint32_t i = 0; i < ir_get(g, ref)->num_args; i++)
+            num_open += open(c, ir_arg(g, ref, i));
     }
-    *out_needed = needed;
     return ref;
 }
 
-static ir_ref root_of(const struct closure_rewriting *r, ir_ref root)
+static ir_ref copy_of(const struct closure_copies *c, ir_ref ref)
 {
-    return r->became[root] ? r->became[root] : root;
+    return c->became.items[ref] ? c->became.items[ref] : ref;
 }
 
-ir_ref closure_in_loop(struct shader *shader, ir_ref root, uint32_t loop)
+void closure_enter_loop(struct closure_copies *c, uint32_t loop)
 {
-    if (!loop || !root)
+    if (c->loop != loop)
+        c->became.len = 0;
+    c->loop = loop;
+}
+
+ir_ref closure_in_loop(struct closure_copies *c, ir_ref root)
+{
+    if (!c->loop || !root)
         return root;
-    uint8_t *needed;
-    ir_ref first = closure_mark_loop(shader, root, &needed);
-    struct closure_rewriting r = {shader, shader->graph,
-                                  ARENA_ARRAY(shader->arena, ir_ref, root + 1)};
-    ir_ref number = ir_const_int(r.graph, (int32_t)loop);
-    for (ir_ref ref = first; ref <= root; ref++) {
-        if (!needed[ref])
+    struct ir_graph *g = c->shader->graph;
+    ir_ref number = ir_const_int(g, (int32_t)c->loop);
+    for (ir_ref ref = open_needed(c, root); ref <= root; ref++) {
+        if (c->became.items[ref] != OPEN)
             continue;
-        const struct ir_node *node = ir_get(r.graph, ref);
+        const struct ir_node *node = ir_get(g, ref);
         bool is_source = (node->op == IR_CONTEXT || node->op == IR_SAMPLE) && !node->num_args;
-        ir_push_origin_of(r.graph, ref);
-        r.became[ref] = closure_over_copies(&r, ref, is_source ? number : 0);
-        ir_pop_origin(r.graph);
+        ir_push_origin_of(g, ref);
+        c->became.items[ref] = closure_over_copies(c, ref, is_source ? number : 0);
+        ir_pop_origin(g);
     }
-    return root_of(&r, root);
+    return copy_of(c, root);
 }
 
-ir_ref closure_chosen(struct shader *shader, ir_ref root, ir_ref choice, bool is_true)
+ir_ref closure_chosen(struct closure_copies *c, ir_ref root, ir_ref choice, bool is_true)
 {
-    uint8_t *needed;
-    ir_ref first = closure_mark_loop(shader, root, &needed);
-    struct closure_rewriting r = {shader, shader->graph,
-                                  ARENA_ARRAY(shader->arena, ir_ref, root + 1)};
-    for (ir_ref ref = first; ref <= root; ref++) {
-        if (!needed[ref])
+    struct ir_graph *g = c->shader->graph;
+    for (ir_ref ref = open_needed(c, root); ref <= root; ref++) {
+        if (c->became.items[ref] != OPEN)
             continue;
-        ir_push_origin_of(r.graph, ref);
-        bool is_choice = ir_get(r.graph, ref)->op == IR_SELECT && ir_arg(r.graph, ref, 0) == choice;
-        r.became[ref] = is_choice ? root_of(&r, ir_arg(r.graph, ref, is_true ? 1 : 2))
-                                  : closure_over_copies(&r, ref, 0);
-        ir_pop_origin(r.graph);
+        ir_push_origin_of(g, ref);
+        bool is_choice = ir_get(g, ref)->op == IR_SELECT && ir_arg(g, ref, 0) == choice;
+        c->became.items[ref] = is_choice ? copy_of(c, ir_arg(g, ref, is_true ? 1 : 2))
+                                         : closure_over_copies(c, ref, 0);
+        ir_pop_origin(g);
     }
-    return root_of(&r, root);
+    return copy_of(c, root);
+}
+
+bool closure_reads_turn(struct closure_copies *c, ir_ref root)
+{
+    bool any = false;
+    for (ir_ref ref = open_needed(c, root); ref <= root; ref++) {
+        if (c->became.items[ref] != OPEN)
+            continue;
+        const struct ir_node *node = ir_get(c->shader->graph, ref);
+        any |= node->op == IR_SAMPLE && node->attr == IR_SAMPLE_TURN;
+        c->became.items[ref] = ref;
+    }
+    return any;
 }

@@ -107,25 +107,15 @@ void closure_find_sample_loops(struct shader *shader, const struct closure_parts
 
 /* ---- The turn of samples ---- */
 
-static bool reads_turn(struct shader *shader, ir_ref value)
-{
-    const struct ir_graph *g = shader->graph;
-    uint8_t *needed;
-    for (ir_ref ref = closure_mark_loop(shader, value, &needed); ref <= value; ref++)
-        if (needed[ref] && ir_get(g, ref)->op == IR_SAMPLE
-            && ir_get(g, ref)->attr == IR_SAMPLE_TURN)
-            return true;
-    return false;
-}
-
 struct closure_turn closure_turn_of_samples(struct shader *shader, const struct closure_parts *list)
 {
     enum { COS, SIN };
     static const float golden[] = {-0.73736888f, 0.67549029f}; /* of the golden angle */
     struct ir_graph *g = shader->graph;
+    struct closure_copies seen = {.shader = shader};
     bool any = false;
     for (uint32_t i = 0; i < list->parts.len && !any; i++)
-        any = reads_turn(shader, list->parts.items[i].value);
+        any = closure_reads_turn(&seen, list->parts.items[i].value);
     if (!any)
         return (struct closure_turn){0};
     ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f),
@@ -149,9 +139,9 @@ ir_ref closure_gathered(struct shader *shader, ir_ref value)
     struct closure_parts parts = {0};
     vec_push(shader->arena, &parts.parts, (struct closure_part){.value = value});
     struct closure_turn turn = closure_turn_of_samples(shader, &parts);
-    uint32_t loop = shader->num_sample_loops++;
-    value = closure_in_loop(shader, value, loop);
-    turn.next = closure_in_loop(shader, turn.next, loop);
+    struct closure_copies copies = {.shader = shader, .loop = shader->num_sample_loops++};
+    value = closure_in_loop(&copies, value);
+    turn.next = closure_in_loop(&copies, turn.next);
     struct effect effects[] = {{.kind = EFFECT_VAR, .index = sum, .value = nothing},
                                {.kind = EFFECT_SAMPLES, .value = turn.first},
                                {.kind = EFFECT_ACCUMULATE, .index = sum, .value = value},

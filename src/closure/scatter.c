@@ -44,7 +44,7 @@ struct closure_scatter {
     ir_ref total;
     /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
     ir_ref scale;
-    uint32_t loop; /* number of the layer, whose light loop is its own */
+    struct closure_copies copies; /* of the layer, whose light loop is its own */
     /* of a stack: locals for what the picked layer gives; of a surface: what it gives */
     bool is_stack;
     uint32_t emission_local, seen_local, lit_local, to_light, away;
@@ -55,7 +55,7 @@ struct closure_scatter {
 
 static void effect(struct closure_scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
 {
-    value = closure_in_loop(s->shader, value, s->loop);
+    value = closure_in_loop(&s->copies, value);
     shader_effect(s->shader, STAGE_PIXEL,
                   (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
@@ -305,8 +305,11 @@ struct closure_scatter *closure_scatter_begin(struct shader *shader,
                                               const struct closure_lighting *lighting)
 {
     struct closure_scatter *s = ARENA_NEW(shader->arena, struct closure_scatter);
-    *s = (struct closure_scatter){
-        .shader = shader, .graph = shader->graph, .host = host, .lighting = lighting};
+    *s = (struct closure_scatter){.shader = shader,
+                                  .graph = shader->graph,
+                                  .host = host,
+                                  .lighting = lighting,
+                                  .copies = {.shader = shader}};
     return s;
 }
 
@@ -390,7 +393,7 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
     effect(s, EFFECT_ASSIGN, s->pick, op2(s, IR_MUL, layer->chance, s->total));
     sample_leaves(s);
     keep_layer(s);
-    s->loop++;
+    closure_enter_loop(&s->copies, s->copies.loop + 1);
     if (layer->is_it)
         effect(s, EFFECT_END, 0, 0);
 }
@@ -419,7 +422,7 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
 {
     ir_ref one = number(s, 1.0f), nothing = number(s, 0.0f);
     assert(!alpha || ir_type_of(s->graph, alpha) == IR_TYPE_FLOAT);
-    s->loop = 0;
+    closure_enter_loop(&s->copies, 0);
     if (!s->list) /* a stack of nothing */
         declare_layers(s);
     if (s->is_stack)

@@ -22,13 +22,13 @@ struct emitter {
     const struct closure_host *host;
     const struct closure_lighting *lighting;
     struct closure_lit lit;
-    uint32_t loop;  /* number of the current loop over lights or samples */
-    ir_ref through; /* vec3: the transmitted part, with transmits_alpha; 0: none */
+    struct closure_copies copies; /* of the current loop */
+    ir_ref through;               /* vec3: the transmitted part, with transmits_alpha; 0: none */
 };
 
 static void effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
 {
-    value = closure_in_loop(e->shader, value, e->loop);
+    value = closure_in_loop(&e->copies, value);
     shader_effect(e->shader, STAGE_PIXEL,
                   (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
@@ -300,7 +300,7 @@ static void loop_lights(struct emitter *e)
     }
     comment(e, STR_lights);
     effect(e, EFFECT_LIGHTS, 0, 0);
-    e->loop = e->shader->num_light_loops++;
+    closure_enter_loop(&e->copies, e->shader->num_light_loops++);
     accumulate_all(e, &e->lit.at[PLACE_LIGHT], true, factor);
     if (e->lighting->shadow)
         effect(e, EFFECT_ASSIGN, local, ir_const_float(e->graph, 1.0f));
@@ -313,7 +313,7 @@ static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref f
 {
     struct closure_turn turn = closure_turn_of_samples(e->shader, list);
     effect(e, EFFECT_SAMPLES, 0, turn.first);
-    e->loop = e->shader->num_sample_loops++;
+    closure_enter_loop(&e->copies, e->shader->num_sample_loops++);
     if (list->parts.len == 1)
         accumulate(e, factor, list->parts.items[0].value);
     else
@@ -327,10 +327,11 @@ static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref f
 static struct closure_parts chosen_parts(struct emitter *e, const struct closure_sample_loop *loop,
                                          bool is_true)
 {
+    struct closure_copies copies = {.shader = e->shader};
     struct closure_parts chosen = {0};
     for (uint32_t i = 0; i < loop->list.parts.len; i++) {
         struct closure_part part = loop->list.parts.items[i];
-        part.value = closure_chosen(e->shader, part.value, loop->choice, is_true);
+        part.value = closure_chosen(&copies, part.value, loop->choice, is_true);
         vec_push(e->shader->arena, &chosen.parts, part);
     }
     return chosen;
@@ -822,6 +823,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
                   const struct closure_lighting *lighting, ir_ref root)
 {
     struct emitter e = {.shader = shader,
+                        .copies = {.shader = shader},
                         .graph = shader->graph,
                         .host = host,
                         .lighting = lighting,
