@@ -69,7 +69,7 @@ bool generation_check_pipeline(struct generation *g)
 
 bool generation_stores(const struct generation *g)
 {
-    return g->options[OPTION_pipeline].number == PIPELINE_DEFERRED && !g->is_pass;
+    return g->options[OPTION_pipeline].number == PIPELINE_DEFERRED && !g->is_pass && !g->misfit;
 }
 
 struct deferred_layout generation_storage(const struct option_value *options,
@@ -98,19 +98,56 @@ void generation_defer(struct generation *g)
     }
 }
 
-bool generation_can_store(struct generation *g)
+void generation_hide_misfits(struct generation *g)
+{
+    if (generation_stores(g) && g->options[OPTION_slabs].number)
+        g->root = build_without_hidden(g->builder, g->root);
+}
+
+static void report_misfit(struct generation *g, ir_ref misfit)
 {
     const struct shader *shader = &g->result->shader;
-    ir_ref misfit = generation_stores(g) ? deferred_misfit(shader, g->root) : 0;
-    if (!misfit)
-        return true;
     const struct ir_origin *origin =
         &shader->graph->origins.items[ir_get(shader->graph, misfit)->origin];
     const struct document *doc = &g->document->layer.doc;
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_closure_not_stored,
              doc_place(doc, origin->element ? origin->element : g->element),
              str_text(shader->strings, origin->name));
-    return false;
+}
+
+/* The shader lights itself, because of a closure that is no slab. */
+static void draw_forward(struct generation *g, ir_ref misfit)
+{
+    g->misfit = misfit;
+    g->build_options.marks_slabs = false;
+    g->closure_host.store = NULL;
+}
+
+bool generation_can_store(struct generation *g)
+{
+    ir_ref misfit = generation_stores(g) ? deferred_misfit(&g->result->shader, g->root) : 0;
+    if (misfit && g->options[OPTION_slabs].number)
+        draw_forward(g, misfit);
+    else if (misfit)
+        report_misfit(g, misfit);
+    return !misfit || g->misfit;
+}
+
+/* Why a material lights itself. */
+static const char *why_forward(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    const struct ir_graph *graph = shader->graph;
+    if (!closure_is_surface(shader, g->root))
+        return "it is no surface";
+    if (!g->misfit)
+        return shader->alpha == ALPHA_BLEND ? "its opacity may be between 0 and 1" : "it has AOVs";
+    struct text why;
+    text_init(&why, &g->scratch);
+    text_fmt(
+        &why, "its part '%s' is no slab",
+        str_text(shader->strings, graph->origins.items[ir_get(graph, g->misfit)->origin].name));
+    return text_cstr(&why);
 }
 
 void generation_tell_forward(struct generation *g)
@@ -123,11 +160,9 @@ void generation_tell_forward(struct generation *g)
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,
                  doc_place(doc, g->element), str_text(shader->strings, shader->name),
                  (unsigned)shader->closures.len, (unsigned)DEFERRED_MAX_CLOSURES);
-    if (!generation_stores(g) || shader->stored_words)
+    bool is_asked = generation_stores(g) || g->misfit;
+    if (!is_asked || shader->stored_words)
         return;
-    const char *why = !closure_is_surface(shader, g->root) ? "it is no surface"
-                      : shader->alpha == ALPHA_BLEND       ? "its opacity may be between 0 and 1"
-                                                           : "it has AOVs";
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_drawn_forward, doc_place(doc, g->element),
-             str_text(shader->strings, shader->name), why);
+             str_text(shader->strings, shader->name), why_forward(g));
 }

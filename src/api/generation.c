@@ -402,6 +402,7 @@ bool generation_emit(struct generation *g)
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
+    generation_hide_misfits(g);
     if (!generation_budget_slabs(g) || !generation_can_store(g))
         return false;
     generation_walk_slabs(g);

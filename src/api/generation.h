@@ -74,6 +74,7 @@ struct generation {
     bool cancelled;
     bool is_pass;               /* a pass of the deferred pipeline that belongs to no material */
     enum deferred_class stored; /* a pass that lights stored closures; CLASS_EMPTY: a material */
+    ir_ref misfit; /* a closure that is no slab, so the material is drawn forward; 0: none */
     struct closure_above above;
     void *user_data; /* for the caller's `steps` */
 };
@@ -123,7 +124,12 @@ struct deferred_layout generation_storage(const struct option_value *options,
 void generation_defer(struct generation *g);
 /* Warns about a material whose shader lights itself; reports one with too many closures. */
 void generation_tell_forward(struct generation *g);
-/* False, after a diagnostic, if a surface to store has closures that are no slabs. */
+/* Before budgets: leaves out what a slab cannot stand for, where the document hides it. */
+void generation_hide_misfits(struct generation *g);
+/*
+ * After budgets, about closures that are no slabs: with the option `slabs` the material is drawn
+ * forward, else false after a diagnostic.
+ */
 bool generation_can_store(struct generation *g);
 
 /* generation.c: shared with network.c. */

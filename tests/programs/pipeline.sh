@@ -72,6 +72,35 @@ check "positions are invariant" grep -q 'invariant gl_Position' materials/Plain.
 echo /a >eight.txt
 check "a stack of eight layers" "$mxgen" eight.mtlx --stage eight.txt --look L --target vulkan --pipeline deferred --reflect -o eight
 
+# ---- other materials, as slabs ----
+
+cat >models.mtlx <<'X'
+<materialx version="1.39">
+  <standard_surface name="Paint" type="surfaceshader"><input name="base" type="float" value="1"/></standard_surface>
+  <standard_surface name="Glass" type="surfaceshader"><input name="transmission" type="float" value="1"/></standard_surface>
+  <surface_unlit name="Flat" type="surfaceshader"/>
+</materialx>
+X
+as_slabs() { "$mxgen" models.mtlx --target vulkan --pipeline deferred --reflect -o models "$@" >out 2>&1; }
+check "a model without --slabs is an error" exits 1 as_slabs -e Paint
+check "and says so" grep -q closure-not-stored out
+check "a model" as_slabs -e Paint --interface reduced --slabs
+check "takes the bytes of one slab" eval '[ "$(number models/Paint.json words)" = 3 ] && ! grep -q drawn-forward out'
+check "with all inputs" as_slabs -e Paint --slabs --transparency opaque
+check "its glass is compiled in" python3 -c 'import json
+reflection = json.load(open("models/Paint.json"))
+assert reflection["deferred"]["words"] > 3, reflection["deferred"]
+compiled = {item["path"] for item in reflection["compiledInputs"]}
+assert {"Paint/transmission", "Paint/thin_walled"} <= compiled and "Paint/specular_roughness" not in compiled, compiled'
+check "glass" as_slabs -e Glass --interface reduced --slabs
+check "is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction' is no slab" out
+check "and lights itself" eval '! grep -q mx_word_0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
+check "glass in a budget" as_slabs -e Glass --interface reduced --max-closures 4
+check "is stored" eval 'grep -q mx_word_0 models/Glass.frag && ! grep -q drawn-forward out'
+check "what only glows" as_slabs -e Flat --interface reduced
+check "passes do not become slabs" "$mxgen" pipeline slabs --slabs --max-closures 1
+check "but stay as they are" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'
+
 # ---- what is an error ----
 
 cat >other.mtlx <<'X'
