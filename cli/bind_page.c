@@ -120,7 +120,8 @@ static uint32_t number_of_set(struct page *page, struct page_set set)
     for (uint32_t found; (found = page->set_table.slots[at]) != 0; at = (at + 1) & mask) {
         const struct page_set *other = &page->sets[found - 1];
         if (other->num == set.num
-            && memcmp(page->layers + other->first, page->layers + set.first, size) == 0)
+            && (size == 0
+                || memcmp(page->layers + other->first, page->layers + set.first, size) == 0))
             return found - 1;
     }
     size_t number = page->set_table.len++;

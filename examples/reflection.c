@@ -17,6 +17,10 @@ static const char *const block_names[MXG_NUM_BLOCKS] = {
     [MXG_BLOCK_APP_DATA] = "vertex attributes",
     [MXG_BLOCK_VERTEX_DATA] = "vertex to pixel stage",
     [MXG_BLOCK_OUTPUTS] = "outputs",
+    [MXG_BLOCK_OWN_1] = "first block of nodes in C",
+    [MXG_BLOCK_OWN_2] = "second block of nodes in C",
+    [MXG_BLOCK_OWN_3] = "third block of nodes in C",
+    [MXG_BLOCK_OWN_4] = "fourth block of nodes in C",
 };
 
 static void print_variable(const mxg_variable *v)

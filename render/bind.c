@@ -232,10 +232,15 @@ static bool store_lights(struct bind *bind, uint32_t object, const mxg_variable 
     return true;
 }
 
+/* mxgen's own uniforms, and those of nodes in C. */
+static bool is_private(const mxg_variable *variable)
+{
+    return variable->block == MXG_BLOCK_PRIVATE_UNIFORMS || variable->block >= MXG_BLOCK_OWN_1;
+}
+
 static bool is_uniform(const mxg_variable *variable)
 {
-    return variable->block == MXG_BLOCK_PUBLIC_UNIFORMS
-           || variable->block == MXG_BLOCK_PRIVATE_UNIFORMS
+    return variable->block == MXG_BLOCK_PUBLIC_UNIFORMS || is_private(variable)
            || variable->block == MXG_BLOCK_LIGHT_DATA;
 }
 
@@ -269,7 +274,7 @@ static bool fill_blocks(struct bind *bind, uint32_t object)
         mxg_variable variable = get_variable(bind, i);
         if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, object, &variable))
             return false;
-        if (variable.block == MXG_BLOCK_PRIVATE_UNIFORMS)
+        if (is_private(&variable))
             store_private(bind, object, &variable);
         if (variable.block == MXG_BLOCK_LIGHT_DATA && !store_lights(bind, object, &variable))
             return false;

@@ -109,12 +109,32 @@ static bool build_fuzz(void *user_data, mxg_build *build, mxg_ref *results)
     return true;
 }
 
+/* ---- weathered: reads what the host sets once for all shaders of a frame ---- */
+
+static bool build_weathered(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    static const char *const names[] = {"in", "dust", "amount"};
+    const mxg_build_uniform frame = {.size = sizeof frame,
+                                     .name = "u_studioDust",
+                                     .type = "float",
+                                     .semantic = "studio:dust",
+                                     .block = "StudioFrame"};
+    (void)user_data;
+    const mxg_ref args[] = {mxg_build_input(build, "in"), mxg_build_input(build, "dust"),
+                            mxg_build_add_uniform(build, &frame)};
+    results[0] =
+        mxg_build_expression(build, "vec3", "mix({{in}}, {{dust}}, {{amount}})", names, args, 3);
+    return true;
+}
+
 /* ---- The plug-in ---- */
 
 static const mxg_node_code curve = {sizeof curve, "ND_curve_float", NULL, 1, build_curve, NULL,
                                     NULL};
 static const mxg_node_code placed_texcoord = {
     sizeof placed_texcoord, "placed_texcoord", NULL, 1, build_placed_texcoord, NULL, NULL};
+static const mxg_node_code weathered = {
+    sizeof weathered, "ND_weathered_color3", NULL, 1, build_weathered, NULL, NULL};
 static const mxg_node_code fuzz = {sizeof fuzz, "ND_fuzz_bsdf", NULL, 1, build_fuzz, NULL, NULL};
 
 /* Not code: a cheaper definition for one target. */
@@ -127,8 +147,9 @@ static const mxg_node_code cheap = {.size = sizeof cheap,
 MXG_API const mxg_plugin *mxgen_plugin(void);
 const mxg_plugin *mxgen_plugin(void)
 {
-    static const mxg_node_code *const nodes[] = {&curve, &placed_texcoord, &fuzz, &cheap};
+    static const mxg_node_code *const nodes[] = {&curve, &placed_texcoord, &fuzz, &weathered,
+                                                 &cheap};
     static const char *const libraries[] = {"studio.mtlx"};
-    static const mxg_plugin plugin = {MXG_PLUGIN_VERSION, "studio", nodes, 4, libraries, 1};
+    static const mxg_plugin plugin = {MXG_PLUGIN_VERSION, "studio", nodes, 5, libraries, 1};
     return &plugin;
 }

@@ -71,7 +71,8 @@ static void write_uniform_block(struct spell *spell, enum shader_block block)
 {
     const struct shader_buffer *buffer = &spell->shader->buffers[block];
     write_layout(spell, buffer->set, buffer->binding, true);
-    SPELL(spell, "uniform ", spell_frame_name(spell, shader_block_name(block)), " {\n");
+    SPELL(spell, "uniform ", spell_frame_name(spell, shader_block_name(spell->shader, block)),
+          " {\n");
     write_members(spell, block);
     spell_text(spell, "};\n");
 }
@@ -80,7 +81,7 @@ static void write_uniform(struct spell *spell, const struct shader_variable *var
 {
     spell_text(spell, "uniform ");
     spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
-    bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->shader->rules.neutral_names;
+    bool fixed = variable->block != BLOCK_PUBLIC_UNIFORMS || !spell->shader->rules.neutral_names;
     if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed
         && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
         spell_text(spell, " = ");
@@ -101,6 +102,13 @@ static void write_uniforms(struct spell *spell, enum shader_block block)
     SPELL_EACH_OF_BLOCK(i, spell, block)
     if (spell_uses(spell, spell_interface_variable(spell, i)))
         write_uniform(spell, spell_interface_variable(spell, i));
+}
+
+static void write_all_uniforms(struct spell *spell)
+{
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        if (shader_block_has_uniforms((enum shader_block)block))
+            write_uniforms(spell, (enum shader_block)block);
 }
 
 static void write_light_data(struct spell *spell)
@@ -179,8 +187,7 @@ static void write_vertex_data(struct spell *spell)
 static void declare_for_function(struct spell *spell)
 {
     spell_structs(spell);
-    write_uniforms(spell, BLOCK_PUBLIC_UNIFORMS);
-    write_uniforms(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_all_uniforms(spell);
     write_textures(spell);
 }
 
@@ -188,8 +195,7 @@ static void declare(struct spell *spell)
 {
     write_header(spell);
     spell_structs(spell);
-    write_uniforms(spell, BLOCK_PUBLIC_UNIFORMS);
-    write_uniforms(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_all_uniforms(spell);
     write_light_data(spell);
     write_textures(spell);
     if (spell->stage_id == STAGE_VERTEX)

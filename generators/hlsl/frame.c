@@ -58,7 +58,7 @@ static void write_buffer(struct spell *spell, enum shader_block block)
 {
     if (!spell_uses_block(spell, block))
         return;
-    open_buffer(spell, block, shader_block_name(block));
+    open_buffer(spell, block, shader_block_name(spell->shader, block));
     SPELL_EACH_OF_BLOCK(i, spell, block)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
@@ -70,6 +70,13 @@ static void write_buffer(struct spell *spell, enum shader_block block)
         spell_text(spell, ");\n");
     }
     spell_text(spell, "};\n");
+}
+
+static void write_buffers(struct spell *spell)
+{
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        if (shader_block_has_uniforms((enum shader_block)block))
+            write_buffer(spell, (enum shader_block)block);
 }
 
 static void write_lights(struct spell *spell)
@@ -197,8 +204,7 @@ static void declare_structs(struct spell *spell)
 static void declare_for_function(struct spell *spell)
 {
     declare_structs(spell);
-    write_buffer(spell, BLOCK_PUBLIC_UNIFORMS);
-    write_buffer(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_buffers(spell);
     write_textures(spell);
 }
 
@@ -210,8 +216,7 @@ static void declare(struct spell *spell)
     spell_title(spell);
     SPELL(spell, "\n// shader model ", version, "\n\n");
     declare_structs(spell);
-    write_buffer(spell, BLOCK_PUBLIC_UNIFORMS);
-    write_buffer(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_buffers(spell);
     write_lights(spell);
     write_textures(spell);
     if (reads_vertex_data(spell))

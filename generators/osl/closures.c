@@ -22,8 +22,8 @@ static ir_ref unlit(struct osl_tree *t, ir_ref emitted, ir_ref transmitted, ir_r
     ir_ref glow = osl_emission(t, ir_convert(t->graph, IR_TYPE_VEC3, emitted)), through = 0;
     if (!ir_const_is(t->graph, transmitted, 0.0f)) {
         t->shader->transparent = true;
-        through =
-            osl_scaled(t, osl_transparent(t), ir_convert(t->graph, IR_TYPE_VEC3, transmitted));
+        through = osl_transparent(t);
+        through = osl_scaled(t, through, ir_convert(t->graph, IR_TYPE_VEC3, transmitted));
     }
     return seen_through(t, osl_sum(t, glow, through), opacity);
 }
@@ -71,7 +71,8 @@ static ir_ref surface(struct osl_tree *t, ir_ref closure, ir_ref opacity, bool p
     if (!premultiplied || ir_const_is(t->graph, opacity, 1.0f))
         return seen_through(t, closure, opacity);
     t->shader->transparent = true;
-    ir_ref through = osl_scaled(t, osl_transparent(t), closure_one_minus(t->graph, opacity));
+    ir_ref through = osl_transparent(t);
+    through = osl_scaled(t, through, closure_one_minus(t->graph, opacity));
     return osl_sum(t, closure, through);
 }
 
@@ -141,7 +142,8 @@ static ir_ref closure_of(struct osl_tree *t, ir_ref root)
 
 static ir_ref parts_of(struct osl_tree *t, const struct closure_surface *s)
 {
-    ir_ref closure = osl_sum(t, closure_below(t, s->bsdf), closure_below(t, s->edf));
+    ir_ref closure = closure_below(t, s->bsdf);
+    closure = osl_sum(t, closure, closure_below(t, s->edf));
     ir_ref glow = s->unlit ? osl_emission(t, ir_convert(t->graph, IR_TYPE_VEC3, s->unlit)) : 0;
     return osl_sum(t, closure, glow);
 }
@@ -163,7 +165,8 @@ static ir_ref blended(struct osl_tree *t, ir_ref slots)
     if (ir_const_is(g, alpha, 1.0f))
         return sum;
     t->shader->transparent = true;
-    return osl_sum(t, sum, osl_scaled(t, osl_transparent(t), closure_one_minus(g, alpha)));
+    ir_ref through = osl_transparent(t);
+    return osl_sum(t, sum, osl_scaled(t, through, closure_one_minus(g, alpha)));
 }
 
 /* ---- Effects ---- */
@@ -300,7 +303,8 @@ static void emit_picked(struct osl_tree *t, uint32_t out, ir_ref slots)
         return;
     t->shader->transparent = true;
     struct closure_aovs none = {0};
-    put_closure(t, out, osl_transparent(t), none, ir_op2(t->graph, IR_GE, number, choices.covered));
+    ir_ref through = osl_transparent(t);
+    put_closure(t, out, through, none, ir_op2(t->graph, IR_GE, number, choices.covered));
 }
 
 static void emit_side(struct osl_tree *t, uint32_t out, ir_ref surface)

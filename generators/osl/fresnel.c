@@ -33,14 +33,14 @@ static ir_ref schlick_rise(struct ir_graph *g, ir_ref frontal, ir_ref edge, ir_r
 static ir_ref dielectric_rise(struct ir_graph *g, ir_ref n, ir_ref cosine)
 {
     ir_ref one = ir_const_float(g, 1.0f);
-    ir_ref d = ir_op1(g, IR_SQRT,
-                      ir_op2(g, IR_ADD, ir_op2(g, IR_SUB, squared(g, n), one), squared(g, cosine)));
+    ir_ref d = ir_op2(g, IR_SUB, squared(g, n), one);
+    d = ir_op1(g, IR_SQRT, ir_op2(g, IR_ADD, d, squared(g, cosine)));
     ir_ref sum = ir_op2(g, IR_ADD, d, cosine), difference = ir_op2(g, IR_SUB, d, cosine);
     ir_ref across = squared(g, ir_op2(g, IR_DIV, difference, sum));
-    ir_ref ratio = ir_op2(g, IR_DIV, ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, cosine, sum), one),
-                          ir_op2(g, IR_ADD, ir_op2(g, IR_MUL, cosine, difference), one));
-    ir_ref frontal =
-        squared(g, ir_op2(g, IR_DIV, ir_op2(g, IR_SUB, n, one), ir_op2(g, IR_ADD, n, one)));
+    ir_ref ratio = ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, cosine, sum), one);
+    ratio = ir_op2(g, IR_DIV, ratio, ir_op2(g, IR_ADD, ir_op2(g, IR_MUL, cosine, difference), one));
+    ir_ref frontal = ir_op2(g, IR_SUB, n, one);
+    frontal = squared(g, ir_op2(g, IR_DIV, frontal, ir_op2(g, IR_ADD, n, one)));
     ir_ref twice = ir_op2(g, IR_MUL, across, ir_op2(g, IR_ADD, squared(g, ratio), one));
     return ir_op2(g, IR_DIV, ir_op2(g, IR_MUL, twice, ir_const_float(g, 0.5f)), frontal);
 }

@@ -79,7 +79,9 @@ static unsigned array_length(const struct shader_variable *variable)
 
 static bool is_stream(const struct shader_variable *variable)
 {
-    return variable->block == BLOCK_VERTEX_DATA || variable->block == BLOCK_PRIVATE_UNIFORMS;
+    return variable->block == BLOCK_VERTEX_DATA
+           || (shader_block_has_uniforms((enum shader_block)variable->block)
+               && variable->block != BLOCK_PUBLIC_UNIFORMS);
 }
 
 /* "st_value": the struct that receives the array. */

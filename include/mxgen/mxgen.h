@@ -595,6 +595,14 @@ typedef enum mxg_block {
     MXG_BLOCK_APP_DATA,
     MXG_BLOCK_VERTEX_DATA,
     MXG_BLOCK_OUTPUTS,
+    /*
+     * The blocks that nodes in C declare (mxg_build_uniform.block), in the order of their
+     * declaration. Their bindings follow those of the textures.
+     */
+    MXG_BLOCK_OWN_1,
+    MXG_BLOCK_OWN_2,
+    MXG_BLOCK_OWN_3,
+    MXG_BLOCK_OWN_4,
     MXG_NUM_BLOCKS,
     MXG_BLOCK_MAX_ENUM = 0x7fffffff
 } mxg_block;
@@ -784,7 +792,7 @@ MXG_API mxg_change mxg_result_change(const mxg_result *before, const mxg_result 
 /* A block of the interface. Its variables have consecutive indices. */
 typedef struct mxg_block_info {
     size_t size;      /* in */
-    const char *name; /* "PublicUniforms" */
+    const char *name; /* "PublicUniforms"; "" for an own block that the shader has not */
     uint32_t first_variable, num_variables;
     /*
      * For uniforms in a buffer; 0 if the target or the options declare single uniforms. LightData:

@@ -155,6 +155,12 @@ typedef struct mxg_build_uniform {
     const char *semantic; /* mxg_variable.semantic; NULL: the name without "u_" */
     const float *values;  /* default; NULL: 0 */
     uint32_t num_values;
+    /*
+     * A block of the host's own, "StudioFrame", which it can fill once for many shaders; NULL: the
+     * block of private uniforms. A shader has up to four such blocks (MXG_BLOCK_OWN_1). A texture
+     * is in no block.
+     */
+    const char *block;
 } mxg_build_uniform;
 MXG_API mxg_ref mxg_build_add_uniform(mxg_build *build, const mxg_build_uniform *uniform);
 

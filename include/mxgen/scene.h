@@ -35,7 +35,9 @@ MXG_API mxg_status mxg_scene_load(mxg_context *context, const char *path, const 
 MXG_API void mxg_scene_destroy(mxg_scene *scene);
 /*
  * Adds primitives by their paths, "/set/table", and those above them. MXG_ERROR_DOCUMENT if a path
- * is none; the others are added. MXG_ERROR_ARGUMENT if bindings hold the scene.
+ * is none; the others are added. A change of a scene, also by the functions below, makes its
+ * bindings say nothing any more (0, UINT32_MAX, MXG_ERROR_ARGUMENT): call mxg_bind again, which
+ * needs little time with member `previous` of mxg_bind_desc.
  */
 MXG_API mxg_status mxg_scene_add(mxg_scene *scene, const char *const *paths, size_t num_paths);
 
@@ -45,9 +47,21 @@ typedef struct mxg_primitive {
     uint32_t parent, first_child, next_sibling;
     const char *name; /* name_len bytes, without a NUL */
     size_t name_len;
-    const char *type; /* of USD: "Mesh", type_len bytes; "": unknown */
+    const char *type; /* of USD or the host: "Mesh", type_len bytes; "": unknown */
     size_t type_len;
 } mxg_primitive;
+
+/*
+ * The same as mxg_scene_add, from a callback, which gives one primitive in each call and returns
+ * false at the end: `parent` (UINT32_MAX: none), `name`, which may be a path below the parent,
+ * "b/c", and `type`; the texts live until the next call. `last` is the number of the primitive
+ * before, also if the scene had it already; UINT32_MAX: there is none, or it was faulty. The
+ * callback must not use the scene.
+ */
+MXG_API mxg_status mxg_scene_add_each(mxg_scene *scene,
+                                      bool (*next_primitive)(void *user_data, uint32_t last,
+                                                             mxg_primitive *out),
+                                      void *user_data);
 /* Primitives have numbers from 0 on; a parent has a lower one than its children. */
 MXG_API uint32_t mxg_scene_num_primitives(const mxg_scene *scene);
 MXG_API mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primitive *out);
@@ -56,6 +70,35 @@ MXG_API uint32_t mxg_scene_find(const mxg_scene *scene, const char *path);
 /* Writes a path like mxg_slot_encode. */
 MXG_API size_t mxg_scene_path(const mxg_scene *scene, uint32_t index, char *buffer,
                               size_t capacity);
+
+/* ---- Bindings of the scene itself ---- */
+
+/*
+ * Binds a material to a slot of a primitive, or a nodegraph or a material to an override; ""
+ * removes what the primitive would inherit. It replaces the direct bindings of the slot there, also
+ * those of a file. Primitive UINT32_MAX is the whole scene. Bindings of a scene count as earlier
+ * than those of a look. MXG_ERROR_DOCUMENT if the slot's name is none; mxg_bind finds the material.
+ */
+MXG_API mxg_status mxg_scene_bind(mxg_scene *scene, uint32_t primitive, const char *slot,
+                                  const char *material);
+/* Removes the direct bindings of a slot there; what the primitive inherits shows again. */
+MXG_API mxg_status mxg_scene_unbind(mxg_scene *scene, uint32_t primitive, const char *slot);
+
+typedef struct mxg_slot_binding {
+    size_t size; /* in */
+    const char *slot;
+    const char *material; /* or the nodegraph; "": a removal */
+    bool is_collection;   /* it is for the members of a collection */
+    bool is_strong;       /* it beats the bindings of the scene below it */
+    bool is_purpose;      /* it is for the purpose of mxg_scene_load */
+    const char *file;     /* "": from mxg_scene_bind */
+    uint32_t line;
+} mxg_slot_binding;
+/* The bindings that stand at a primitive (UINT32_MAX: the whole scene). Texts live until a change.
+ */
+MXG_API uint32_t mxg_scene_num_bindings(const mxg_scene *scene, uint32_t primitive);
+MXG_API mxg_status mxg_scene_binding(const mxg_scene *scene, uint32_t primitive, uint32_t index,
+                                     mxg_slot_binding *out);
 
 /* ---- Properties of USD ---- */
 
@@ -122,6 +165,11 @@ typedef struct mxg_bind_desc {
     /* names that alone count, with all that hangs on them; names that do not count */
     const char *const *solo, *const *mute;
     size_t num_solo, num_mute;
+    /*
+     * bindings of the same scene before it or the document changed; what they know is not found
+     * again. The result is the same.
+     */
+    const mxg_bindings *previous;
 } mxg_bind_desc;
 #define MXG_BIND_DESC_INIT MXG_INIT(mxg_bind_desc)
 
@@ -132,6 +180,12 @@ typedef struct mxg_bind_desc {
 MXG_API mxg_status mxg_bind(mxg_context *context, const mxg_document *document, mxg_scene *scene,
                             const mxg_bind_desc *desc, mxg_bindings **out_bindings);
 MXG_API void mxg_bindings_destroy(mxg_bindings *bindings);
+/*
+ * The number of primitives whose assignments were found: all, or with `previous` those at or below
+ * a new primitive or a place where an assignment or a collection stands that was not there. A
+ * removed assignment, or another material, needs none.
+ */
+MXG_API uint32_t mxg_bindings_num_resolved(const mxg_bindings *bindings);
 
 typedef enum mxg_layer_kind {
     MXG_LAYER,          /* a slot; the base comes first */

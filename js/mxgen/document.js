@@ -245,14 +245,16 @@ export class Document extends Owner {
     /**
      * Finds the layers of each primitive of a scene. `look` is a look, or a look group with a default; null: the only look, or just the
      * bindings of the scene if the document has none. `solo` has the slots that alone count, `mute` those that do not. Throws DocumentError.
+     * `previous` are bindings of the scene before it or the document changed: only primitives at or below a difference are resolved again.
      */
-    bind(scene, look = null, { solo = [], mute = [] } = {}) {
+    bind(scene, look = null, { solo = [], mute = [], previous = null } = {}) {
         expect(scene, Scene, "scene");
         const native = this._native;
         return native.using(() => {
             const desc = native.newStruct("mxg_bind_desc", {
                 look: native.newOptionalText(look, "look"), solo: native.newTexts(solo, "a name of solo"), numSolo: solo.length,
-                mute: native.newTexts(mute, "a name of mute"), numMute: mute.length });
+                mute: native.newTexts(mute, "a name of mute"), numMute: mute.length,
+                previous: previous === null ? 0 : expect(previous, Bindings, "previous")._pointer });
             const { handle, status } = this.context._make("mxg_bind", "mxg_bindings_destroy", [this._handle, scene._handle],
                                                           out => [this._pointer, scene._pointer, desc, out]);
             const bindings = new Bindings(this, scene, handle);

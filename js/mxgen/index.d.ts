@@ -8,7 +8,7 @@ export function instantiate(source: BufferSource | WebAssembly.Module, defaults?
 
 export type Severity = "error" | "warning" | "note";
 export type Stage = "vertex" | "pixel";
-export type Block = "publicUniforms" | "privateUniforms" | "lightData" | "textures" | "appData" | "vertexData" | "outputs";
+export type Block = "publicUniforms" | "privateUniforms" | "lightData" | "textures" | "appData" | "vertexData" | "outputs" | "own1" | "own2" | "own3" | "own4";
 /** opaque: without blending; mask: with the depth test alone; blend: back to front. Colours are premultiplied. */
 export type Alpha = "opaque" | "mask" | "blend";
 export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics" | "slabs" | "slabsJson" | "slabsSvg";
@@ -250,9 +250,10 @@ export class Document extends Owner {
     withMaterials(scene: Scene): Document;
     /**
      * Finds the layers of each primitive of a scene. `look` null: the only look, or just the bindings of the scene. `solo` has the slots that
-     * alone count, `mute` those that do not. Throws DocumentError.
+     * alone count, `mute` those that do not. `previous` are bindings of the scene before it or the document changed: only primitives at or
+     * below a difference are resolved again. Throws DocumentError.
      */
-    bind(scene: Scene, look?: string | null, request?: { solo?: string[]; mute?: string[] }): Bindings;
+    bind(scene: Scene, look?: string | null, request?: { solo?: string[]; mute?: string[]; previous?: Bindings | null }): Bindings;
     /** Checks every node, connection and value against the library, without generating. */
     validate(): Diagnostics;
     /** Makes a shader. Throws DocumentError. */
@@ -358,12 +359,46 @@ export class Primitive {
     equals(other: unknown): boolean;
 }
 
+/** A primitive for `Scene.addEach`. */
+export interface NewPrimitive {
+    /** a name, or a path below the parent: "b/c" */
+    name: string;
+    /** of the scene, or an object that came before */
+    parent?: Primitive | NewPrimitive | null;
+    /** as in USD: "Mesh" */
+    type?: string;
+}
+
+/** A binding of a scene itself. */
+export interface SlotBinding {
+    /** the whole name: "050::010" */
+    slot: string;
+    /** the material or the nodegraph; "": a removal */
+    material: string;
+    /** it is for the members of a collection */
+    isCollection: boolean;
+    /** it beats the bindings of the scene below it */
+    isStrong: boolean;
+    /** it is for the purpose of `Context.loadScene` */
+    isPurpose: boolean;
+    /** its place; "" if it comes from `Scene.bind` */
+    file: string;
+    line: number;
+}
+
 /** The primitives of a scene, each after its parent. */
 export class Scene extends Owner implements Iterable<Primitive> {
     private constructor();
     readonly diagnostics: Diagnostics;
-    /** Adds primitives and those above them. Throws ArgumentError while bindings of the scene exist. */
+    /** Adds primitives and those above them. After a change of a scene its bindings say nothing: call `Document.bind` with `previous`. */
     add(...paths: string[]): void;
+    /** Adds primitives with parents and types, and gives them; null for a faulty one. */
+    addEach(primitives: Iterable<NewPrimitive>): (Primitive | null)[];
+    /** Binds a material to a slot of a primitive (null: the whole scene); "" removes what it would inherit. */
+    bind(primitive: Primitive | string | null, slot: string, material: string): void;
+    unbind(primitive: Primitive | string | null, slot: string): void;
+    /** The bindings of the scene itself that stand at a primitive; null: the whole scene. */
+    bindingsOf(primitive: Primitive | string | null): SlotBinding[];
     find(path: string): Primitive | null;
     readonly length: number;
     [Symbol.iterator](): Iterator<Primitive>;
@@ -405,6 +440,8 @@ export class Bindings extends Owner {
     readonly document: Document;
     readonly scene: Scene;
     readonly diagnostics: Diagnostics;
+    /** The number of primitives whose assignments were found: all, or with `previous` those at or below a difference. */
+    readonly numResolved: number;
     /** The layers of a primitive, base first; a product, override or vertical layer follows its layer. */
     layers(primitive: Primitive | string): Layer[];
     readonly stacks: Stack[];

@@ -106,6 +106,7 @@ export class Native {
             release: (host, blob) => this.#hosts.get(host).release(blob),
             list_folder: (host, ...rest) => this.#hosts.get(host).listFolder(...rest),
             cancel: host => this.#hosts.get(host).cancel(),
+            next_primitive: (host, ...rest) => this.#hosts.get(host).nextPrimitive(...rest),
             write: (_, data, size) => { this.#written.push(this.bytes(data, size).slice()); return 1; },
         };
     }
@@ -123,7 +124,7 @@ export class Native {
         }
     }
 
-    /** Registers the callbacks of a context; returns their number. */
+    /** Registers callbacks, of a context or a call; returns their number. */
     addHost(host) {
         this.#hosts.set(this.#nextHost, host);
         return this.#nextHost++;
@@ -252,11 +253,13 @@ export class Native {
     #write(kind, address, value) {
         if (kind === "bool")
             this.view.setUint8(address, value ? 1 : 0);
+        else if (kind === "piece")
+            value.forEach((number, index) => this.view.setUint32(address + 4 * index, number, true));
         else
             this.view.setUint32(address, value, true);
     }
 
-    /** A struct with its size and the given members: numbers, booleans and addresses. */
+    /** A struct with its size and the given members: numbers, booleans, addresses, and [address, length] of texts without NUL. */
     newStruct(type, values = {}) {
         const { size, members } = STRUCTS[type], address = this.space(size);
         for (const [name, value] of Object.entries({ size, ...values }))

@@ -123,6 +123,69 @@ export class Primitive {
     }
 }
 
+/** The primitives that C asks for, one after the other. An exception waits until the call returns. */
+class Adding {
+    #native;
+    #scene;
+    #items;
+    #known = new Map(); // their numbers by the objects that gave them
+    #given = null;
+    #texts = [];
+
+    constructor(native, scene, items) {
+        this.#native = native;
+        this.#scene = scene;
+        this.#items = items[Symbol.iterator]();
+        this.numbers = [];
+        this.raised = null; // { error }
+    }
+
+    #parent(above) {
+        if (above === null)
+            return NONE;
+        if (this.#known.has(above))
+            return this.#known.get(above);
+        if (expect(above, Primitive, "parent").scene !== this.#scene)
+            throw new ArgumentError("the parent is of another scene");
+        return above.number;
+    }
+
+    #text(text, what) {
+        const bytes = new TextEncoder().encode(expect(text, "string", what)), address = this.#native.allocate(bytes.length);
+        this.#native.bytes(address, bytes.length).set(bytes);
+        this.#texts.push(address);
+        return [address, bytes.length];
+    }
+
+    #fill(last, out) {
+        if (this.#given) {
+            this.numbers.push(last);
+            this.#known.set(this.#given, last);
+        }
+        this.finish();
+        const { done, value } = this.#items.next();
+        if (done)
+            return 0;
+        const { name, parent = null, type = "" } = this.#given = expect(value, "object", "a primitive");
+        this.#native.setMembers("mxg_primitive", out, { parent: this.#parent(parent), name: this.#text(name, "name"), type: this.#text(type, "type") });
+        return 1;
+    }
+
+    nextPrimitive(last, out) {
+        try {
+            return this.#fill(last >>> 0, out);
+        } catch (error) {
+            this.raised = { error };
+            return 0;
+        }
+    }
+
+    finish() {
+        for (const address of this.#texts.splice(0))
+            this.#native.lib.free(address);
+    }
+}
+
 /** The primitives of a scene. `Context.scene` and `Context.loadScene` give scenes. */
 export class Scene extends Owner {
     constructor(context, handle) {
@@ -139,15 +202,70 @@ export class Scene extends Owner {
         return new Diagnostics(this, this._native.lib.mxg_scene_diagnostics(this._pointer));
     }
 
-    /** Adds primitives and those above them. Throws DocumentError if a path is none (the others are added). */
+    /** Adds primitives and those above them. Throws DocumentError if a path is none (the others are added). After a change its bindings say nothing. */
     add(...paths) {
         const native = this._native;
         native.using(() => {
             const status = native.lib.mxg_scene_add(this._pointer, native.newTexts(paths, "a path"), paths.length);
-            if (status === STATUS.errorDocument)
-                throw new DocumentError(this.diagnostics);
-            native.check(status, status === STATUS.errorArgument ? "bindings hold the scene: add primitives before Document.bind" : "");
+            this.#check(status);
         });
+    }
+
+    #check(status) {
+        if (status === STATUS.errorDocument)
+            throw new DocumentError(this.diagnostics);
+        this._native.check(status);
+    }
+
+    /**
+     * Adds primitives { name, parent, type }, and gives them; null for one that is faulty. `parent` is a Primitive, or one of these objects
+     * that came before. Throws DocumentError if all are added but faulty ones. The iterable must not use the scene.
+     */
+    addEach(primitives) {
+        const native = this._native, adding = new Adding(native, this, primitives), host = native.addHost(adding);
+        try {
+            const status = native.lib.mxgen_js_scene_add_each(this._pointer, host);
+            if (adding.raised)
+                throw adding.raised.error;
+            this.#check(status);
+        } finally {
+            adding.finish();
+            native.removeHost(host);
+        }
+        return adding.numbers.map(number => this._primitive(number));
+    }
+
+    // ---- Bindings of the scene itself ----
+
+    #place(primitive) {
+        if (primitive === null)
+            return NONE;
+        const found = typeof primitive === "string" ? this.find(primitive) : expect(primitive, Primitive, "primitive");
+        if (!found || found.scene !== this)
+            throw new ArgumentError(found ? "the primitive is of another scene" : `the scene has no primitive '${primitive}'`);
+        return found.number;
+    }
+
+    /**
+     * Binds a material to a slot of a primitive (null: the whole scene), in the place of its direct bindings there. "" removes what the
+     * primitive would inherit. Throws DocumentError if the slot's name is none.
+     */
+    bind(primitive, slot, material) {
+        const native = this._native, place = this.#place(primitive);
+        native.using(() => this.#check(native.lib.mxg_scene_bind(this._pointer, place, native.newText(slot, "slot"), native.newText(material, "material"))));
+    }
+
+    /** Removes the direct bindings of a slot from a primitive. */
+    unbind(primitive, slot) {
+        const native = this._native, place = this.#place(primitive);
+        native.using(() => this.#check(native.lib.mxg_scene_unbind(this._pointer, place, native.newText(slot, "slot"))));
+    }
+
+    /** The bindings of the scene itself that stand at a primitive; null: the whole scene. */
+    bindingsOf(primitive) {
+        const { lib } = this._native, place = this.#place(primitive);
+        return this._native.records("mxg_slot_binding", lib.mxg_scene_num_bindings(this._pointer, place),
+                                    (index, out) => lib.mxg_scene_binding(this._pointer, place, index, out));
     }
 
     /** A primitive by path; null: there is none. */
@@ -202,6 +320,11 @@ export class Bindings extends Owner {
     /** The diagnostics of finding the layers. */
     get diagnostics() {
         return new Diagnostics(this, this._native.lib.mxg_bindings_diagnostics(this._pointer));
+    }
+
+    /** The number of primitives whose assignments were found: all, or with `previous` those at or below a difference. */
+    get numResolved() {
+        return this._native.lib.mxg_bindings_num_resolved(this._pointer);
     }
 
     /** The layers of a primitive, base first; a product, override or vertical layer follows its layer. */

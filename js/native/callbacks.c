@@ -41,3 +41,11 @@ mxg_status mxgen_js_bindings_explain(const mxg_bindings *bindings, uint32_t prim
 {
     return mxg_bindings_explain(bindings, primitive, host_write, NULL);
 }
+
+/* mxg_scene_add_each; the import `next_primitive` gives the primitives. */
+MXG_API mxg_status mxgen_js_scene_add_each(mxg_scene *scene, void *adding);
+
+mxg_status mxgen_js_scene_add_each(mxg_scene *scene, void *adding)
+{
+    return mxg_scene_add_each(scene, host_next_primitive, adding);
+}

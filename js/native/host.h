@@ -4,7 +4,7 @@
 #ifndef MXG_JS_HOST_H
 #define MXG_JS_HOST_H
 
-#include <mxgen/mxgen.h>
+#include <mxgen/scene.h>
 
 #define IMPORT(name) __attribute__((import_module("mxgen"), import_name(#name)))
 
@@ -28,5 +28,9 @@ IMPORT(cancel) bool host_cancel(void *context);
 
 /* Takes a piece of the text that the current call writes. */
 IMPORT(write) bool host_write(void *user_data, const char *data, size_t size);
+
+/* The parameter of mxg_scene_add_each; `adding` is a number that native.js gave. */
+IMPORT(next_primitive)
+bool host_next_primitive(void *adding, uint32_t last, mxg_primitive *primitive);
 
 #endif

@@ -15,7 +15,8 @@ from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, diagn
 from .document import Connection, Document, Element, Renderable, Value, equal
 from .edit import Draft, Edit, NewValue
 from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, OutOfMemoryError
-from .scene import Bindings, BindingsFormat, Fact, FactKind, Layer, LayerKind, Primitive, Property, Scene, Stack, decode_slot, encode_slot
+from .scene import (Bindings, BindingsFormat, Fact, FactKind, Layer, LayerKind, NewPrimitive, Primitive, Property, Scene, SlotBinding,
+                    Stack, decode_slot, encode_slot)
 from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, Place, Semantic, Shader,
                      ShaderInfo, Stage, Tile, Variable, View, semantics)
 
@@ -24,8 +25,8 @@ __version__ = library_version()
 __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "BlockInfo", "CancelledError", "Change",
            "CompiledInput", "Connection", "Context", "Diagnostic", "DiagnosticKind", "Diagnostics", "Document",
            "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "Fact", "FactKind", "File", "InputState", "InternalError",
-           "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewValue", "NodeDef", "Option", "OptionType",
+           "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewPrimitive", "NewValue", "NodeDef", "Option", "OptionType",
            "OptionValue", "OutOfMemoryError", "Part", "PassResource", "Place", "Port", "Primitive", "Property", "Renderable",
-           "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "Stack",
+           "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding", "Stack",
            "Stage", "Target", "Tile", "Value", "Variable", "View", "decode_slot", "diagnostic_kinds", "encode_slot",
            "equal", "library_version", "option_applies", "options", "pass_resources", "semantics", "targets"]

@@ -318,15 +318,17 @@ class Document(Native):
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
         return self.context._document(self.library, lib.mxg_document_with_materials, self._handle.pointer, scene._handle.pointer)
 
-    def bind(self, scene: Scene, look: str | None = None, *, solo: Sequence[str] = (), mute: Sequence[str] = ()) -> Bindings:
+    def bind(self, scene: Scene, look: str | None = None, *, solo: Sequence[str] = (), mute: Sequence[str] = (),
+             previous: Bindings | None = None) -> Bindings:
         """Finds the layers of each primitive of a scene. `look` is a look, or a look group with a default; None: the only look, or
         just the bindings of the scene if the document has none. `solo` has the slots that alone count, `mute` those that do not.
-        Raises DocumentError."""
+        `previous` are bindings of the scene before it or the document changed: the result is the same, and only primitives at or below a
+        difference are resolved again. Raises DocumentError."""
         if not isinstance(scene, Scene):
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
         keep: list[Any] = []
         handle, status = self.context._make("mxg_bindings", lib.mxg_bind, lib.mxg_bindings_destroy, (self._handle, scene._handle),
-                                            self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, keep))
+                                            self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, previous, keep))
         bindings = Bindings(self, scene, handle)
         if status != lib.MXG_OK:
             raise DocumentError(bindings.diagnostics)

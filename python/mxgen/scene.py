@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -171,6 +171,93 @@ def _read_property(struct: Any) -> Property:
                     value=_piece(struct, "value"), file=py_text(struct.file), line=struct.line, column=struct.column)
 
 
+def _keep_exception(_type: Any, error: BaseException | None, traceback: Any) -> None:
+    ffi.from_handle(traceback.tb_frame.f_locals["user_data"]).raised = error
+
+
+@dataclass(frozen=True, eq=False)
+class NewPrimitive:
+    """A primitive for `Scene.add_each`."""
+
+    #: a name, or a path below the parent: "b/c"
+    name: str
+    #: of the scene, or one that `Scene.add_each` was given before; None: there is none
+    parent: Primitive | NewPrimitive | None = None
+    #: as in USD: "Mesh"; "" if unknown
+    type: str = ""
+
+
+@dataclass(frozen=True)
+class SlotBinding:
+    """A binding of a scene itself."""
+
+    #: the whole name: "050::010"
+    slot: str
+    #: the material or the nodegraph; "": a removal
+    material: str
+    #: it is for the members of a collection
+    is_collection: bool
+    #: it beats the bindings of the scene below it
+    is_strong: bool
+    #: it is for the purpose of `Context.load_scene`
+    is_purpose: bool
+    #: its place; "" if it comes from `Scene.bind`
+    file: str
+    line: int
+
+
+class _Adding:
+    """The primitives that C asks for, one after the other. An exception waits until the call returns."""
+
+    def __init__(self, scene: Scene, primitives: Iterable[NewPrimitive]) -> None:
+        self.scene = scene
+        self.items = iter(primitives)
+        self.given: list[NewPrimitive] = []
+        self.numbers: list[int] = []
+        self.known: dict[NewPrimitive, int] = {}
+        self.raised: BaseException | None = None
+        self.keep: list[Any] = []
+
+    def parent(self, item: NewPrimitive) -> int:
+        above = item.parent
+        if above is None:
+            return _NONE
+        if isinstance(above, NewPrimitive):
+            if above not in self.known:
+                raise ValueError(f"the parent of '{item.name}' was not given before")
+            return self.known[above]
+        if not isinstance(above, Primitive):
+            raise TypeError(f"parent must be Primitive, NewPrimitive or None, not {type(above).__name__}")
+        if above.scene is not self.scene:
+            raise ValueError("the parent is of another scene")
+        return above.number
+
+    def fill(self, last: int, out: Any) -> bool:
+        """Takes the number of the primitive before, and gives the next."""
+        if self.given:
+            self.numbers.append(last)
+            self.known[self.given[-1]] = last
+        for item in self.items:
+            if not isinstance(item, NewPrimitive):
+                raise TypeError(f"a primitive must be NewPrimitive, not {type(item).__name__}")
+            self.given.append(item)
+            self.keep = []
+            out.parent = self.parent(item)
+            for name, text in ("name", item.name), ("type", item.type):
+                data = c_text(text, name)
+                setattr(out, name, keep_text(data, self.keep))
+                setattr(out, f"{name}_len", len(data))
+            return True
+        return False
+
+
+@ffi.def_extern(error=False, onerror=_keep_exception)
+def callback_next_primitive(user_data: Any, last: int, out: Any) -> bool:
+    """The parameter of mxg_scene_add_each."""
+    adding: _Adding = ffi.from_handle(user_data)
+    return adding.fill(last, out)
+
+
 class Scene(Native):
     """The primitives of a scene. `Context.scene` and `Context.load_scene` give scenes."""
 
@@ -186,17 +273,67 @@ class Scene(Native):
         return Diagnostics(lib.mxg_scene_diagnostics(self._handle.pointer), self)
 
     def add(self, *paths: str) -> None:
-        """Adds primitives and those above them. Raises DocumentError if a path is none (the others are added), and ArgumentError
-        while bindings of the scene exist."""
+        """Adds primitives and those above them. Raises DocumentError if a path is none (the others are added). After any change of a
+        scene its bindings say nothing any more: call `Document.bind` with `previous`."""
         keep: list[Any] = []
         names = ffi.new("const char *[]", [keep_text(c_text(path, "a path"), keep) for path in paths])
         status = lib.mxg_scene_add(self._handle.pointer, names, len(paths))
         if status == lib.MXG_ERROR_DOCUMENT:
             raise DocumentError(self.diagnostics)
-        if status == lib.MXG_ERROR_ARGUMENT:
-            raise ArgumentError("bindings hold the scene: add primitives before Document.bind")
         if status != lib.MXG_OK:
             raise error_of(status)
+
+    def add_each(self, primitives: Iterable[NewPrimitive]) -> tuple[Primitive | None, ...]:
+        """Adds primitives with parents and types, and gives them: None for one that is faulty. Raises DocumentError if all are added but
+        faulty ones. The iterable must not use the scene."""
+        adding = _Adding(self, primitives)
+        handle = ffi.new_handle(adding)
+        status = lib.mxg_scene_add_each(self._handle.pointer, lib.callback_next_primitive, handle)
+        if adding.raised is not None:
+            raise adding.raised
+        if status == lib.MXG_ERROR_DOCUMENT:
+            raise DocumentError(self.diagnostics)
+        if status != lib.MXG_OK:
+            raise error_of(status)
+        return tuple(self._primitive(number) for number in adding.numbers)
+
+    # ---- Bindings of the scene itself ----
+
+    def _place(self, primitive: Primitive | str | None) -> int:
+        if primitive is None:
+            return _NONE
+        found = self[primitive] if isinstance(primitive, str) else primitive
+        if not isinstance(found, Primitive):
+            raise TypeError(f"primitive must be Primitive, str or None, not {type(found).__name__}")
+        if found.scene is not self:
+            raise ValueError("the primitive is of another scene")
+        return found.number
+
+    def _change(self, status: int) -> None:
+        if status == lib.MXG_ERROR_DOCUMENT:
+            raise DocumentError(self.diagnostics)
+        if status != lib.MXG_OK:
+            raise error_of(status)
+
+    def bind(self, primitive: Primitive | str | None, slot: str, material: str) -> None:
+        """Binds a material to a slot of a primitive (None: the whole scene), in the place of its direct bindings there. "" removes what
+        the primitive would inherit. Raises DocumentError if the slot's name is none."""
+        self._change(lib.mxg_scene_bind(self._handle.pointer, self._place(primitive), c_text(slot, "slot"), c_text(material, "material")))
+
+    def unbind(self, primitive: Primitive | str | None, slot: str) -> None:
+        """Removes the direct bindings of a slot from a primitive."""
+        self._change(lib.mxg_scene_unbind(self._handle.pointer, self._place(primitive), c_text(slot, "slot")))
+
+    def bindings_of(self, primitive: Primitive | str | None) -> tuple[SlotBinding, ...]:
+        """The bindings of the scene itself that stand at a primitive; None: the whole scene."""
+        number = self._place(primitive)
+        pointer = self._handle.pointer
+        found = []
+        for index in range(lib.mxg_scene_num_bindings(pointer, number)):
+            values = record("mxg_slot_binding", lib.mxg_scene_binding, pointer, number, index)
+            assert values is not None
+            found.append(SlotBinding(**values))
+        return tuple(found)
 
     def find(self, path: str) -> Primitive | None:
         """A primitive by path."""
@@ -319,10 +456,6 @@ class _Pieces:
         self.raised: BaseException | None = None
 
 
-def _keep_exception(_type: Any, error: BaseException | None, traceback: Any) -> None:
-    ffi.from_handle(traceback.tb_frame.f_locals["user_data"]).raised = error
-
-
 @ffi.def_extern(error=False, onerror=_keep_exception)
 def callback_write(user_data: Any, data: Any, size: int) -> bool:
     """The parameter of mxg_bindings_write and mxg_bindings_explain."""
@@ -371,6 +504,11 @@ class Bindings(Native):
     def diagnostics(self) -> Diagnostics:
         """The diagnostics of finding the layers."""
         return Diagnostics(lib.mxg_bindings_diagnostics(self._handle.pointer), self)
+
+    @property
+    def num_resolved(self) -> int:
+        """The number of primitives whose assignments were found: all, or with `previous` those at or below a difference."""
+        return int(lib.mxg_bindings_num_resolved(self._handle.pointer))
 
     def layers(self, primitive: Primitive | str) -> tuple[Layer, ...]:
         """The layers of a primitive, base first; a product, override or vertical layer follows its layer."""
@@ -427,9 +565,13 @@ class Bindings(Native):
         return made
 
 
-def make_bind_desc(look: str | None, solo: Sequence[str], mute: Sequence[str], keep: list[Any]) -> Any:
+def make_bind_desc(look: str | None, solo: Sequence[str], mute: Sequence[str], previous: Bindings | None, keep: list[Any]) -> Any:
     """A mxg_bind_desc; it lives as long as `keep`."""
     desc = ffi.new("mxg_bind_desc *", {"size": ffi.sizeof("mxg_bind_desc")})
+    if previous is not None:
+        if not isinstance(previous, Bindings):
+            raise TypeError(f"previous must be Bindings, not {type(previous).__name__}")
+        desc.previous = previous._handle.pointer
     if look is not None:
         desc.look = keep_text(c_text(look, "look"), keep)
     for name, slots in ("solo", solo), ("mute", mute):

@@ -37,6 +37,11 @@ class Block(enum.IntEnum):
     APP_DATA = lib.MXG_BLOCK_APP_DATA
     VERTEX_DATA = lib.MXG_BLOCK_VERTEX_DATA
     OUTPUTS = lib.MXG_BLOCK_OUTPUTS
+    #: the blocks that nodes in C declare, in this order
+    OWN_1 = lib.MXG_BLOCK_OWN_1
+    OWN_2 = lib.MXG_BLOCK_OWN_2
+    OWN_3 = lib.MXG_BLOCK_OWN_3
+    OWN_4 = lib.MXG_BLOCK_OWN_4
 
 
 class Alpha(enum.IntEnum):

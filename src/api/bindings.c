@@ -25,14 +25,19 @@ static void resolve(void *arg)
     const struct scene *scene = &result->scene->scene;
     /* a stage of USD says itself what is bound, and may bind nothing */
     bool needs_look =
-        job->desc.look || look_exists(doc) || (!scene->bindings.len && !scene->layer.prims.len);
+        job->desc.look || look_exists(doc) || (!scene->num_bindings && !scene->layer.prims.len);
     elem_id look = needs_look ? look_choose(doc, job->desc.look, diags) : 0;
     if (needs_look && !look)
         return;
-    bind_resolve(&result->bindings, doc, look, &result->scene->scene, &options, &object->arena,
+    const mxg_bindings *previous = job->desc.previous;
+    const struct bindings *before = NULL, *facts = NULL;
+    if (previous && previous->is_resolved) {
+        before = &previous->bindings;
+        facts = previous->facts.states.len ? &previous->facts : NULL;
+    }
+    bind_resolve(&result->bindings, doc, look, scene, before, &options, &object->arena,
                  &job->scratch, diags);
-    bind_facts(&result->facts, doc, look, &result->scene->scene, &object->arena, &job->scratch,
-               diags);
+    bind_facts(&result->facts, doc, look, scene, facts, &object->arena, &job->scratch, diags);
     if (!options.num_solo && !options.num_mute)
         bind_check_drives(&result->bindings, &result->document->layer, &job->scratch, diags);
     result->is_resolved = true;
@@ -45,7 +50,8 @@ mxg_status mxg_bind(mxg_context *context, const mxg_document *document, mxg_scen
     if (out_bindings)
         *out_bindings = NULL;
     if (!context || !document || !scene || !out_bindings
-        || (desc && !struct_read(&job.desc, sizeof job.desc, desc)))
+        || (desc && !struct_read(&job.desc, sizeof job.desc, desc))
+        || (job.desc.previous && job.desc.previous->scene != scene))
         return MXG_ERROR_ARGUMENT;
     struct object *below = (struct object *)(uintptr_t)&document->object; /* never const itself */
     mxg_bindings *result = object_new(context, sizeof *result, below);
@@ -54,7 +60,7 @@ mxg_status mxg_bind(mxg_context *context, const mxg_document *document, mxg_scen
     result->document = document;
     result->scene = scene;
     object_ref(&scene->object);
-    scene->is_bound = true;
+    result->version = scene->version;
     job.result = result;
     arena_init(&job.scratch, &result->object.mem);
     mxg_status status = object_run(&result->object, resolve, &job);
@@ -86,11 +92,16 @@ const mxg_diagnostics *mxg_bindings_diagnostics(const mxg_bindings *bindings)
 
 /* ---- Queries ---- */
 
+/* True if there are layers, of the scene as it is. */
+static bool is_valid(const mxg_bindings *bindings)
+{
+    return bindings && bindings->is_resolved && bindings->version == bindings->scene->version;
+}
+
 /* The state of a primitive by its number in the interface; NULL: there is none. */
 static const struct bind_state *state_of(const mxg_bindings *bindings, uint32_t primitive)
 {
-    if (!bindings || !bindings->is_resolved
-        || primitive >= mxg_scene_num_primitives(bindings->scene))
+    if (!is_valid(bindings) || primitive >= mxg_scene_num_primitives(bindings->scene))
         return NULL;
     return bind_state_of(&bindings->bindings, primitive + 1);
 }
@@ -125,7 +136,7 @@ static mxg_layer describe(const struct bindings *b, prim_id prim, const struct b
         .look = a->look ? str_text(doc->strings, doc_element(doc, a->look)->name) : "",
         .assign = a->binding ? b->scene->bindings.items[a->binding - 1].label
                              : str_text(doc->strings, doc_element(doc, a->element)->name),
-        .file = place.file,
+        .file = place.file ? place.file : "",
         .line = place.line,
     };
 }
@@ -143,7 +154,12 @@ mxg_status mxg_bindings_layer(const mxg_bindings *bindings, uint32_t primitive, 
 
 uint32_t mxg_bindings_num_stacks(const mxg_bindings *bindings)
 {
-    return bindings && bindings->is_resolved ? bindings->bindings.stacks.len : 0;
+    return is_valid(bindings) ? bindings->bindings.stacks.len : 0;
+}
+
+uint32_t mxg_bindings_num_resolved(const mxg_bindings *bindings)
+{
+    return bindings && bindings->is_resolved ? bindings->bindings.num_resolved : 0;
 }
 
 uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive)
@@ -249,7 +265,7 @@ mxg_status mxg_bindings_write(const mxg_bindings *bindings, mxg_bindings_format 
                               bool (*write)(void *user_data, const char *data, size_t size),
                               void *user_data)
 {
-    if (!bindings || !bindings->is_resolved || !write || (unsigned)format > MXG_BINDINGS_USDA)
+    if (!is_valid(bindings) || !write || (unsigned)format > MXG_BINDINGS_USDA)
         return MXG_ERROR_ARGUMENT;
     struct write_job job = {bindings, format, 0, write, user_data, false, 0};
     mxg_status status = context_run(bindings->object.context, write_all, &job);

@@ -23,7 +23,7 @@ mxg_status mxg_result_block(const mxg_result *result, mxg_block block, mxg_block
     const struct shader_buffer *buffer = &shader->buffers[block];
     uint32_t first = shader->first_of_block[block];
     mxg_block_info full = {
-        .name = shader_block_name((enum shader_block)block),
+        .name = shader_block_name(shader, (enum shader_block)block),
         .first_variable = first,
         .num_variables = shader->first_of_block[block + 1] - first,
         .byte_size = buffer->size,

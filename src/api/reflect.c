@@ -114,7 +114,8 @@ static void set_default(const struct shader_variable *variable, mxg_variable *ou
 
 mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out)
 {
-    _Static_assert((int)MXG_BLOCK_OUTPUTS == BLOCK_OUTPUTS && (int)MXG_NUM_BLOCKS == NUM_BLOCKS,
+    _Static_assert((int)MXG_BLOCK_OUTPUTS == BLOCK_OUTPUTS && (int)MXG_BLOCK_OWN_1 == BLOCK_OWN
+                       && (int)MXG_NUM_BLOCKS == NUM_BLOCKS,
                    "blocks have the same numbers");
     if (index >= mxg_result_num_variables(result))
         return MXG_ERROR_ARGUMENT;

@@ -136,11 +136,30 @@ const mxg_diagnostics *mxg_scene_diagnostics(const mxg_scene *scene)
     return scene ? &scene->object.diagnostics : NULL;
 }
 
+/* Inside, 0 is the root; the numbers of the interface leave it out. */
+static uint32_t number_of(prim_id prim)
+{
+    return prim ? prim - 1 : UINT32_MAX;
+}
+
 struct addition {
     mxg_scene *scene;
     const char *const *paths;
     size_t num;
+    bool (*next)(void *user_data, uint32_t last, mxg_primitive *out);
+    void *user_data;
 };
+
+static mxg_status run_addition(struct addition *addition, void (*work)(void *arg))
+{
+    struct object *object = &addition->scene->object;
+    uint32_t errors = object->diagnostics.list.num_errors;
+    addition->scene->version++;
+    mxg_status status = object_run(object, work, addition);
+    if (status != MXG_OK)
+        return status;
+    return object->diagnostics.list.num_errors > errors ? MXG_ERROR_DOCUMENT : MXG_OK;
+}
 
 static void add_paths(void *arg)
 {
@@ -154,20 +173,52 @@ static void add_paths(void *arg)
 
 mxg_status mxg_scene_add(mxg_scene *scene, const char *const *paths, size_t num_paths)
 {
-    if (!scene || (!paths && num_paths) || scene->is_bound)
+    if (!scene || (!paths && num_paths))
         return MXG_ERROR_ARGUMENT;
-    uint32_t errors = scene->object.diagnostics.list.num_errors;
-    struct addition addition = {scene, paths, num_paths};
-    mxg_status status = object_run(&scene->object, add_paths, &addition);
-    if (status != MXG_OK)
-        return status;
-    return scene->object.diagnostics.list.num_errors > errors ? MXG_ERROR_DOCUMENT : MXG_OK;
+    struct addition addition = {.scene = scene, .paths = paths, .num = num_paths};
+    return run_addition(&addition, add_paths);
 }
 
-/* Inside, 0 is the root; the numbers of the interface leave it out. */
-static uint32_t number_of(prim_id prim)
+/* Adds what the callback gave; its number inside, or 0 after a diagnostic. */
+static prim_id add_given(mxg_scene *scene, const mxg_primitive *given)
 {
-    return prim ? prim - 1 : UINT32_MAX;
+    struct diag_list *diags = &scene->object.diagnostics.list;
+    struct text_word name = {given->name ? given->name : "", given->name_len},
+                     type = {given->type ? given->type : "", given->type_len};
+    bool is_known = given->parent == UINT32_MAX || given->parent < mxg_scene_num_primitives(scene);
+    if (!is_known)
+        diag_add(diags, DIAG_ID_bad_path, (struct diag_place){0},
+                 arena_strndup(diags->arena, name.bytes, name.len),
+                 "has a parent that the scene does not have");
+    if (!is_known || !scene_check_name(name, (struct diag_place){0}, diags))
+        return 0;
+    prim_id added = scene_add_below(&scene->scene, given->parent + 1, name.bytes, name.len);
+    if (type.len)
+        scene_set_type(&scene->scene, added, type);
+    return added;
+}
+
+static void add_each(void *arg)
+{
+    struct addition *a = arg;
+    prim_id last = 0;
+    for (;;) {
+        mxg_primitive given = {.size = sizeof given, .parent = UINT32_MAX};
+        if (!a->next(a->user_data, number_of(last), &given))
+            return;
+        last = add_given(a->scene, &given);
+    }
+}
+
+mxg_status mxg_scene_add_each(mxg_scene *scene,
+                              bool (*next_primitive)(void *user_data, uint32_t last,
+                                                     mxg_primitive *out),
+                              void *user_data)
+{
+    if (!scene || !next_primitive)
+        return MXG_ERROR_ARGUMENT;
+    struct addition addition = {.scene = scene, .next = next_primitive, .user_data = user_data};
+    return run_addition(&addition, add_each);
 }
 
 uint32_t mxg_scene_num_primitives(const mxg_scene *scene)
@@ -186,6 +237,9 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
                           .name = prim->name,
                           .name_len = prim->name_len,
                           .type = ""};
+    if (index + 1 < scene->scene.types.len && scene->scene.types.items[index + 1])
+        full.type = scene->scene.types.items[index + 1];
+    full.type_len = strlen(full.type);
     for (uint32_t i = scene_source(&scene->scene, index + 1); i && !full.type_len;
          i = scene->scene.sources.items[i - 1].next) {
         const struct text_word type =

@@ -9,7 +9,7 @@
 struct mxg_scene {
     struct object object;
     struct scene scene;
-    bool is_bound; /* bindings refer to it, so it must not change */
+    uint32_t version; /* counts the changes; bindings of an earlier one say nothing any more */
 };
 
 struct mxg_bindings {
@@ -17,6 +17,7 @@ struct mxg_bindings {
     mxg_scene *scene;
     const mxg_document *document;
     struct bindings bindings, facts;
+    uint32_t version; /* of the scene */
     bool is_resolved; /* a look was found */
 };
 

@@ -258,21 +258,36 @@ static bool find_bound(struct bind_look *look, struct look_assign *assign,
     return false;
 }
 
-/* A new matcher without patterns: 1 + its number. */
+/* A new matcher without primitives: 1 + its number. match_prim follows before the next one. */
 static uint32_t add_matcher(struct bind_look *look, uint32_t owner, enum matcher_kind kind)
 {
     vec_push(look->arena, &look->matchers,
-             (struct look_matcher){.owner = owner, .kind = (uint8_t)kind});
+             (struct look_matcher){
+                 .owner = owner, .kind = (uint8_t)kind, .first_prim = look->matched.len});
     return look->matchers.len;
 }
 
-/* The matcher matches at the path of a primitive. */
-static void match_prim(struct bind_look *look, uint32_t matcher, prim_id prim)
+/* The last matcher matches at the path of a primitive. */
+static void match_prim(struct bind_look *look, prim_id prim)
 {
     struct text path;
     text_init(&path, look->arena);
     scene_path(look->scene, prim, &path);
-    pattern_add(&look->patterns, path.data, path.len, matcher - 1);
+    pattern_add_path(&look->patterns, path.data, path.len, look->matchers.len - 1);
+    vec_push(look->arena, &look->matched, prim);
+    vec_last(&look->matchers).num_prims++;
+}
+
+/* A matcher of the members of a collection that are excluded, or of those that are not. */
+static uint32_t match_members(struct bind_look *look, const struct scene_binding *binding,
+                              bool is_excluded)
+{
+    const struct scene_member *members = &look->scene->members.items[binding->first_member];
+    uint32_t added = add_matcher(look, look->collections.len, MATCHER_MEMBER);
+    for (uint32_t i = 0; i < binding->num_members; i++)
+        if (members[i].is_excluded == is_excluded)
+            match_prim(look, members[i].prim);
+    return added;
 }
 
 /* The collection that a binding of the scene uses: its number from 1. */
@@ -280,13 +295,10 @@ static uint32_t add_usd_collection(struct bind_look *look, const struct scene_bi
 {
     uint32_t number = look->collections.len;
     struct look_collection added = {.first_nested = look->nested.len};
-    added.include = add_matcher(look, number, MATCHER_INCLUDE);
-    added.exclude = add_matcher(look, number, MATCHER_EXCLUDE);
-    added.owner = add_matcher(look, number, MATCHER_INCLUDE);
-    match_prim(look, added.owner, binding->prim);
-    const struct scene_member *members = &look->scene->members.items[binding->first_member];
-    for (uint32_t i = 0; i < binding->num_members; i++)
-        match_prim(look, members[i].is_excluded ? added.exclude : added.include, members[i].prim);
+    added.include = match_members(look, binding, false);
+    added.exclude = match_members(look, binding, true);
+    added.owner = add_matcher(look, number, MATCHER_MEMBER);
+    match_prim(look, binding->prim);
     vec_push(look->arena, &look->collections, added);
     return number + 1;
 }
@@ -304,10 +316,12 @@ void look_read_binding(struct bind_look *look, uint32_t number)
         assign.kind = ASSIGN_LAYER;
     if (assign.kind == ASSIGN_VOLUME || assign.kind == ASSIGN_LIGHT)
         move_beside(look, &assign, &name, &text);
-    if (binding->num_members)
+    if (binding->is_collection) {
         assign.collection = add_usd_collection(look, binding);
-    else
-        match_prim(look, add_matcher(look, look->assigns.len, MATCHER_ASSIGN), binding->prim);
+    } else {
+        add_matcher(look, look->assigns.len, MATCHER_ASSIGN);
+        match_prim(look, binding->prim);
+    }
     assign.name = look_intern_name(look, &name, text, strlen(text));
     vec_push(look->arena, &look->assigns, assign);
 }

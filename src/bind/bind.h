@@ -56,7 +56,10 @@ struct bindings {
     VEC(struct bind_item) items;
     VEC(struct bind_stack) stacks;
     struct table stack_table;
-    uint32_t *state_of; /* by primitive */
+    uint32_t *state_of;       /* by primitive */
+    struct pattern_set added; /* again.c: the patterns that `before` did not have */
+    uint32_t num_prims;       /* of the scene when it was resolved, with the root */
+    uint32_t num_resolved;    /* primitives whose matches were found, not taken from before */
 };
 
 struct bind_options {
@@ -68,10 +71,14 @@ struct bind_options {
  * Binds a look, which look_choose gives, to a scene. The arena keeps the result; `scratch` may be
  * freed afterwards, and the scene must stay. Call bindings_finish in the end, after a jump out of
  * memory, too.
+ *
+ * before: bindings of the scene from an earlier time, when it perhaps had fewer primitives; NULL:
+ * none. Only primitives at or below a difference are then resolved. The result is the same.
  */
 void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
-                  const struct scene *scene, const struct bind_options *options,
-                  struct arena *arena, struct arena *scratch, struct diag_list *diags);
+                  const struct scene *scene, const struct bindings *before,
+                  const struct bind_options *options, struct arena *arena, struct arena *scratch,
+                  struct diag_list *diags);
 void bindings_finish(struct bindings *b);
 
 /* The state of a primitive, and the path above it (or its own) at a level. */
@@ -122,10 +129,10 @@ void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *
                    struct variant_list *out);
 
 /*
- * resolve.c: fills the states of all primitives from b->look, without layers. The arena of b keeps
- * them.
+ * walk.c: fills the states of all primitives from b->look, without layers. The arena of b keeps
+ * them. `before` is that of bind_resolve.
  */
-void bind_find_states(struct bindings *b, struct arena *scratch);
+void bind_find_states(struct bindings *b, const struct bindings *before, struct arena *scratch);
 
 /* ---- facts.c: geometric properties, tokens, properties, visibility ---- */
 
@@ -137,8 +144,8 @@ extern const char *const bind_fact_words[NUM_FACTS];
  * bindings_finish in the end.
  */
 void bind_facts(struct bindings *b, const struct document *doc, elem_id look,
-                const struct scene *scene, struct arena *arena, struct arena *scratch,
-                struct diag_list *diags);
+                const struct scene *scene, const struct bindings *before, struct arena *arena,
+                struct arena *scratch, struct diag_list *diags);
 enum bind_fact_kind bind_fact_kind(const struct document *doc, elem_id fact);
 /* Its name; the vistype of a visibility. */
 const char *bind_fact_name(const struct document *doc, elem_id fact);

@@ -53,22 +53,31 @@ static void read_geometry_name(struct list *list, struct look_matcher matcher, c
                  doc_attr_place(look->doc, list->element, list->attr), text_cstr(&whole), fault);
 }
 
-uint32_t look_read_geometry(struct bind_look *look, elem_id element, str_id attr,
-                            struct look_matcher matcher)
+struct text_word look_next_name(const char **list)
 {
-    struct list list = {look, element, attr, .prefix = ""};
-    str_id prefix = doc_inherited_attr(look->doc, element, STR_geomprefix);
-    list.prefix = text_of(look, prefix);
-    for (const char *text = text_of(look, doc_attr_value(look->doc, element, attr)); *text;) {
-        const char *end = pattern_name_end(text), *last = end;
+    while (**list) {
+        const char *text = *list, *end = pattern_name_end(text), *last = end;
+        *list = end + (*end == ',');
         while (text < last && is_blank(*text))
             text++;
         while (text < last && is_blank(last[-1]))
             last--;
         if (text < last)
-            read_geometry_name(&list, matcher, text, (size_t)(last - text));
-        text = end + (*end == ',');
+            return (struct text_word){text, (size_t)(last - text)};
     }
+    return (struct text_word){0};
+}
+
+uint32_t look_read_geometry(struct bind_look *look, elem_id element, str_id attr,
+                            struct look_matcher matcher)
+{
+    struct list list = {look, element, attr, .prefix = ""};
+    const char *text = text_of(look, doc_attr_value(look->doc, element, attr));
+    list.prefix = text_of(look, doc_inherited_attr(look->doc, element, STR_geomprefix));
+    matcher.prefix = list.prefix;
+    matcher.list = text;
+    for (struct text_word name; (name = look_next_name(&text)).len;)
+        read_geometry_name(&list, matcher, name.bytes, name.len);
     return list.matcher;
 }
 
@@ -137,10 +146,12 @@ static uint32_t leave(struct bind_look *look, struct steps *steps)
     uint32_t number = look->collections.len;
     for (uint32_t i = 0; i < step->nested.len; i++)
         vec_push(look->arena, &look->nested, step->nested.items[i]);
-    added.include = look_read_geometry(look, step->element, STR_includegeom,
-                                       (struct look_matcher){number, MATCHER_INCLUDE});
-    added.exclude = look_read_geometry(look, step->element, STR_excludegeom,
-                                       (struct look_matcher){number, MATCHER_EXCLUDE});
+    added.include =
+        look_read_geometry(look, step->element, STR_includegeom,
+                           (struct look_matcher){.owner = number, .kind = MATCHER_INCLUDE});
+    added.exclude =
+        look_read_geometry(look, step->element, STR_excludegeom,
+                           (struct look_matcher){.owner = number, .kind = MATCHER_EXCLUDE});
     vec_push(look->arena, &look->collections, added);
     table_add(&look->collection_table, look->arena, hash_pair(step->element, 0), number + 1);
     (void)vec_pop(steps);

@@ -68,8 +68,9 @@ static void add_fact(struct bind_look *look, elem_id placed, elem_id fact)
                                  .target = fact,
                                  .kind = ASSIGN_LAYER};
     if (geom)
-        look_read_geometry(look, placed, STR_geom,
-                           (struct look_matcher){look->assigns.len, MATCHER_ASSIGN});
+        look_read_geometry(
+            look, placed, STR_geom,
+            (struct look_matcher){.owner = look->assigns.len, .kind = MATCHER_ASSIGN});
     else if (collection)
         assign.collection = look_read_collection(look, collection, placed, STR_collection);
     if (!geom && !assign.collection)
@@ -128,15 +129,15 @@ static void list_facts(struct bindings *b, uint32_t state, struct stands *stands
 }
 
 void bind_facts(struct bindings *b, const struct document *doc, elem_id look,
-                const struct scene *scene, struct arena *arena, struct arena *scratch,
-                struct diag_list *diags)
+                const struct scene *scene, const struct bindings *before, struct arena *arena,
+                struct arena *scratch, struct diag_list *diags)
 {
     struct stands stands = {.scratch = scratch};
     *b = (struct bindings){.arena = arena, .scene = scene};
     read_facts(&b->look, doc, look, scene, arena, diags);
     if (!b->look.assigns.len)
         return;
-    bind_find_states(b, scratch);
+    bind_find_states(b, before, scratch);
     for (uint32_t i = 0; i < b->states.len; i++)
         list_facts(b, i, &stands);
 }

@@ -219,8 +219,12 @@ void look_read(struct bind_look *look, const struct document *doc, elem_id eleme
 {
     struct chain chain = {0};
     look_begin(look, doc, element, scene, arena, diags);
-    for (uint32_t i = 0; i < scene->bindings.len; i++)
-        look_read_binding(look, i);
+    /* at one primitive a collection beats a direct binding */
+    for (unsigned is_collection = 0; is_collection < 2; is_collection++)
+        for (uint32_t i = 0; i < scene->bindings.len; i++)
+            if (!scene->bindings.items[i].is_removed
+                && scene->bindings.items[i].is_collection == is_collection)
+                look_read_binding(look, i);
     find_parents(look, &chain);
     for (uint32_t i = 0; i < chain.len && !look->order; i++)
         if (doc_attr(doc, chain.items[i], STR_slotorder))

@@ -62,11 +62,21 @@ struct look_collection {
     uint32_t owner; /* of a collection of USD: 1 + matcher of the prim whose binding uses it */
 };
 
-/* What a matcher of the patterns says about a path. */
-enum matcher_kind { MATCHER_ASSIGN, MATCHER_INCLUDE, MATCHER_EXCLUDE };
+/*
+ * What a matcher of the patterns says about a path. It matches a list of geometry, or primitives of
+ * the scene.
+ */
+enum matcher_kind {
+    MATCHER_ASSIGN,
+    MATCHER_INCLUDE,
+    MATCHER_EXCLUDE, /* its first match on a path counts, of others the deepest */
+    MATCHER_MEMBER,  /* of a collection of USD */
+};
 struct look_matcher {
-    uint32_t owner; /* the assignment or the collection */
-    uint8_t kind;   /* enum matcher_kind */
+    uint32_t owner;                 /* the assignment or the collection */
+    uint8_t kind;                   /* enum matcher_kind */
+    const char *prefix, *list;      /* the names and the geomprefix in front; NULL: primitives */
+    uint32_t first_prim, num_prims; /* in `matched` */
 };
 
 struct bind_look {
@@ -77,6 +87,7 @@ struct bind_look {
     const struct scene *scene;
     struct pattern_set patterns;
     VEC(struct look_matcher) matchers;
+    VEC(prim_id) matched;            /* primitives that matchers name one by one */
     VEC(struct look_assign) assigns; /* a stronger one stands behind a weaker one */
     VEC(struct look_name) names;     /* sorted: base first; a slot, its overrides, its verticals */
     struct table name_table;
@@ -160,6 +171,9 @@ void look_close_collections(struct bind_look *look);
  */
 uint32_t look_read_geometry(struct bind_look *look, elem_id element, str_id attr,
                             struct look_matcher matcher);
+
+/* The next name of a list of geometry, without blanks; empty at its end. Moves the list on. */
+struct text_word look_next_name(const char **list);
 
 /* order.c: reads the slotorder of look->order into `order_parts`, and reports its faults. */
 void look_read_order(struct bind_look *look);

@@ -548,7 +548,7 @@ static void add_override(struct maker *m, usda_prim_id prim)
 static bool is_bound(const struct scene *scene, struct text_word name)
 {
     for (uint32_t i = 0; i < scene->bindings.len; i++)
-        if (strstr(scene->bindings.items[i].name, "::")
+        if (!scene->bindings.items[i].is_removed && strstr(scene->bindings.items[i].name, "::")
             && usda_is(name, scene->bindings.items[i].material))
             return true;
     return false;

@@ -110,6 +110,16 @@ static uint32_t add_edge(struct pattern_set *set, uint32_t hash, struct pattern_
     return edge.to;
 }
 
+static uint32_t name_below(struct pattern_set *set, uint32_t node, const char *name, size_t len)
+{
+    uint32_t hash = hash_bytes(name, len), found = find_name(set, node, hash, name, len);
+    if (found)
+        return found;
+    struct pattern_edge edge = {
+        .from = node, .name = arena_strndup(set->arena, name, len), .len = len};
+    return add_edge(set, name_hash(node, hash), edge);
+}
+
 /* The node below one level of a pattern. */
 static const char *add_level(struct pattern_set *set, const char *text, size_t len, uint32_t *node)
 {
@@ -119,11 +129,7 @@ static const char *add_level(struct pattern_set *set, const char *text, size_t l
         return NULL;
     }
     if (glob_is_plain(text, len)) {
-        uint32_t hash = hash_bytes(text, len);
-        found = find_name(set, *node, hash, text, len);
-        struct pattern_edge edge = {
-            .from = *node, .name = arena_strndup(set->arena, text, len), .len = len};
-        *node = found ? found : add_edge(set, name_hash(*node, hash), edge);
+        *node = name_below(set, *node, text, len);
         return NULL;
     }
     const char *fault = glob_add(&set->globs, text, len, &glob);
@@ -188,6 +194,29 @@ const char *pattern_add(struct pattern_set *set, const char *text, size_t len, u
     }
     add_end(set, node, matcher, only_leaves);
     return NULL;
+}
+
+void pattern_add_path(struct pattern_set *set, const char *path, size_t len, uint32_t matcher)
+{
+    const char *end = path + len;
+    uint32_t node = 0;
+    while (path < end) {
+        path += *path == '/';
+        const char *slash = memchr(path, '/', (size_t)(end - path));
+        size_t name = (size_t)((slash ? slash : end) - path);
+        if (name)
+            node = name_below(set, node, path, name);
+        path += name;
+    }
+    add_end(set, node, matcher, false);
+}
+
+bool pattern_is_path(const char *text, size_t len)
+{
+    for (size_t i = 0; i + 1 < len; i++)
+        if (text[i] == '/' && text[i + 1] == '/')
+            return false;
+    return glob_is_plain(text, len);
 }
 
 /* ---- The walk ---- */

@@ -51,6 +51,12 @@ const char *pattern_add(struct pattern_set *set, const char *text, size_t len, u
 /* The end of the name that begins at `text` in a list with commas; one in brackets is its own. */
 const char *pattern_name_end(const char *text);
 
+/* The same for one path, whose names are not read as patterns. */
+void pattern_add_path(struct pattern_set *set, const char *path, size_t len, uint32_t matcher);
+
+/* True if an expression is a path: it matches at most there. */
+bool pattern_is_path(const char *text, size_t len);
+
 /* A walk down a scene: the nodes of the trie that the current path reaches, for each level. */
 struct pattern_walk {
     struct pattern_set *set;
@@ -66,6 +72,11 @@ struct pattern_walk {
 void pattern_walk_init(struct pattern_walk *walk, struct pattern_set *set, struct arena *arena);
 void pattern_walk_down(struct pattern_walk *walk, const char *name, size_t len);
 void pattern_walk_up(struct pattern_walk *walk);
+/* False if no pattern matches at or below the current path. */
+static inline bool pattern_walk_is_alive(const struct pattern_walk *walk)
+{
+    return walk->active.len > vec_last(&walk->levels);
+}
 /* The matchers that match the current path, ascending; valid until the next call. */
 const uint32_t *pattern_walk_matches(struct pattern_walk *walk, bool is_leaf, uint32_t *out_num);
 

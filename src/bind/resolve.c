@@ -1,158 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The walk down the scene, and the states that it finds. */
-#include "base/hash.h"
+/* A look on a scene: the layers of all primitives, and warnings about them. */
 #include "bind/bind.h"
 
 #include <assert.h>
-
-/* A step from a state to the state of a primitive below. */
-struct step {
-    uint32_t from, level, first_match, num_matches, to;
-};
 
 struct resolver {
     struct bindings *b;
     struct arena *scratch;
     struct diag_list *diags;
-    struct pattern_walk walk;
-    VEC(struct step) steps; /* 0 unused */
-    VEC(uint32_t) matches;  /* of the steps */
-    struct table steps_table;
-    struct table states_table;
     struct layer_notes notes;
     bool is_filtered; /* by --solo or --mute: names may be missing on purpose */
 };
-
-/* ---- States ---- */
-
-/* Adds a state of the entries from `first` on, or finds an equal one and drops them. */
-static uint32_t intern_state(struct resolver *r, uint32_t first)
-{
-    struct bindings *b = r->b;
-    uint32_t num = b->entries.len - first;
-    size_t size = num * sizeof *b->entries.items;
-    uint32_t hash = num ? hash_bytes(&b->entries.items[first], size) : 0;
-    for (uint32_t at = hash, found; (found = table_next(&r->states_table, hash, &at));) {
-        const struct bind_state *state = &b->states.items[found - 1];
-        if (state->num_entries == num
-            && (!num
-                || memcmp(&b->entries.items[state->first_entry], &b->entries.items[first], size)
-                       == 0)) {
-            b->entries.len = first;
-            return found - 1;
-        }
-    }
-    vec_push(b->arena, &b->states, (struct bind_state){.first_entry = first, .num_entries = num});
-    table_add(&r->states_table, r->scratch, hash, b->states.len);
-    return b->states.len - 1;
-}
-
-/* The entry of a matcher that matches now. An exclusion counts from its first match on. */
-static struct bind_entry entry_of(const struct resolver *r, uint32_t matcher, uint32_t level,
-                                  const struct bind_entry *before)
-{
-    bool is_exclusion = r->b->look.matchers.items[matcher].kind == MATCHER_EXCLUDE;
-    return before && is_exclusion ? *before : (struct bind_entry){matcher, level};
-}
-
-/* The entries of a state, with the matches of one more level. */
-static void merge_entries(struct resolver *r, uint32_t from, const uint32_t *matches, uint32_t num,
-                          uint32_t level)
-{
-    struct bindings *b = r->b;
-    uint32_t at = b->states.items[from].first_entry, end = at + b->states.items[from].num_entries;
-    /* so that the entries do not move while they are read */
-    vec_reserve(b->arena, &b->entries, end - at + num);
-    for (uint32_t i = 0; i < num; i++) {
-        while (at < end && b->entries.items[at].matcher < matches[i])
-            vec_push(b->arena, &b->entries, b->entries.items[at++]);
-        bool had = at < end && b->entries.items[at].matcher == matches[i];
-        struct bind_entry entry =
-            entry_of(r, matches[i], level, had ? &b->entries.items[at] : NULL);
-        vec_push(b->arena, &b->entries, entry);
-        at += had;
-    }
-    while (at < end)
-        vec_push(b->arena, &b->entries, b->entries.items[at++]);
-}
-
-static uint32_t hash_step(uint32_t from, const uint32_t *matches, uint32_t num, uint32_t level)
-{
-    return hash_pair(hash_pair(from, level), hash_bytes(matches, num * sizeof *matches));
-}
-
-/* The state of a primitive with these matches, below a primitive of the state `from`. */
-static uint32_t step_to(struct resolver *r, uint32_t from, const uint32_t *matches, uint32_t num,
-                        uint32_t level)
-{
-    uint32_t hash = hash_step(from, matches, num, level);
-    for (uint32_t at = hash, found; (found = table_next(&r->steps_table, hash, &at));) {
-        const struct step *step = &r->steps.items[found];
-        if (step->from == from && step->level == level && step->num_matches == num
-            && memcmp(&r->matches.items[step->first_match], matches, num * sizeof *matches) == 0)
-            return step->to;
-    }
-    struct step step = {from, level, r->matches.len, num, 0};
-    uint32_t first = r->b->entries.len;
-    merge_entries(r, from, matches, num, level);
-    step.to = intern_state(r, first);
-    for (uint32_t i = 0; i < num; i++)
-        vec_push(r->scratch, &r->matches, matches[i]);
-    vec_push(r->scratch, &r->steps, step);
-    table_add(&r->steps_table, r->scratch, hash, r->steps.len - 1);
-    return step.to;
-}
-
-/* ---- The walk ---- */
-
-static void enter(struct resolver *r, prim_id prim, uint32_t from, uint32_t level)
-{
-    const struct scene_prim *p = &r->b->scene->prims.items[prim];
-    uint32_t num;
-    const uint32_t *matches = pattern_walk_matches(&r->walk, prim && !p->first_child, &num);
-    uint32_t state = num ? step_to(r, from, matches, num, level) : from;
-    r->b->state_of[prim] = state;
-    if (!r->b->states.items[state].first_prim)
-        r->b->states.items[state].first_prim = prim;
-}
-
-static void walk_scene(struct resolver *r)
-{
-    const struct scene *scene = r->b->scene;
-    const struct scene_prim *prims = scene->prims.items;
-    uint32_t level = 1;
-    enter(r, 0, intern_state(r, 0), level);
-    for (prim_id prim = prims[0].first_child; prim;) {
-        pattern_walk_down(&r->walk, prims[prim].name, prims[prim].name_len);
-        enter(r, prim, r->b->state_of[prims[prim].parent], ++level);
-        if (prims[prim].first_child) {
-            prim = prims[prim].first_child;
-            continue;
-        }
-        for (; prim && !prims[prim].next; prim = prims[prim].parent, level--)
-            pattern_walk_up(&r->walk);
-        if (!prim)
-            return;
-        pattern_walk_up(&r->walk);
-        level--;
-        prim = prims[prim].next;
-    }
-}
-
-static void find_states(struct resolver *r)
-{
-    struct bindings *b = r->b;
-    b->state_of = ARENA_ARRAY(b->arena, uint32_t, b->scene->prims.len);
-    vec_push(r->scratch, &r->steps, (struct step){0});
-    pattern_walk_init(&r->walk, &b->look.patterns, r->scratch);
-    walk_scene(r);
-}
-
-void bind_find_states(struct bindings *b, struct arena *scratch)
-{
-    struct resolver r = {.b = b, .scratch = scratch};
-    find_states(&r);
-}
 
 /* ---- Solo and mute ---- */
 
@@ -276,28 +134,36 @@ static void warn(struct resolver *r)
 
 /* ---- The whole ---- */
 
+/*
+ * The layers of each state that a primitive has. The order of the primitives decides that of the
+ * stacks, whatever the order of the states is.
+ */
 static void make_layers(struct resolver *r)
 {
     struct bindings *b = r->b;
     struct stands stands = {.scratch = r->scratch};
     r->notes.sleeps_at = ARENA_ARRAY(r->scratch, uint32_t, b->look.names.len);
     r->notes.has_layer = ARENA_ARRAY(r->scratch, bool, b->look.names.len);
-    for (uint32_t i = 0; i < b->states.len; i++)
-        if (b->states.items[i].first_prim)
-            bind_layers(b, i, &stands, &r->notes);
-    for (prim_id prim = 1; prim < b->scene->prims.len; prim++)
-        b->stacks.items[bind_state_of(b, prim)->stack].num_prims++;
+    for (prim_id prim = 1; prim < b->num_prims; prim++) {
+        uint32_t number = b->state_of[prim];
+        if (!b->states.items[number].first_prim) {
+            b->states.items[number].first_prim = prim;
+            bind_layers(b, number, &stands, &r->notes);
+        }
+        b->stacks.items[b->states.items[number].stack].num_prims++;
+    }
 }
 
 void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
-                  const struct scene *scene, const struct bind_options *options,
-                  struct arena *arena, struct arena *scratch, struct diag_list *diags)
+                  const struct scene *scene, const struct bindings *before,
+                  const struct bind_options *options, struct arena *arena, struct arena *scratch,
+                  struct diag_list *diags)
 {
     *b = (struct bindings){.arena = arena, .scene = scene};
     struct resolver r = {.b = b, .scratch = scratch, .diags = diags};
     look_read(&b->look, doc, look, scene, arena, diags);
     mute_names(&r, options);
-    find_states(&r);
+    bind_find_states(b, before, scratch);
     make_layers(&r);
     warn(&r);
 }
@@ -305,6 +171,7 @@ void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
 void bindings_finish(struct bindings *b)
 {
     look_finish(&b->look);
+    pattern_set_finish(&b->added);
 }
 
 prim_id bind_prim_at(const struct bindings *b, prim_id prim, uint32_t level)

@@ -9,6 +9,8 @@ void scene_init(struct scene *scene, struct arena *arena)
 {
     *scene = (struct scene){.arena = arena};
     vec_push(arena, &scene->prims, (struct scene_prim){.name = ""});
+    vec_push(arena, &scene->words, "");
+    text_init(&scene->written, arena);
 }
 
 static uint32_t child_hash(prim_id parent, const char *name, size_t len)
@@ -86,6 +88,42 @@ prim_id scene_find(const struct scene *scene, const char *path, size_t len)
     return scene_find_below(scene, 0, path, len);
 }
 
+prim_id scene_add_below(struct scene *scene, prim_id prim, const char *path, size_t len)
+{
+    const char *end = path + len;
+    while (path < end) {
+        const char *slash = memchr(path, '/', (size_t)(end - path));
+        size_t name = (size_t)((slash ? slash : end) - path);
+        prim = scene_child(scene, prim, path, name);
+        path += name + (slash != NULL);
+    }
+    return prim;
+}
+
+const char *scene_keep_word(struct scene *scene, struct text_word word)
+{
+    uint32_t hash = hash_bytes(word.bytes, word.len);
+    if (!word.len)
+        return "";
+    for (uint32_t at = hash, found; (found = table_next(&scene->words_table, hash, &at));) {
+        const char *kept = scene->words.items[found];
+        if (strncmp(kept, word.bytes, word.len) == 0 && !kept[word.len])
+            return kept;
+    }
+    const char *kept = arena_strndup(scene->arena, word.bytes, word.len);
+    vec_push(scene->arena, &scene->words, kept);
+    table_add(&scene->words_table, scene->arena, hash, scene->words.len - 1);
+    return kept;
+}
+
+void scene_set_type(struct scene *scene, prim_id prim, struct text_word type)
+{
+    const char *kept = scene_keep_word(scene, type);
+    while (scene->types.len <= prim)
+        vec_push(scene->arena, &scene->types, NULL);
+    scene->types.items[prim] = kept;
+}
+
 uint32_t scene_depth(const struct scene *scene, prim_id prim)
 {
     uint32_t depth = 0;
@@ -132,14 +170,38 @@ struct list_reader {
     uint32_t line;
 };
 
+static bool has_empty_name(const char *path, const char *end)
+{
+    for (; path + 1 < end; path++)
+        if (path[0] == '/' && path[1] == '/')
+            return true;
+    return false;
+}
+
 static const char *path_fault(const char *path, const char *end)
 {
     if (path == end || *path != '/')
         return "does not begin with '/'";
-    for (; path + 1 < end; path++)
-        if (path[0] == '/' && path[1] == '/')
-            return "has an empty name";
-    return NULL;
+    return has_empty_name(path, end) ? "has an empty name" : NULL;
+}
+
+/* The fault of a path without '/' in front. */
+static const char *name_fault(const char *name, const char *end)
+{
+    if (name == end)
+        return "is empty";
+    if (*name == '/' || memchr(name, '\0', (size_t)(end - name)))
+        return "is no name below a parent";
+    return has_empty_name(name, end) ? "has an empty name" : NULL;
+}
+
+bool scene_check_name(struct text_word name, struct diag_place place, struct diag_list *diags)
+{
+    const char *fault = name_fault(name.bytes, name.bytes + name.len);
+    if (fault)
+        diag_add(diags, DIAG_ID_bad_path, place, arena_strndup(diags->arena, name.bytes, name.len),
+                 fault);
+    return !fault;
 }
 
 static bool check_path(const char *path, const char *end, struct diag_place place,

@@ -6,6 +6,7 @@
 #define MXG_BIND_SCENE_H
 
 #include "base/table.h"
+#include "bind/name.h"
 #include "diag/diag.h"
 #include "usda/usda.h"
 
@@ -24,9 +25,12 @@ struct scene_binding {
     const char *material; /* ""; a removal */
     const char *label;    /* "/set/table.material:binding" */
     struct diag_place place;
-    bool is_strong;  /* it beats the bindings of the scene below it */
-    bool is_purpose; /* it is for the asked purpose, and beats those for all purposes */
-    uint32_t first_member, num_members; /* of its collection; 0: it has none */
+    bool is_strong;     /* it beats the bindings of the scene below it */
+    bool is_purpose;    /* it is for the asked purpose, and beats those for all purposes */
+    bool is_collection; /* it is for the members of a collection */
+    bool is_removed;    /* scene_bind uses the place again */
+    uint32_t first_member, num_members;
+    uint32_t next; /* of the primitive, or of those that are removed: 1 + index; 0: none */
 };
 
 /* A path that a collection of USD names. */
@@ -51,13 +55,20 @@ struct scene {
     struct table table;           /* (parent, name) → primitive */
     VEC(prim_id) last; /* the levels of the path that was added last; the next often shares some */
     VEC(struct scene_binding) bindings;
+    VEC(uint32_t) first_binding; /* by primitive, like first_source */
+    uint32_t removed_binding;    /* the first one; 1 + index; 0: none */
+    uint32_t num_bindings;       /* without those that are removed */
     VEC(struct scene_member) members;
     struct usda_layer layer; /* of a stage of USD; otherwise without prims */
     VEC(struct scene_source) sources;
     VEC(uint32_t) first_source; /* by primitive: 1 + index; shorter than prims: 0 */
     const char *slot_order;     /* with commas; NULL: the scene has none */
     struct diag_place slot_order_place;
-    char *names; /* free part of the block of names */
+    VEC(const char *) words; /* those that a host gives again and again */
+    struct table words_table;
+    struct text written;     /* a name at hand */
+    VEC(const char *) types; /* that a host gives, by primitive, like first_source; or NULL */
+    char *names;             /* free part of the block of names */
     size_t names_left;
 };
 
@@ -66,6 +77,14 @@ void scene_init(struct scene *scene, struct arena *arena);
 /* The child of this name; adds it if there is none. Keeps `name`, which lives as long as the scene.
  */
 prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_t len);
+/* The same for a path below a primitive, "b/c"; an empty path is the primitive. Copies it. */
+prim_id scene_add_below(struct scene *scene, prim_id prim, const char *path, size_t len);
+/* Reports a path below a primitive that is none, "/b" or "b//c"; false then. */
+bool scene_check_name(struct text_word name, struct diag_place place, struct diag_list *diags);
+/* The same text with a NUL, once for all equal ones. */
+const char *scene_keep_word(struct scene *scene, struct text_word word);
+/* Sets the type that a host gives a primitive. Copies it. */
+void scene_set_type(struct scene *scene, prim_id prim, struct text_word type);
 prim_id scene_find_child(const struct scene *scene, prim_id parent, const char *name, size_t len);
 
 /* The primitive at a path, "/a/b"; 0: none. */
@@ -95,6 +114,24 @@ void scene_add_path(struct scene *scene, const char *path, size_t len, struct di
  */
 void scene_read_list(struct scene *scene, const char *file, const char *text, size_t len,
                      struct diag_list *diags);
+
+/* ---- Bindings ---- */
+
+/* Adds a binding behind the others of its primitive: its index. */
+uint32_t scene_add_binding(struct scene *scene, struct scene_binding binding);
+/*
+ * Removes the direct bindings of a slot from a primitive, and adds one of this material ("" removes
+ * the slot there). Copies the material.
+ */
+void scene_bind(struct scene *scene, prim_id prim, const struct slot_name *slot,
+                const char *material);
+/* Removes the direct bindings of a slot from a primitive. */
+void scene_unbind(struct scene *scene, prim_id prim, const struct slot_name *slot);
+/* The first binding of a primitive, 1 + index; 0: none. */
+static inline uint32_t scene_first_binding(const struct scene *scene, prim_id prim)
+{
+    return prim < scene->first_binding.len ? scene->first_binding.items[prim] : 0;
+}
 
 /*
  * stage.c: adds the primitives of a USD text layer, with their bindings. Instances of an internal

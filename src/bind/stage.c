@@ -203,11 +203,11 @@ static void add_binding(struct stage *s, prim_id prim, const struct usda_propert
     added.label = label_of(s, prim, property);
     added.place = place_of(s, property->line, property->column);
     added.is_strong = usda_is(property->bind_as, "strongerThanDescendants");
-    vec_push(s->scene->arena, &s->scene->bindings, added);
+    added.is_collection = said.is_collection;
+    uint32_t index = scene_add_binding(s->scene, added);
     if (said.is_collection)
-        vec_push(
-            s->scratch, &s->pending,
-            (struct pending){s->scene->bindings.len - 1, scene_source(s->scene, prim), collection});
+        vec_push(s->scratch, &s->pending,
+                 (struct pending){index, scene_source(s->scene, prim), collection});
 }
 
 /*
@@ -473,10 +473,6 @@ static void read_members(struct stage *s, const struct pending *pending)
         add_paths(s, prim, name, "excludes", is_explicit, todo, sources, &num);
     }
     binding->num_members = s->scene->members.len - binding->first_member;
-    if (!binding->num_members) { /* it holds nothing: a member that excludes all */
-        add_member(s, binding->prim, true);
-        binding->num_members = 1;
-    }
 }
 
 /* uniform token[] material:slotOrder on the default prim. */

@@ -213,7 +213,7 @@ static void sort_stands(const struct bind_look *look, struct stands *stands)
         if (num_collections > 1)
             sort_by_collections(look, &stands->items[i], end - i, stands);
     }
-    if (look->scene->bindings.len)
+    if (look->scene->num_bindings)
         sort_names_by_scene(look, stands);
 }
 

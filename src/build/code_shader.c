@@ -152,6 +152,14 @@ static bool belongs_to_pixel(struct builder *b, ir_ref value)
     return false;
 }
 
+/* True for numbers and vectors of numbers, which stages can pass on. */
+static bool is_varying(ir_type_id type)
+{
+    return type < IR_NUM_TYPES && ir_type_info(type)->components > 0 && !ir_type_is_matrix(type)
+           && ir_type_info(type)->scalar >= IR_TYPE_INT
+           && ir_type_info(type)->scalar <= IR_TYPE_FLOAT;
+}
+
 static void make_interpolated(void *request)
 {
     struct code_request *r = request;
@@ -160,7 +168,7 @@ static void make_interpolated(void *request)
     if (!code_ref(r->build, r->value, &value))
         return;
     ir_type_id type = value ? ir_type_of(b->graph, value) : IR_TYPE_VOID;
-    if (type < IR_TYPE_INT || type > IR_TYPE_VEC4 || !r->name) {
+    if (!is_varying(type) || !r->name) {
         code_fault(r->build,
                    "interpolates a value that is no number or vector:", r->name ? r->name : "NULL");
         return;
@@ -191,6 +199,33 @@ static void set_default(struct code_request *r, const mxg_build_uniform *uniform
     variable->value = value;
 }
 
+/* UINT32_MAX after a message: no shader can have the uniform, or it is elsewhere in the shader. */
+static uint32_t declare(struct code_request *r, const mxg_build_uniform *uniform, ir_type_id type)
+{
+    struct builder *b = r->build->b;
+    str_id name = str_intern_z(b->shader->strings, uniform->name);
+    if (build_uniform_fault(b, name, type)) {
+        code_fault(r->build, "adds a uniform of mxgen, with another type, or a word of the target:",
+                   uniform->name);
+        return UINT32_MAX;
+    }
+    if (!uniform->block)
+        return shader_private_uniform(b->shader, name, type, 0);
+    str_id block = str_intern_z(b->shader->strings, uniform->block);
+    enum shader_block own = NUM_BLOCKS;
+    bool may_be = *uniform->block && type != IR_TYPE_SAMPLER && !shader_knows_uniform(name);
+    if (may_be && !build_uniform_fault(b, block, IR_TYPE_VOID))
+        own = shader_own_block(b->shader, block);
+    if (own != NUM_BLOCKS)
+        return shader_own_uniform(b->shader, own, name, type);
+    code_fault(r->build,
+               may_be ? "adds a uniform to a block that the shader cannot have, because there are "
+                        "four or the name is taken:"
+                      : "adds a texture or a uniform of mxgen to a block:",
+               may_be ? uniform->block : uniform->name);
+    return UINT32_MAX;
+}
+
 static void make_uniform(void *request)
 {
     struct code_request *r = request;
@@ -208,20 +243,15 @@ static void make_uniform(void *request)
         code_fault(r->build, "adds a uniform that no shader can have:", word);
         return;
     }
-    str_id name = str_intern_z(b->shader->strings, word);
-    const char *fault = build_uniform_fault(b, name, type);
-    if (fault) {
-        code_fault(r->build,
-                   "adds a uniform of mxgen, with another type, or a word of the target:", word);
+    uint32_t index = declare(r, &uniform, type);
+    if (index == UINT32_MAX)
         return;
-    }
-    uint32_t index = shader_private_uniform(b->shader, name, type, 0);
     struct shader_variable *variable = &b->shader->variables.items[index];
     if (variable->type != type) {
         code_fault(r->build, "adds a uniform that has another type elsewhere:", word);
         return;
     }
-    if (!shader_knows_uniform(name)) {
+    if (variable->rank == 0) {
         set_default(r, &uniform, variable);
         if (uniform.semantic)
             variable->semantic = str_intern_z(b->shader->strings, uniform.semantic);

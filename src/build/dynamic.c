@@ -119,11 +119,12 @@ static mxg_ref tangent_of(mxg_build *build, mxg_ref point, mxg_ref uv, bool alon
             du_dy = mxg_build_swizzle(build, op1(build, "dFdy", uv), "x"),
             dv_dx = mxg_build_swizzle(build, op1(build, "dFdx", uv), "y"),
             dv_dy = mxg_build_swizzle(build, op1(build, "dFdy", uv), "y");
-    mxg_ref sum =
-        op2(build, "sub", op2(build, "mul", op1(build, first, point), along_v ? du_dx : dv_dy),
-            op2(build, "mul", op1(build, second, point), along_v ? du_dy : dv_dx));
-    mxg_ref area =
-        op2(build, "sub", op2(build, "mul", du_dx, dv_dy), op2(build, "mul", du_dy, dv_dx));
+    mxg_ref plus = op2(build, "mul", op1(build, first, point), along_v ? du_dx : dv_dy);
+    mxg_ref minus = op2(build, "mul", op1(build, second, point), along_v ? du_dy : dv_dx);
+    mxg_ref sum = op2(build, "sub", plus, minus);
+    plus = op2(build, "mul", du_dx, dv_dy);
+    minus = op2(build, "mul", du_dy, dv_dx);
+    mxg_ref area = op2(build, "sub", plus, minus);
     return op1(build, "normalize", op2(build, "mul", sum, op1(build, "sign", area)));
 }
 
@@ -227,9 +228,10 @@ static bool build_geompropvalue(void *user_data, mxg_build *build, mxg_ref *resu
 static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    results[0] = code_issue(
-        build, build_blur(build->b, dynamic_arg(build, STR_in), dynamic_arg(build, STR_size),
-                          dynamic_arg(build, STR_filtertype), build->frame->node.element));
+    ir_ref in = dynamic_arg(build, STR_in), size = dynamic_arg(build, STR_size),
+           filter = dynamic_arg(build, STR_filtertype);
+    results[0] =
+        code_issue(build, build_blur(build->b, in, size, filter, build->frame->node.element));
     return true;
 }
 
@@ -263,19 +265,20 @@ static bool build_multiply(void *user_data, mxg_build *build, mxg_ref *results)
 static bool thin_film(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    results[0] = code_issue(
-        build, build_film(build->b, dynamic_arg(build, STR_thickness), dynamic_arg(build, STR_ior),
-                          dynamic_arg(build, STR_base), build->frame->node.element));
+    ir_ref thickness = dynamic_arg(build, STR_thickness), ior = dynamic_arg(build, STR_ior),
+           base = dynamic_arg(build, STR_base);
+    results[0] =
+        code_issue(build, build_film(build->b, thickness, ior, base, build->frame->node.element));
     return true;
 }
 
 static bool measured_edf(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    results[0] = code_issue(build, build_measured_edf(build->b, dynamic_arg(build, STR_color),
-                                                      dynamic_arg(build, STR_normal),
-                                                      dynamic_arg(build, STR_file),
-                                                      build->frame->node.element));
+    ir_ref color = dynamic_arg(build, STR_color), normal = dynamic_arg(build, STR_normal),
+           file = dynamic_arg(build, STR_file);
+    results[0] = code_issue(
+        build, build_measured_edf(build->b, color, normal, file, build->frame->node.element));
     return true;
 }
 
@@ -291,10 +294,10 @@ static bool build_surface(void *user_data, mxg_build *build, mxg_ref *results)
 static bool build_surface_unlit(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    mxg_ref emission = op2(build, "mul", mxg_build_input(build, "emission_color"),
-                           mxg_build_input(build, "emission"));
-    mxg_ref transmission = op2(build, "mul", mxg_build_input(build, "transmission_color"),
-                               mxg_build_input(build, "transmission"));
+    mxg_ref emission = mxg_build_input(build, "emission_color");
+    emission = op2(build, "mul", emission, mxg_build_input(build, "emission"));
+    mxg_ref transmission = mxg_build_input(build, "transmission_color");
+    transmission = op2(build, "mul", transmission, mxg_build_input(build, "transmission"));
     mxg_ref args[3] = {emission, transmission, mxg_build_input(build, "opacity")};
     results[0] = mxg_build_op(build, "surface_unlit", NULL, args, 3);
     return true;

@@ -101,14 +101,15 @@ static bool beside(mxg_build *build, ir_ref bg, ir_ref fg, ir_ref share, mxg_ref
 bool dynamic_slab_mix(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    return beside(build, dynamic_arg(build, STR_bg), dynamic_arg(build, STR_fg),
-                  dynamic_arg(build, STR_mix), results);
+    ir_ref bg = dynamic_arg(build, STR_bg), fg = dynamic_arg(build, STR_fg);
+    return beside(build, bg, fg, dynamic_arg(build, STR_mix), results);
 }
 
 bool dynamic_slab_coverage(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    return beside(build, 0, dynamic_arg(build, STR_in), dynamic_arg(build, STR_weight), results);
+    ir_ref in = dynamic_arg(build, STR_in);
+    return beside(build, 0, in, dynamic_arg(build, STR_weight), results);
 }
 
 bool dynamic_slab_select(void *user_data, mxg_build *build, mxg_ref *results)
@@ -117,8 +118,8 @@ bool dynamic_slab_select(void *user_data, mxg_build *build, mxg_ref *results)
     (void)user_data;
     ir_ref is_second = ir_op2(g, IR_GT, dynamic_arg(build, STR_mask), ir_const_float(g, 0.5f));
     ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
-    return beside(build, dynamic_arg(build, STR_in1), dynamic_arg(build, STR_in2),
-                  ir_op3(g, IR_SELECT, is_second, one, zero), results);
+    ir_ref in1 = dynamic_arg(build, STR_in1), in2 = dynamic_arg(build, STR_in2);
+    return beside(build, in1, in2, ir_op3(g, IR_SELECT, is_second, one, zero), results);
 }
 
 bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results)

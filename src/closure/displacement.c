@@ -100,7 +100,8 @@ static ir_ref bent_normal(struct shader *shader, ir_ref before, ir_ref after)
     struct ir_graph *g = shader->graph;
     ir_push_name(g, STR_facet);
     ir_ref normal = ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalWorld));
-    ir_ref bend = ir_op2(g, IR_SUB, facet(shader, after, normal), facet(shader, before, normal));
+    ir_ref moved = facet(shader, after, normal), rest = facet(shader, before, normal);
+    ir_ref bend = ir_op2(g, IR_SUB, moved, rest);
     ir_pop_origin(g);
     return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_ADD, normal, bend));
 }

@@ -87,6 +87,13 @@ static ir_ref emission(struct shader *shader, const struct closure_host *host, i
     return sum;
 }
 
+/* From the shaded point to the light whose member is `position`. */
+static ir_ref to_light(struct shader *shader, const struct closure_host *host, uint32_t position)
+{
+    ir_ref at = member(shader, position);
+    return ir_op2(shader->graph, IR_SUB, at, closure_position(shader, host));
+}
+
 /*
  * A light made of nodes: its EDF at u_lightData[i].position, facing u_lightData[i].direction.
  *
@@ -97,8 +104,7 @@ static void sample_emitter(struct shader *shader, const struct closure_host *hos
 {
     struct ir_graph *g = shader->graph;
     ir_ref facing = ir_op1(g, IR_NORMALIZE, member(shader, light->direction));
-    ir_ref away =
-        ir_op2(g, IR_SUB, member(shader, light->position), closure_position(shader, host));
+    ir_ref away = to_light(shader, host, light->position);
     ir_ref distance = ir_op1(g, IR_LENGTH, away), square = ir_op2(g, IR_MUL, distance, distance);
     ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3);
     ir_ref root =
@@ -178,9 +184,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
 
 static ir_ref distance_to(struct shader *shader, const struct closure_host *host, uint32_t position)
 {
-    struct ir_graph *g = shader->graph;
-    return ir_op1(g, IR_LENGTH,
-                  ir_op2(g, IR_SUB, member(shader, position), closure_position(shader, host)));
+    return ir_op1(shader->graph, IR_LENGTH, to_light(shader, host, position));
 }
 
 ir_ref closure_light_distance(struct shader *shader, const struct closure_host *host)

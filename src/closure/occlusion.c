@@ -47,8 +47,8 @@ ir_ref closure_shadow(struct shader *shader, const struct closure_host *host)
     ir_ref product[2] = {uniform(shader, STR_u_shadowMatrix, IR_TYPE_MAT4),
                          ir_construct(g, IR_TYPE_VEC4, parts, 2)};
     ir_ref clip = ir_build(g, IR_MUL, IR_TYPE_VEC4, 0, product, 2);
-    ir_ref place = ir_op2(g, IR_DIV, ir_swizzle(g, clip, (const uint8_t[]){0, 1, 2}, 3),
-                          ir_component(g, clip, 3));
+    ir_ref place = ir_swizzle(g, clip, (const uint8_t[]){0, 1, 2}, 3);
+    place = ir_op2(g, IR_DIV, place, ir_component(g, clip, 3));
     place = ir_op2(g, IR_ADD, ir_op2(g, IR_MUL, place, number(g, 0.5f)), number(g, 0.5f));
     ir_ref map = uniform(shader, STR_u_shadowMap, IR_TYPE_SAMPLER),
            uv = ir_swizzle(g, place, (const uint8_t[]){0, 1}, 2), mean = texel(g, map, uv, 0),

@@ -144,19 +144,20 @@ static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *lea
 static ir_ref is_in_front(struct closure_scatter *s, ir_ref direction)
 {
     ir_ref normal = closure_normal(s->shader, s->host), view = closure_view(s->shader, s->host);
-    ir_ref sides = op2(s, IR_MUL, op2(s, IR_DOT, normal, view), op2(s, IR_DOT, normal, direction));
-    return op2(s, IR_GT, sides, number(s, 0.0f));
+    ir_ref of_view = op2(s, IR_DOT, normal, view), of_light = op2(s, IR_DOT, normal, direction);
+    return op2(s, IR_GT, op2(s, IR_MUL, of_view, of_light), number(s, 0.0f));
 }
 
 static void sample(struct closure_scatter *s, const struct closure_leaf *leaf, ir_ref share)
 {
     struct ir_graph *g = s->graph;
     ir_ref pick = read(s, s->pick), nothing = number(s, 0.0f), one = number(s, 1.0f);
-    ir_ref is_it = op2(s, IR_LAND, op2(s, IR_GE, pick, nothing), op2(s, IR_LT, pick, share));
+    ir_ref is_it = op2(s, IR_GE, pick, nothing);
+    is_it = op2(s, IR_LAND, is_it, op2(s, IR_LT, pick, share));
     ir_ref results[3]; /* direction, f cos / pdf, pdf */
     closure_call_all(s->shader, s->host, leaf->leaf, LEAF_SAMPLE, NULL, results);
-    ir_ref weight = op2(s, IR_MUL, op2(s, IR_MUL, weight_from(s, leaf, results[0]), results[1]),
-                        op2(s, IR_DIV, s->total, share));
+    ir_ref weight = op2(s, IR_MUL, weight_from(s, leaf, results[0]), results[1]);
+    weight = op2(s, IR_MUL, weight, op2(s, IR_DIV, s->total, share));
     ir_ref density = op2(s, IR_MUL, results[2], op2(s, IR_DIV, share, s->total));
     effect(s, EFFECT_IF, 0, is_it);
     effect(s, EFFECT_ASSIGN, s->direction, results[0]);
@@ -223,7 +224,8 @@ static ir_ref response(struct closure_scatter *s, ir_ref direction, ir_ref solid
         ir_ref value = closure_call(s->shader, s->host, leaf->leaf, LEAF_EVAL, &direction);
         if (!value || !s->shares[i])
             continue;
-        value = op2(s, IR_MUL, ir_convert(g, IR_TYPE_VEC3, value), weight_from(s, leaf, direction));
+        value = ir_convert(g, IR_TYPE_VEC3, value);
+        value = op2(s, IR_MUL, value, weight_from(s, leaf, direction));
         if (solid_angle) {
             ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
             density = op2(s, IR_MUL, density, op2(s, IR_DIV, s->shares[i], s->total));
@@ -274,20 +276,22 @@ static void light_up(struct closure_scatter *s)
     ir_ref lit = op2(s, IR_MUL, light.intensity, response(s, light.direction, 0));
     ir_ref mean = op2(s, IR_MAX, mean_of(s, lit), nothing);
     effect(s, EFFECT_ACCUMULATE, sum, mean);
-    ir_ref point = op2(s, IR_MUL, read(s, chance), read(s, sum)),
+    ir_ref all = read(s, sum), point = op2(s, IR_MUL, read(s, chance), all),
            is_it = op2(s, IR_LT, point, mean);
     effect(s, EFFECT_IF, 0, is_it);
     effect(s, EFFECT_ASSIGN, to_light, light.direction);
     effect(s, EFFECT_ASSIGN, away, closure_light_distance(s->shader, s->host));
     effect(s, EFFECT_ASSIGN, kept, op2(s, IR_DIV, lit, mean));
     effect(s, EFFECT_END, 0, 0);
-    ir_ref rest = op2(s, IR_DIV, op2(s, IR_SUB, point, mean), op2(s, IR_SUB, read(s, sum), mean));
+    ir_ref rest = op2(s, IR_SUB, point, mean);
+    rest = op2(s, IR_DIV, rest, op2(s, IR_SUB, read(s, sum), mean));
     rest = ir_op3(g, IR_SELECT, is_it, op2(s, IR_DIV, point, mean), rest);
     effect(s, EFFECT_IF, 0, op2(s, IR_GT, mean, nothing));
     effect(s, EFFECT_ASSIGN, chance, rest);
     effect(s, EFFECT_END, 0, 0);
     effect(s, EFFECT_END, 0, 0);
-    s->lit = op2(s, IR_MUL, read(s, kept), read(s, sum));
+    s->lit = read(s, kept);
+    s->lit = op2(s, IR_MUL, s->lit, read(s, sum));
     s->shader->lit = true;
 }
 
@@ -339,8 +343,8 @@ static ir_ref seen_of(struct closure_scatter *s)
     ir_ref light = shader_stream(s->shader, STR_lightWorld, IR_TYPE_VEC4), direction[3];
     for (unsigned i = 0; i < 3; i++)
         direction[i] = ir_component(s->graph, light, i);
-    return response(s, ir_construct(s->graph, IR_TYPE_VEC3, direction, 3),
-                    ir_component(s->graph, light, 3));
+    ir_ref solid_angle = ir_component(s->graph, light, 3);
+    return response(s, ir_construct(s->graph, IR_TYPE_VEC3, direction, 3), solid_angle);
 }
 
 /* Moves what the layer gives to the locals of the stack. */
@@ -406,7 +410,8 @@ static void write_aovs(struct closure_scatter *s)
 
 static void write_lit(struct closure_scatter *s)
 {
-    write_output(s, STR_out6, read(s, s->to_light), read(s, s->away));
+    ir_ref to_light = read(s, s->to_light), away = read(s, s->away);
+    write_output(s, STR_out6, to_light, away);
     write_output(s, STR_out7, s->lit, number(s, 0.0f));
 }
 
@@ -420,8 +425,10 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
     if (s->is_stack)
         s->emission = read(s, s->emission_local);
     write_output(s, STR_out1, s->emission, alpha ? alpha : one);
-    write_output(s, STR_out2, read(s, s->direction), read(s, s->is_inside));
-    write_output(s, STR_out3, read(s, s->weight), read(s, s->density));
+    ir_ref direction = read(s, s->direction), is_inside = read(s, s->is_inside);
+    write_output(s, STR_out2, direction, is_inside);
+    ir_ref weight = read(s, s->weight), density = read(s, s->density);
+    write_output(s, STR_out3, weight, density);
     write_output(s, STR_out4, read(s, s->medium), nothing);
     write_output(s, STR_out5, s->is_stack ? read(s, s->seen_local) : seen_of(s), nothing);
     if (s->lighting->lights && !s->is_stack)

@@ -69,9 +69,10 @@ static struct closure_surface mixed(const struct surfaces *s, struct closure_sur
                                   .edf = closure_mixed(g, bg.edf, fg.edf, mix),
                                   .premultiplied = true,
                                   .is_matter = bg.is_matter && fg.is_matter};
+    ir_ref behind = bg.unlit ? color_of(g, bg.unlit) : black,
+           before = fg.unlit ? color_of(g, fg.unlit) : black;
     if (bg.unlit || fg.unlit)
-        out.unlit = ir_op3(g, IR_MIX, bg.unlit ? color_of(g, bg.unlit) : black,
-                           fg.unlit ? color_of(g, fg.unlit) : black, mix);
+        out.unlit = ir_op3(g, IR_MIX, behind, before, mix);
     out.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
     out.aovs = closure_aovs_weighing(g, closure_aovs_mixed(g, bg.aovs, fg.aovs, mix), out.alpha);
     return out;
@@ -104,10 +105,12 @@ static struct closure_surface sum(struct ir_graph *g, struct closure_surface a,
 {
     a.bsdf = sum_of(g, a.bsdf, b.bsdf);
     a.edf = sum_of(g, a.edf, b.edf);
-    if (a.unlit && b.unlit)
-        a.unlit = ir_op2(g, IR_ADD, color_of(g, a.unlit), color_of(g, b.unlit));
-    else
+    if (a.unlit && b.unlit) {
+        a.unlit = color_of(g, a.unlit);
+        a.unlit = ir_op2(g, IR_ADD, a.unlit, color_of(g, b.unlit));
+    } else {
         a.unlit = a.unlit ? a.unlit : b.unlit;
+    }
     a.aovs = closure_aovs_sum(g, a.aovs, b.aovs);
     return a;
 }

@@ -553,7 +553,8 @@ static void flatten_surface(struct emitter *e, const struct closure_surface *s,
     closure_flatten(e->shader, &host, s->bsdf, out);
     if (host.above)
         closure_put_under(e->shader, &host, host.above, out);
-    e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
+    e->lit.base = s->unlit ? vec3_of(e, s->unlit) : 0;
+    e->lit.base = add(e, e->lit.base, emission(e, s->edf));
     e->lit.base = add(e, e->lit.base, emission_of(e, out));
 }
 

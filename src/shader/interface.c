@@ -13,9 +13,9 @@
 
 #include <assert.h>
 
-const char *shader_block_name(enum shader_block block)
+const char *shader_block_name(const struct shader *shader, enum shader_block block)
 {
-    static const char *const names[NUM_BLOCKS] = {
+    static const char *const names[BLOCK_OWN] = {
         [BLOCK_PUBLIC_UNIFORMS] = "PublicUniforms",
         [BLOCK_PRIVATE_UNIFORMS] = "PrivateUniforms",
         [BLOCK_LIGHT_DATA] = "LightData",
@@ -24,7 +24,15 @@ const char *shader_block_name(enum shader_block block)
         [BLOCK_VERTEX_DATA] = "VertexData",
         [BLOCK_OUTPUTS] = "Outputs",
     };
-    return names[block];
+    if (block < BLOCK_OWN)
+        return names[block];
+    str_id own = shader->own_blocks[block - BLOCK_OWN];
+    return own ? str_text(shader->strings, own) : "";
+}
+
+bool shader_block_has_uniforms(enum shader_block block)
+{
+    return block == BLOCK_PUBLIC_UNIFORMS || block == BLOCK_PRIVATE_UNIFORMS || block >= BLOCK_OWN;
 }
 
 /*
@@ -103,8 +111,8 @@ static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
 /* True if the file around the function declares the variable, because the host names it. */
 static bool is_hosts(const struct shader *shader, const struct shader_variable *variable)
 {
-    bool may_be = variable->block == BLOCK_PRIVATE_UNIFORMS
-                  || (variable->block == BLOCK_TEXTURES && variable->semantic);
+    bool is_private = variable->block == BLOCK_PRIVATE_UNIFORMS || variable->block >= BLOCK_OWN;
+    bool may_be = is_private || (variable->block == BLOCK_TEXTURES && variable->semantic);
     return shader->is_function && may_be
            && names_renamed(&shader->naming, str_text(shader->strings, variable->name),
                             str_len(shader->strings, variable->name));
@@ -291,6 +299,38 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
     }
     variable.semantic = row ? row->semantic : semantic_of(shader, name);
     return bind(shader, &variable);
+}
+
+enum shader_block shader_own_block(struct shader *shader, str_id name)
+{
+    for (int i = 0; i < MAX_OWN_BLOCKS; i++) {
+        if (shader->own_blocks[i] == name)
+            return (enum shader_block)(BLOCK_OWN + i);
+        if (shader->own_blocks[i])
+            continue;
+        if (!shader_name_is_free(shader, name))
+            return NUM_BLOCKS;
+        names_take(names_of(shader, NUM_BLOCKS), str_text(shader->strings, name),
+                   str_len(shader->strings, name));
+        shader->own_blocks[i] = name;
+        return (enum shader_block)(BLOCK_OWN + i);
+    }
+    return NUM_BLOCKS;
+}
+
+uint32_t shader_own_uniform(struct shader *shader, enum shader_block block, str_id name,
+                            ir_type_id type)
+{
+    assert(block >= BLOCK_OWN && block < NUM_BLOCKS && type != IR_TYPE_SAMPLER);
+    uint32_t found = find_binding(shader, block, name, scalar_of(type));
+    if (found != UINT32_MAX)
+        return found;
+    return bind(shader, &(struct shader_variable){.name = name,
+                                                  .block = (uint8_t)block,
+                                                  .type = type,
+                                                  .has_default = true,
+                                                  .value = default_value(type, 0),
+                                                  .semantic = semantic_of(shader, name)});
 }
 
 uint32_t shader_asked_uniform(const struct shader *shader, str_id name)
@@ -550,7 +590,7 @@ ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value)
     ir_type_id type = ir_type_of(shader->graph, value);
     value = at_vertices(shader, value);
     uint32_t index = find_computed(shader, value);
-    assert(type >= IR_TYPE_INT && type <= IR_TYPE_VEC4);
+    assert(ir_type_info(type)->scalar != IR_TYPE_BOOL && !ir_type_is_matrix(type));
     if (index == UINT32_MAX) {
         struct shader_variable variable = {.name = name,
                                            .block = BLOCK_VERTEX_DATA,

@@ -8,8 +8,8 @@
 #include <assert.h>
 
 /*
- * The bindings of blocks are equal in all shaders, so that hosts can share set layouts. Textures
- * follow.
+ * The bindings of these blocks are equal in all shaders, so that hosts can share set layouts.
+ * Textures and the blocks of nodes in C follow.
  */
 enum { BINDING_PRIVATE, BINDING_PUBLIC, BINDING_LIGHTS, BINDING_FIRST_TEXTURE };
 
@@ -143,6 +143,22 @@ static void rank_light_members(struct shader *shader)
     }
 }
 
+static void place_uniform(struct shader *shader, struct shader_variable *variable)
+{
+    if (shader->rules.blocks)
+        place_in_buffer(&shader->buffers[variable->block], shader->rules.packing, variable);
+}
+
+/* Own blocks follow the textures. */
+static void bind_own_blocks(struct shader *shader, uint32_t first_texture)
+{
+    const uint32_t *first = shader->first_of_block;
+    uint32_t binding = first_texture + first[BLOCK_TEXTURES + 1] - first[BLOCK_TEXTURES];
+    for (int block = BLOCK_OWN; block < NUM_BLOCKS; block++)
+        if (first[block + 1] > first[block])
+            shader->buffers[block].binding = binding++;
+}
+
 void shader_layout(struct shader *shader)
 {
     const struct shader_layout_rules *rules = &shader->rules;
@@ -157,6 +173,7 @@ void shader_layout(struct shader *shader)
         shader->buffers[BLOCK_PRIVATE_UNIFORMS].binding = first + BINDING_PRIVATE;
         shader->buffers[BLOCK_PUBLIC_UNIFORMS].binding = first + BINDING_PUBLIC;
         shader->buffers[BLOCK_LIGHT_DATA].binding = first + BINDING_LIGHTS;
+        bind_own_blocks(shader, first + BINDING_FIRST_TEXTURE);
     }
     uint32_t texture = rules->first_binding + BINDING_FIRST_TEXTURE, location[NUM_BLOCKS] = {0};
     for (uint32_t i = 0; i < shader->interface.len; i++) {
@@ -164,10 +181,7 @@ void shader_layout(struct shader *shader)
         switch ((enum shader_block)variable->block) {
         case BLOCK_PUBLIC_UNIFORMS:
         case BLOCK_PRIVATE_UNIFORMS:
-        case BLOCK_LIGHT_DATA:
-            if (rules->blocks)
-                place_in_buffer(&shader->buffers[variable->block], rules->packing, variable);
-            break;
+        case BLOCK_LIGHT_DATA: place_uniform(shader, variable); break;
         case BLOCK_TEXTURES:
             if (rules->bindings) {
                 variable->set = rules->set;
@@ -175,7 +189,9 @@ void shader_layout(struct shader *shader)
             }
             break;
         default:
-            if (shader_has_locations(shader, (enum shader_block)variable->block)) {
+            if (variable->block >= BLOCK_OWN) {
+                place_uniform(shader, variable);
+            } else if (shader_has_locations(shader, (enum shader_block)variable->block)) {
                 variable->location = location[variable->block];
                 location[variable->block] += num_locations(variable->type);
             }

@@ -131,6 +131,11 @@ void names_take_frame(struct name_set *names, const struct shader *shader)
     }
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed - of_host; i++)
         names_take(names, fixed[i], strlen(fixed[i]));
+    for (int i = 0; i < MAX_OWN_BLOCKS && shader->own_blocks[i]; i++) {
+        const char *name =
+            names_of_frame(shader, shader_block_name(shader, (enum shader_block)(BLOCK_OWN + i)));
+        names_take(names, name, strlen(name));
+    }
     for (uint32_t i = 0; i < shader->num_reserved; i++)
         names_take(names, shader->reserved[i], strlen(shader->reserved[i]));
 }

@@ -63,27 +63,22 @@ static void put_stages(struct reflect *r, uint8_t stages)
 
 static void put_place(struct reflect *r, const struct shader_variable *variable)
 {
-    switch ((enum shader_block)variable->block) {
-    case BLOCK_PUBLIC_UNIFORMS:
-    case BLOCK_PRIVATE_UNIFORMS:
-    case BLOCK_LIGHT_DATA:
-        if (!r->shader->buffers[variable->block].size)
+    enum shader_block block = (enum shader_block)variable->block;
+    if (shader_block_has_uniforms(block) || block == BLOCK_LIGHT_DATA) {
+        if (!r->shader->buffers[block].size)
             return;
-        assert(variable->offset + variable->size <= r->shader->buffers[variable->block].size);
+        assert(variable->offset + variable->size <= r->shader->buffers[block].size);
         json_put_number(&r->json, "offset", variable->offset);
         json_put_number(&r->json, "size", variable->size);
         json_put_nonzero(&r->json, "arrayStride", variable->array_stride);
         json_put_nonzero(&r->json, "matrixStride", variable->matrix_stride);
-        break;
-    case BLOCK_TEXTURES:
+    } else if (block == BLOCK_TEXTURES) {
         if (r->shader->rules.bindings) {
             json_put_number(&r->json, "set", variable->set);
             json_put_number(&r->json, "binding", variable->binding);
         }
-        break;
-    default:
-        if (shader_has_locations(r->shader, (enum shader_block)variable->block))
-            json_put_number(&r->json, "location", variable->location);
+    } else if (shader_has_locations(r->shader, block)) {
+        json_put_number(&r->json, "location", variable->location);
     }
 }
 
@@ -191,7 +186,7 @@ static void put_block(struct reflect *r, enum shader_block block)
         return;
     json_item(&r->json);
     json_open(&r->json, '{');
-    json_put_text(&r->json, "name", shader_block_name(block));
+    json_put_text(&r->json, "name", shader_block_name(shader, block));
     if (buffer->size) {
         if (shader->rules.bindings) {
             json_put_number(&r->json, "set", buffer->set);

@@ -23,9 +23,15 @@ enum shader_block {
     BLOCK_APP_DATA,    /* vertex attributes */
     BLOCK_VERTEX_DATA, /* vertex stage to pixel stage */
     BLOCK_OUTPUTS,     /* pixel outputs */
-    NUM_BLOCKS
+    BLOCK_OWN,         /* the first of the blocks that nodes in C declare */
+    NUM_BLOCKS = BLOCK_OWN + 4
 };
-const char *shader_block_name(enum shader_block block); /* "PublicUniforms" … */
+enum { MAX_OWN_BLOCKS = NUM_BLOCKS - BLOCK_OWN };
+struct shader;
+/* "PublicUniforms" …; "" for an own block that the shader has not. */
+const char *shader_block_name(const struct shader *shader, enum shader_block block);
+/* True for the blocks that can be buffers, except the array of lights. */
+bool shader_block_has_uniforms(enum shader_block block);
 
 /* The possible values of the alpha output: 1; 0 or 1; any. */
 enum shader_alpha { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND };
@@ -276,6 +282,7 @@ struct shader {
     struct table attributes;    /* by semantic, to the first variable of app data + 1 */
     /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];
+    str_id own_blocks[MAX_OWN_BLOCKS]; /* names, in the order of declaration; 0: none */
     struct shader_stage stages[NUM_STAGES];
     uint32_t max_lights; /* elements of u_lightData */
     str_id name;         /* of the element: "Gold" */
@@ -341,6 +348,18 @@ bool shader_knows_uniform(str_id name);
 
 /* The IR node that reads a variable: UNIFORM, TEXTURE or STREAM by its block. */
 ir_ref shader_read(struct shader *shader, uint32_t variable);
+
+/*
+ * The block of a node in C by its name; adds it if absent. NUM_BLOCKS: MAX_OWN_BLOCKS exist, or the
+ * name is taken at file scope.
+ */
+enum shader_block shader_own_block(struct shader *shader, str_id name);
+/*
+ * The uniform of this name in an own block; adds it, with default 0, if absent. The one that is
+ * there may have another type.
+ */
+uint32_t shader_own_uniform(struct shader *shader, enum shader_block block, str_id name,
+                            ir_type_id type);
 
 /* The private number that shader_private_uniform added for a name; UINT32_MAX: none. */
 uint32_t shader_asked_uniform(const struct shader *shader, str_id name);

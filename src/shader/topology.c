@@ -56,6 +56,8 @@ static void add_variables(struct hasher *h)
         add(h, (uint64_t)variable->block << 40 | (uint64_t)variable->stages << 32
                    | (uint64_t)variable->array_length << 16 | variable->type);
         add_text(h, variable->semantic);
+        if (variable->block >= BLOCK_OWN)
+            add_text(h, h->shader->own_blocks[variable->block - BLOCK_OWN]);
     }
 }
 

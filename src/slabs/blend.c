@@ -242,7 +242,8 @@ static void blend_anisotropy(struct ir_graph *g, const struct part *a, const str
     ir_ref across = ir_op2(g, IR_CROSS, out[SLAB_normal], tangent);
     ir_ref c = ir_op2(g, IR_DOT, tangent, other), s = ir_op2(g, IR_DOT, across, other);
     ir_ref weight = mul(g, share, of_b), even = mul(g, closure_one_minus(g, share), of_a);
-    ir_ref cosine = ir_op2(g, IR_SUB, mul(g, c, c), mul(g, s, s)), twice = mul(g, add(g, s, s), c);
+    ir_ref cosine = mul(g, c, c), twice = mul(g, add(g, s, s), c);
+    cosine = ir_op2(g, IR_SUB, cosine, mul(g, s, s));
     ir_ref x = add(g, even, mul(g, weight, cosine)), y = mul(g, weight, twice);
     ir_ref square = mul(g, x, x);
     out[SLAB_anisotropy] = ir_op1(g, IR_SQRT, add(g, square, mul(g, y, y)));
@@ -330,7 +331,8 @@ static ir_ref ways_of(struct ir_graph *g, const struct slab_spot *spot)
 /* exp(-ways thickness / path) */
 static ir_ref let_through(struct ir_graph *g, ir_ref path, ir_ref thickness, ir_ref ways)
 {
-    ir_ref depth = ir_op2(g, IR_DIV, mul(g, thickness, ways), at_least(g, path, 1e-6f));
+    ir_ref depth = mul(g, thickness, ways);
+    depth = ir_op2(g, IR_DIV, depth, at_least(g, path, 1e-6f));
     return ir_op1(g, IR_EXP, ir_op1(g, IR_NEG, depth));
 }
 

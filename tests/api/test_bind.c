@@ -201,8 +201,6 @@ static void test_queries(mxg_context *context)
     mxg_scene *scene = make_scene(context, rule.paths, false);
     mxg_bindings *bindings = NULL;
     REQUIRE_EQ(mxg_bind(context, document, scene, NULL, &bindings), MXG_OK);
-    const char *path = "/more";
-    REQUIRE_EQ(mxg_scene_add(scene, &path, 1), MXG_ERROR_ARGUMENT);
     uint32_t a = mxg_scene_find(scene, "/a"), b = mxg_scene_find(scene, "/a/b"),
              c = mxg_scene_find(scene, "/a/c");
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, b), 3);

@@ -131,8 +131,12 @@ static bool build_everything(void *user_data, mxg_build *build, mxg_ref *results
         args, 4);
     mxg_ref facing = mxg_build_op(
         build, "dot", NULL, (mxg_ref[]){mxg_build_stream(build, "normalWorld", NULL), tint}, 2);
-    const mxg_build_uniform uniform = {sizeof uniform, "u_studioStep", "float",
-                                       "studioStep",   &step,          1};
+    const mxg_build_uniform uniform = {.size = sizeof uniform,
+                                       .name = "u_studioStep",
+                                       .type = "float",
+                                       .semantic = "studioStep",
+                                       .values = &step,
+                                       .num_values = 1};
     mxg_ref parts[] = {sum, facing, mxg_build_add_uniform(build, &uniform)};
     mxg_ref vector = mxg_build_op(build, "construct", "vec3", parts, 3);
     mxg_ref noise, halves[] = {mxg_build_swizzle(build, vector, "zyx"),
@@ -170,6 +174,75 @@ static void test_values(void)
     REQUIRE_EQ(found, 1);
     REQUIRE_EQ(mxg_result_input_state(h.result, "use/number"), MXG_INPUT_COMPILED);
     REQUIRE_EQ(mxg_result_input_state(h.result, "use/in"), MXG_INPUT_UNIFORM);
+    close_host(&h);
+}
+
+/* Two blocks of the host, in the order of their declaration; a name is in each. */
+static bool build_blocks(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    static const struct {
+        const char *block, *name, *type;
+        float value;
+    } rows[] = {{"Shot", "u_wind", "vec3", 2},
+                {"Frame", "u_wind", "float", 3},
+                {"Shot", "u_gust", "float", 4},
+                {"Shot", "u_wind", "vec3", 2}};
+    (void)user_data;
+    results[0] = mxg_build_input(build, "in");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const float values[] = {rows[i].value, rows[i].value, rows[i].value};
+        bool is_vector = strcmp(rows[i].type, "vec3") == 0;
+        mxg_ref value =
+            mxg_build_add_uniform(build, &(mxg_build_uniform){.size = sizeof(mxg_build_uniform),
+                                                              .name = rows[i].name,
+                                                              .type = rows[i].type,
+                                                              .values = values,
+                                                              .num_values = is_vector ? 3 : 1,
+                                                              .block = rows[i].block});
+        mxg_ref args[] = {results[0], is_vector ? mxg_build_swizzle(build, value, "z") : value};
+        results[0] = mxg_build_op(build, "add", NULL, args, 2);
+    }
+    return true;
+}
+
+static void test_own_blocks(void)
+{
+    for (uint32_t i = 0; i < mxg_num_targets(); i++) {
+        mxg_target target = MXG_INIT(mxg_target);
+        struct host h;
+        mxg_get_target(i, &target);
+        open_host(&h, &(struct run){.build = build_blocks, .of_target = target.name});
+        REQUIRE_EQ(h.status, MXG_OK);
+        REQUIRE(has_text(&h, MXG_STAGE_PIXEL, "gust"));
+        close_host(&h);
+    }
+    struct host h;
+    open_host(&h, &(struct run){.build = build_blocks});
+    REQUIRE(has_text(&h, MXG_STAGE_PIXEL,
+                     "layout(set = 0, binding = 3, std140) uniform Shot {\n    vec3 u_wind;\n"
+                     "    float u_gust;\n};\n"));
+    REQUIRE(has_text(&h, MXG_STAGE_PIXEL, "binding = 4, std140) uniform Frame {"));
+    mxg_block_info shot = MXG_INIT(mxg_block_info), frame = MXG_INIT(mxg_block_info),
+                   none = MXG_INIT(mxg_block_info);
+    REQUIRE_EQ(mxg_result_block(h.result, MXG_BLOCK_OWN_1, &shot), MXG_OK);
+    REQUIRE_EQ(mxg_result_block(h.result, MXG_BLOCK_OWN_2, &frame), MXG_OK);
+    REQUIRE_EQ(mxg_result_block(h.result, MXG_BLOCK_OWN_3, &none), MXG_OK);
+    REQUIRE_STR(shot.name, "Shot");
+    REQUIRE_STR(frame.name, "Frame");
+    REQUIRE_STR(none.name, "");
+    REQUIRE_EQ(shot.num_variables, 2);
+    REQUIRE_EQ(none.num_variables, 0);
+    REQUIRE_EQ(frame.binding, 4);
+    REQUIRE_EQ(shot.byte_size, 16);
+    float bytes[4] = {0};
+    REQUIRE_EQ(mxg_result_pack(h.result, MXG_BLOCK_OWN_1, bytes, sizeof bytes), 16);
+    REQUIRE(bytes[0] == 2 && bytes[2] == 2 && bytes[3] == 4);
+    mxg_variable v = MXG_INIT(mxg_variable);
+    REQUIRE_EQ(mxg_result_variable(h.result, shot.first_variable + 1, &v), MXG_OK);
+    REQUIRE_STR(v.name, "u_gust");
+    REQUIRE_EQ(v.offset, 12);
+    REQUIRE_EQ(v.block, MXG_BLOCK_OWN_1);
+    REQUIRE(strstr(mxg_result_reflection_json(h.result, NULL), "\"Shot\""));
     close_host(&h);
 }
 
@@ -397,6 +470,11 @@ enum fault {
     FAULT_UNIFORM_NAME,
     FAULT_UNIFORM_SIZE,
     FAULT_UNIFORM_DEFAULT,
+    FAULT_BLOCK_NAME,
+    FAULT_BLOCK_TAKEN,
+    FAULT_BLOCK_OF_TEXTURE,
+    FAULT_BLOCK_OF_OURS,
+    FAULT_BLOCKS,
     FAULT_EXPRESSION_INPUT,
     FAULT_INTERPOLATED,
     FAULT_RECURSION,
@@ -437,7 +515,7 @@ static bool misuse_shader(enum fault fault, mxg_build *build, mxg_ref in, mxg_re
 {
     static const char *const in1[] = {"in1"}, *const other[] = {"other"};
     const float numbers[] = {1, 2};
-    mxg_build_uniform uniform = {sizeof uniform, "u_mine", "float", NULL, NULL, 0};
+    mxg_build_uniform uniform = {.size = sizeof uniform, .name = "u_mine", .type = "float"};
     mxg_ref two[2];
     switch (fault) {
     case FAULT_UNKNOWN_NODE: return mxg_build_node(build, "ND_none", NULL, NULL, 0, out, 1);
@@ -450,6 +528,25 @@ static bool misuse_shader(enum fault fault, mxg_build *build, mxg_ref in, mxg_re
     case FAULT_UNIFORM_TYPE: uniform.name = "u_worldMatrix"; break;
     case FAULT_UNIFORM_NAME: uniform.name = "gl_mine"; break;
     case FAULT_UNIFORM_SIZE: uniform.size = 1; break;
+    case FAULT_BLOCK_NAME: uniform.block = "uniform"; break;
+    case FAULT_BLOCK_TAKEN: uniform.block = "PublicUniforms"; break;
+    case FAULT_BLOCK_OF_TEXTURE:
+        uniform.block = "Frame";
+        uniform.type = "sampler2D";
+        break;
+    case FAULT_BLOCK_OF_OURS:
+        uniform.block = "Frame";
+        uniform.name = "u_frame";
+        break;
+    case FAULT_BLOCKS:
+        for (int i = 0; i < 5; i++)
+            *out = mxg_build_add_uniform(
+                build,
+                &(mxg_build_uniform){.size = sizeof uniform,
+                                     .name = "u_mine",
+                                     .type = "float",
+                                     .block = (const char *const[]){"A", "B", "C", "D", "E"}[i]});
+        return true;
     default:
         uniform.values = numbers;
         uniform.num_values = 2;
@@ -606,6 +703,7 @@ static void test_descriptions(void)
 int main(void)
 {
     test_values();
+    test_own_blocks();
     test_same_as_library();
     test_vertices();
     test_closure();

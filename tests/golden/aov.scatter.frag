@@ -49,7 +49,7 @@ void scatter()
     vec3 diffuse_N = faceforward(N, -vd.viewWorld, N);
     // SR
     const vec3 base_constant = vec3(0.8, 0.1, 0.1);
-    if (pick < 0.4 && pick >= 0.0) {
+    if (pick >= 0.0 && pick < 0.4) {
         mat3 any_frame = mx_frame(diffuse_N, abs(diffuse_N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
         vec3 L_2 = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));

@@ -74,10 +74,10 @@ void scatter()
     float density = 0.0;
     vec3 medium = vec3(1.0);
     vec3 diffuse_N = faceforward(normal_N, -vd.viewWorld, normal_N);
-    float ratio = greater / greater;
     vec2 ab = PublicUniforms_2 * PublicUniforms_2 * vec2(-0.5, 0.45)
         / (PublicUniforms_2 * PublicUniforms_2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
-    if (pick < greater && pick >= 0.0) {
+    float ratio = greater / greater;
+    if (pick >= 0.0 && pick < greater) {
         mat3 any_frame = mx_frame(diffuse_N, abs(diffuse_N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
         vec3 diffuse_L = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
@@ -87,7 +87,7 @@ void scatter()
         float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, diffuse_L) - cos_v * diffuse_cos_l, 0.0)
             / max(diffuse_cos_l, cos_v);
         float pdf = max(diffuse_n_dot_diffuse_l, 0.0) / 3.1415927;
-        weight = vec3(ratio * (LightData_2 * (diffuse_cos_l / 3.1415927 * 0.18 * diffuse_sum / max(pdf, 1e-8))));
+        weight = vec3(LightData_2 * (diffuse_cos_l / 3.1415927 * 0.18 * diffuse_sum / max(pdf, 1e-8)) * ratio);
         density = pdf * ratio;
     }
     pick += -greater;

@@ -280,16 +280,17 @@ void scatter()
     float density = 0.0;
     vec3 medium = vec3(1.0);
     vec3 X = normalize(vd.tangentWorld);
-    if (pick < greater && pick >= 0.0) {
+    if (pick >= 0.0 && pick < greater) {
         vec3 metal_second_reflection_L, metal_second_reflection_weight;
         float metal_second_reflection_pdf;
         mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, metal_constant, metal_second_reflection_L,
             metal_second_reflection_weight, metal_second_reflection_pdf);
         L = metal_second_reflection_L;
         float n_dot_l = dot(N, metal_second_reflection_L);
-        weight = sum_2 / greater * (metal_second_reflection_weight
+        weight = metal_second_reflection_weight
             * (metal_second_reflection_steady + metal_second_reflection_ratio
-            * pow(metal_second_reflection_decay, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))));
+            * pow(metal_second_reflection_decay, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5)))
+            * (sum_2 / greater);
         density = metal_second_reflection_pdf * (greater / sum_2);
     }
     pick += -greater;
@@ -311,8 +312,9 @@ void scatter()
             milk_second_reflection_weight, milk_second_reflection_pdf);
         L = milk_second_reflection_L;
         float n_dot_l = dot(N, milk_second_reflection_L);
-        weight = sum_2 / greater_3 * (milk_second_reflection_weight
-            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))));
+        weight = milk_second_reflection_weight
+            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5)))
+            * (sum_2 / greater_3);
         density = milk_second_reflection_pdf * (greater_3 / sum_2);
     }
     pick += -greater_3;
@@ -322,8 +324,8 @@ void scatter()
         float way_2 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
         vec3 weight_2 = pdf * (mx_medium_reflected(way) * mx_medium_reflected(way_2) / milk_medium_constant)
             / max(pdf, 1e-8);
-        weight = sum_2 / greater_4 * (weight_2
-            * (milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2))));
+        weight = weight_2 * (milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2)))
+            * (sum_2 / greater_4);
         density = pdf * (greater_4 / sum_2);
     }
     pick += -greater_4;

@@ -388,6 +388,34 @@ def Material "paint" {
     });
 });
 
+test("a scene that changes", () => {
+    const context = mxgen.createContext(), scene = context.scene("/set"), other = context.scene("/set");
+    const table = { name: "table", parent: scene.find("/set"), type: "Mesh" }, items = [table, { name: "leg/foot", parent: table }, { name: "lamp" }];
+    const [made, foot, lamp] = scene.addEach(items);
+    assert.deepEqual([made, foot, lamp].map(({ path, type }) => [path, type]), [["/set/table", "Mesh"], ["/set/table/leg/foot", ""], ["/lamp", ""]]);
+    assert.throws(() => scene.addEach([{ name: "a" }, { name: "b//c" }]), DocumentError);
+    assert(scene.find("/a"));
+    assert.throws(() => scene.addEach([{ name: 5 }]), TypeError);
+    assert.throws(() => scene.addEach([{ name: "b", parent: other.find("/set") }]), /another scene/);
+    scene.bind(null, "000", "Gold");
+    scene.bind("/lamp", "050", "");
+    assert.deepEqual(scene.bindingsOf(lamp), [{ slot: "050", material: "", isCollection: false, isStrong: false, isPurpose: false, file: "", line: 0 }]);
+    assert.throws(() => scene.bind("/lamp", "a:b", "Gold"), DocumentError);
+    assert.throws(() => scene.bind("/none", "000", "Gold"), /no primitive/);
+    assert.throws(() => scene.unbind(other.find("/set"), "000"), /another scene/);
+    const document = context.parse(GOLD), before = document.bind(scene);
+    assert.equal(before.numResolved, scene.length);
+    scene.bind("/set/table", "050", "Gold");
+    scene.unbind("/lamp", "050");
+    assert.equal(before.stack("/lamp"), null);
+    const after = document.bind(scene, null, { previous: before });
+    assert.equal(after.numResolved, 3);
+    assert.equal(after.text("json"), document.bind(scene).text("json"));
+    assert.deepEqual(after.layers(foot).map(({ slot, source }) => [slot, source?.path]), [["000", undefined], ["050", "/set/table"]]);
+    assert.throws(() => document.bind(other, null, { previous: before }), ArgumentError);
+    assert.throws(() => document.bind(scene, null, { previous: 5 }), TypeError);
+});
+
 test("the layers of primitives", () => {
     const looks = path.join(examples, "slots/looks.mtlx"), receiver = path.join(examples, "slots/receiver.usda");
     const context = mxgen.createContext(), document = context.load(looks);
@@ -413,7 +441,6 @@ test("the layers of primitives", () => {
         }
         assert(written.length > 3);
     });
-    assert.throws(() => scene.add("/more"), /bindings hold the scene/);
     assert.throws(() => document.bind(scene, "none"), DocumentError);
     assert.throws(() => bindings.text("xml"), ArgumentError);
     assert.throws(() => bindings.layers("/none"), /no primitive/);

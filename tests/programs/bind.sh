@@ -219,6 +219,11 @@ def Xform "s"
     rel material:binding:collection:full:third = [</s.collection:all>, </Looks/Clay>]
     rel material:slotBinding:collection:_050:_:_010:top = [</s.collection:outer>, </Looks/Clay>]
     rel material:slotBinding:_050 = </Looks/Dust>
+    rel material:slotBinding:collection:_060:nested = [</s.collection:nested>, </Looks/Dust>]
+    rel material:slotBinding:collection:_070:empty = [</s.collection:empty>, </Looks/Dust>]
+    rel collection:nested:includes = </s/a/b>
+    rel collection:nested:excludes = [</s>, </s/a/b/c>]
+    rel collection:empty:includes = []
     rel collection:metal:includes = [</s/a>, </s/a/b/c>]
     rel collection:metal:excludes = </s/a/b>
     rel collection:all:includes = </s>
@@ -248,8 +253,9 @@ def Mesh "outside"
 USD
 check 'collections of USD' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda
 check 'hold what is below their paths' row '/s/a (000 Dust) (050 Dust) (::010 Clay)'
-check 'but not what is excluded' row '/s/a/b (000 Clay) (050 Dust)'
+check 'but not what is excluded' row '/s/a/b (000 Clay) (050 Dust) (060 Dust)'
 check 'and again what a deeper path includes' row '/s/a/b/c (000 Dust) (050 Dust)'
+check 'of several exclusions the deepest counts' row '/s/a/b/c (000 Dust) (050 Dust)'
 check 'a deeper binding wins' row '/s/a/own [000 Clay] (050 Dust)'
 check 'of several the first wins, over the direct one' row '/s/d (000 Clay) (050 Dust) (::010 Clay)'
 check 'only at or below their prim' row '/outside default'

@@ -49,6 +49,9 @@ cat >noise.mtlx <<'XML'
   <output name="out" type="float" nodename="n"/>
 </materialx>
 XML
+check 'a block of the plug-in' grep -q 'uniform StudioFrame {' vulkan.d/Felt.frag
+check 'a constant buffer of the plug-in' grep -q 'cbuffer StudioFrame ' hlsl.d/Felt.ps.hlsl
+check 'its uniform without blocks' grep -q '^uniform float u_studioDust' essl.d/Felt.frag
 check 'another definition for one target' eval 'for t in glsl essl; do "$mxgen" noise.mtlx --plugin "$plugin" --target $t -o $t.d; done'
 check 'which is smaller' eval 'grep -q cellnoise glsl.d/out.frag && ! grep -q cellnoise essl.d/out.frag && grep -q noise essl.d/out.frag'
 

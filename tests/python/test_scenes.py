@@ -89,6 +89,44 @@ class Scenes(unittest.TestCase):
             with self.assertRaises(TypeError):
                 call()
 
+    def test_changes(self):
+        scene, other = self.context.scene("/set"), self.context.scene("/set")
+        table = mxgen.NewPrimitive("table", scene["/set"], "Mesh")
+        made, foot, lamp = scene.add_each([table, mxgen.NewPrimitive("leg/foot", table), mxgen.NewPrimitive("lamp")])
+        self.assertEqual([(primitive.path, primitive.type) for primitive in (made, foot, lamp)],
+                         [("/set/table", "Mesh"), ("/set/table/leg/foot", ""), ("/lamp", "")])
+        with self.assertRaises(mxgen.DocumentError):
+            scene.add_each([mxgen.NewPrimitive("a"), mxgen.NewPrimitive("b//c")])
+        self.assertIsNotNone(scene.find("/a"))
+        for wrong, error in (5, TypeError), (mxgen.NewPrimitive(5), TypeError), (mxgen.NewPrimitive("b", 5), TypeError), \
+                            (mxgen.NewPrimitive("b", other["/set"]), ValueError), (mxgen.NewPrimitive("b", mxgen.NewPrimitive("c")), ValueError):
+            with self.assertRaises(error):
+                scene.add_each([wrong])
+        scene.bind(None, "000", "Gold")
+        scene.bind("/lamp", "050", "")
+        self.assertEqual(scene.bindings_of(lamp), (mxgen.SlotBinding("050", "", False, False, False, "", 0),))
+        self.assertEqual([binding.material for binding in scene.bindings_of(None)], ["Gold"])
+        with self.assertRaises(mxgen.DocumentError):
+            scene.bind("/lamp", "a:b", "Gold")
+        for wrong, error in (5, TypeError), (other["/set"], ValueError), ("/none", KeyError):
+            with self.assertRaises(error):
+                scene.unbind(wrong, "000")
+        document = self.context.parse(common.GOLD)
+        before = document.bind(scene)
+        self.assertEqual(before.num_resolved, len(scene))
+        scene.bind("/set/table", "050", "Gold")
+        scene.unbind("/lamp", "050")
+        self.assertIsNone(before.stack("/lamp"))
+        after = document.bind(scene, previous=before)
+        self.assertEqual(after.num_resolved, 3)
+        formats = mxgen.BindingsFormat
+        self.assertEqual(after.text(formats.JSON), document.bind(scene).text(formats.JSON))
+        self.assertEqual([(layer.slot, layer.source) for layer in after.layers(foot)], [("000", None), ("050", made)])
+        with self.assertRaises(mxgen.ArgumentError):
+            document.bind(other, previous=before)
+        with self.assertRaises(TypeError):
+            document.bind(scene, previous=5)
+
     def test_usd(self):
         with tempfile.TemporaryDirectory() as folder:
             scene = self.context.load_scene(write(folder, "stage.usda", STAGE))

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The bindings of a scene: those that a file brings, and those of a host, which come and go. */
+#include "bind/scene.h"
+
+#include <assert.h>
+
+/* Puts a binding behind the others of its primitive. */
+static void link_binding(struct scene *scene, uint32_t index)
+{
+    struct scene_binding *items = scene->bindings.items;
+    prim_id prim = items[index].prim;
+    while (scene->first_binding.len <= prim)
+        vec_push(scene->arena, &scene->first_binding, 0);
+    uint32_t *link = &scene->first_binding.items[prim];
+    while (*link)
+        link = &items[*link - 1].next;
+    *link = index + 1;
+    items[index].next = 0;
+    scene->num_bindings++;
+}
+
+uint32_t scene_add_binding(struct scene *scene, struct scene_binding binding)
+{
+    uint32_t index = scene->removed_binding;
+    assert(!binding.is_removed);
+    if (index) {
+        scene->removed_binding = scene->bindings.items[--index].next;
+        scene->bindings.items[index] = binding;
+    } else {
+        index = scene->bindings.len;
+        vec_push(scene->arena, &scene->bindings, binding);
+    }
+    link_binding(scene, index);
+    return index;
+}
+
+/* Removes the direct bindings of a name. */
+static void remove_bindings(struct scene *scene, prim_id prim, struct text_word name)
+{
+    struct scene_binding *items = scene->bindings.items;
+    if (!scene_first_binding(scene, prim))
+        return;
+    uint32_t *link = &scene->first_binding.items[prim];
+    while (*link) {
+        uint32_t index = *link - 1;
+        struct scene_binding *binding = &items[index];
+        if (binding->is_collection || strlen(binding->name) != name.len
+            || memcmp(binding->name, name.bytes, name.len) != 0) {
+            link = &binding->next;
+            continue;
+        }
+        *link = binding->next;
+        *binding = (struct scene_binding){.is_removed = true, .next = scene->removed_binding};
+        scene->removed_binding = index + 1;
+        scene->num_bindings--;
+    }
+}
+
+/* The whole name of a slot; valid until the next call. */
+static struct text_word write_name(struct scene *scene, const struct slot_name *slot)
+{
+    scene->written.len = 0;
+    slot_write(slot, &scene->written);
+    return (struct text_word){scene->written.data, scene->written.len};
+}
+
+/* "/set/table.material:slotBinding:_050", as in a file. */
+static struct text_word write_label(struct scene *scene, prim_id prim, const struct slot_name *slot)
+{
+    scene->written.len = 0;
+    scene_path(scene, prim, &scene->written);
+    text_str(&scene->written, ".material:slotBinding:");
+    slot_encode(slot, &scene->written);
+    return (struct text_word){scene->written.data, scene->written.len};
+}
+
+void scene_bind(struct scene *scene, prim_id prim, const struct slot_name *slot,
+                const char *material)
+{
+    struct text_word given = {material, strlen(material)};
+    struct scene_binding added = {.prim = prim};
+    added.material = scene_keep_word(scene, given);
+    added.label = scene_keep_word(scene, write_label(scene, prim, slot));
+    added.name = scene_keep_word(scene, write_name(scene, slot));
+    remove_bindings(scene, prim, write_name(scene, slot));
+    scene_add_binding(scene, added);
+}
+
+void scene_unbind(struct scene *scene, prim_id prim, const struct slot_name *slot)
+{
+    remove_bindings(scene, prim, write_name(scene, slot));
+}
