@@ -6,67 +6,6 @@
 
 #include <assert.h>
 
-/* ---- Options ---- */
-
-static const struct clash {
-    enum option_id option, other;
-    const char *value, *other_value, *why;
-} clashes[] = {
-#define CLASH(option, value, other, other_value, why) \
-    {OPTION_##option, OPTION_##other, value, other_value, why},
-#include "api/clashes.def"
-#undef CLASH
-};
-
-/* The passes belong to the pipeline whatever the option says. */
-static const char *pipeline_of(const struct generation *g)
-{
-    return g->is_pass ? "deferred" : g->options[OPTION_pipeline].text;
-}
-
-static bool has_value(const struct generation *g, enum option_id option, const char *value)
-{
-    const struct option_value *v = &g->options[option];
-    if (option == OPTION_pipeline)
-        return strcmp(pipeline_of(g), value) == 0;
-    return v->text ? strcmp(v->text, value) == 0 : v->number != 0 && strcmp(value, "true") == 0;
-}
-
-static bool tell_clash(struct generation *g, const char *option, const char *value,
-                       const char *other, const char *other_value, const char *why)
-{
-    diag_add(&g->result->object.diagnostics.list, DIAG_ID_options_clash, (struct diag_place){0},
-             option, value, other, other_value, why);
-    return false;
-}
-
-/* OpenGL has compute stages from version 4.3 on. */
-static bool check_target(struct generation *g)
-{
-    const struct target *target = g->result->target;
-    const char *version = g->options[OPTION_version].text, *pipeline = option_key(OPTION_pipeline);
-    if (!(target->caps & CAP_STORES))
-        return tell_clash(g, pipeline, pipeline_of(g), "target", target->name,
-                          "only the targets vulkan and glsl have the passes");
-    return !*version || strcmp(version, "430") >= 0
-           || tell_clash(g, pipeline, pipeline_of(g), option_key(OPTION_version), version,
-                         "the passes need compute stages, from 430 on");
-}
-
-bool generation_check_pipeline(struct generation *g)
-{
-    bool good = has_value(g, OPTION_pipeline, "forward") || check_target(g);
-    for (size_t i = 0; i < sizeof clashes / sizeof *clashes; i++) {
-        const struct clash *c = &clashes[i];
-        if (has_value(g, c->option, c->value) && has_value(g, c->other, c->other_value))
-            good = tell_clash(g, option_key(c->option), c->value, option_key(c->other),
-                              c->other_value, c->why);
-    }
-    return good;
-}
-
-/* ---- Hooks ---- */
-
 bool generation_stores(const struct generation *g)
 {
     return g->options[OPTION_pipeline].number == PIPELINE_DEFERRED && !g->is_pass && !g->misfit;

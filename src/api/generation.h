@@ -114,8 +114,6 @@ bool generation_spell(struct generation *g);  /* source */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* deferred.c: the deferred pipeline. */
-/* False, after diagnostics, if options have no meaning together. */
-bool generation_check_pipeline(struct generation *g);
 /* True for the material pass of a material. */
 bool generation_stores(const struct generation *g);
 struct deferred_layout generation_storage(const struct option_value *options,
@@ -184,11 +182,10 @@ bool generation_is_defined(struct generation *g, const struct ir_graph *graph, c
 bool generation_effects_are_defined(struct generation *g, const struct shader *shader,
                                     elem_id where);
 
-/*
- * conflicts.c: false, after diagnostics, if an option has no effect with another one, or a name is
- * none.
- */
-bool generation_check_options(struct generation *g);
+/* combinations.c: false, after diagnostics, if options have no meaning together. */
+bool generation_check_combinations(struct generation *g);
+/* host_names.c: false, after diagnostics, if a name that the host chooses is none. */
+bool generation_check_names(struct generation *g);
 /* The items of the option `rename`. */
 void naming_pairs(const struct option_value *value, struct arena *arena, struct name_rules *out);
 
