@@ -8,7 +8,7 @@
 #include <assert.h>
 #include <string.h>
 
-enum { OPEN = UINT32_MAX }; /* needs a copy */
+#define OPEN UINT32_MAX /* needs a copy */
 
 ir_ref *closure_room_for_copies(struct closure_copies *c, ir_ref last)
 {
