@@ -179,6 +179,7 @@ struct effect {
 struct shader_local { /* a mutable variable: EFFECT_VAR, read by LOCAL nodes */
     str_id name;
     ir_type_id type;
+    bool is_settled; /* no effect changes it after the first that reads it */
 };
 
 struct effect_list { /* layout of VEC(struct effect) */
