@@ -114,6 +114,12 @@ static const struct lang_pieces *choice(struct spell *spell, const struct lang_u
     return call_of(spell, "choose($0, $1, $2)");
 }
 
+static const struct lang_pieces *choice_of_each(struct spell *spell, const struct lang_use *use)
+{
+    add_helper(spell, use, HELPER_CHOOSE_2 + components(use->type) - 2);
+    return call_of(spell, "choose($0, $1, $2)");
+}
+
 /* ---- Built-in functions ---- */
 
 static const struct lang_pieces *inverse(struct spell *spell, const struct lang_use *use)
@@ -195,7 +201,7 @@ typedef const struct lang_pieces *form_writer(struct spell *spell, const struct 
 static form_writer *const writers[IR_NUM_OPS] = {
     [IR_MUL] = product,           [IR_EQ] = equality,         [IR_NE] = equality,
     [IR_SELECT] = choice,         [IR_INVERSE] = inverse,     [IR_CONVERT] = convert,
-    [IR_TEX_SIZE] = texture_size, [IR_CONSTRUCT] = construct,
+    [IR_TEX_SIZE] = texture_size, [IR_CONSTRUCT] = construct, [IR_CHOOSE] = choice_of_each,
 };
 
 /* The built-in functions that are helpers for all types. */
@@ -211,6 +217,8 @@ static const struct {
 
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)
 {
+    if (use->is_store)
+        return NULL;
     if (helped[use->op].call) {
         add_helper(user_data, use, helped[use->op].helper);
         return call_of(user_data, helped[use->op].call);

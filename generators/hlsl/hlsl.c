@@ -10,6 +10,13 @@ static const char *const reserved[] = {
 
 static const struct lang_form forms[IR_NUM_OPS] = {
     [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},
+    [IR_LESS] = {"$0 < $1", LANG_PREC_COMPARE, true},
+    [IR_LESS_EQUAL] = {"$0 <= $1", LANG_PREC_COMPARE, true},
+    [IR_GREATER] = {"$0 > $1", LANG_PREC_COMPARE, true},
+    [IR_GREATER_EQUAL] = {"$0 >= $1", LANG_PREC_COMPARE, true},
+    [IR_EQUAL] = {"$0 == $1", LANG_PREC_EQUAL, true},
+    [IR_NOT_EQUAL] = {"$0 != $1", LANG_PREC_EQUAL, true},
+    [IR_NOT_EACH] = {"!$0", LANG_PREC_UNARY, false},
     [IR_MATCOMPMULT] = {"$0 * $1", LANG_PREC_PRODUCT, true},
     CALL(ATAN2, "atan2($0, $1)"),
     CALL(RSQRT, "rsqrt($0)"),
@@ -36,7 +43,15 @@ static const struct lang_form forms_alone[IR_NUM_OPS] = {
 };
 
 static const char *const type_names[IR_NUM_TYPES] = {
+    [IR_TYPE_BVEC2] = "bool2",
+    [IR_TYPE_BVEC3] = "bool3",
+    [IR_TYPE_BVEC4] = "bool4",
     [IR_TYPE_IVEC2] = "int2",
+    [IR_TYPE_IVEC3] = "int3",
+    [IR_TYPE_IVEC4] = "int4",
+    [IR_TYPE_UVEC2] = "uint2",
+    [IR_TYPE_UVEC3] = "uint3",
+    [IR_TYPE_UVEC4] = "uint4",
     [IR_TYPE_VEC2] = "float2",
     [IR_TYPE_VEC3] = "float3",
     [IR_TYPE_VEC4] = "float4",

@@ -73,6 +73,9 @@ void osl_index_helpers(struct osl *osl)
 static bool fits(const struct helper_row *row, const struct lang_use *use)
 {
     unsigned i = 0;
+    /* of an unsigned number, only the conversion to float is a function */
+    if (row->op == IR_CONVERT && use->operands[0] == IR_TYPE_UINT && use->type != IR_TYPE_FLOAT)
+        return false;
     while (i < use->num_operands && row->types[i] == osl_type_letter(use->operands[i]))
         i++;
     return i == use->num_operands && !row->types[i];
@@ -120,9 +123,33 @@ static const char *operator_word(enum ir_op op)
     }
 }
 
-/* "min" for the form "min($0, $1)"; the op's own name if the form is no call. */
-static const char *function_name(struct osl *osl, enum ir_op op, const struct lang_pieces *scalar)
+/* The names of operators that are functions; some of the ops' own names are words of OSL. */
+static const char *const function_names[IR_NUM_OPS] = {
+    [IR_AND] = "bit_and",
+    [IR_OR] = "bit_or",
+    [IR_XOR] = "bit_xor",
+    [IR_SHL] = "shift_left",
+    [IR_SHR] = "shift_right",
+    [IR_BITNOT] = "bit_not",
+    [IR_FLOAT_TO_INT_BITS] = "int_bits",
+    [IR_FLOAT_TO_UINT_BITS] = "unsigned_bits",
+};
+
+/*
+ * "min" for the form "min($0, $1)"; the op's own name if the form is no call. A conversion has its
+ * result in its name, because OSL does not choose a function by its result.
+ */
+static const char *function_name(struct osl *osl, enum ir_op op, ir_type_id type,
+                                 const struct lang_pieces *scalar)
 {
+    if (op == IR_CONVERT) {
+        struct text name;
+        text_init(&name, osl->spell->scratch);
+        text_fmt(&name, "to_%s", osl_type(osl, type));
+        return text_cstr(&name);
+    }
+    if (function_names[op])
+        return function_names[op];
     const char *end = strchr(scalar->text, '(');
     size_t len = end ? (size_t)(end - scalar->text) : 0;
     if (len == 0 || memchr(scalar->text, ' ', len) || memchr(scalar->text, '$', len))
@@ -194,10 +221,25 @@ static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_us
     return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
 }
 
+/* The operation on one component: scalars have operators in place of relational functions. */
+static enum ir_op op_of_component(enum ir_op op)
+{
+    switch (op) {
+    case IR_LESS: return IR_LT;
+    case IR_LESS_EQUAL: return IR_LE;
+    case IR_GREATER: return IR_GT;
+    case IR_GREATER_EQUAL: return IR_GE;
+    case IR_EQUAL: return IR_EQ;
+    case IR_NOT_EQUAL: return IR_NE;
+    default: return op;
+    }
+}
+
 static const struct lang_pieces *component_form(struct osl *osl, const struct lang_use *use)
 {
     ir_type_id scalars[16];
     struct lang_use each = *use;
+    each.op = op_of_component(use->op);
     each.type = scalar_of(use->type);
     each.operands = scalars;
     each.node = 0;
@@ -205,14 +247,14 @@ static const struct lang_pieces *component_form(struct osl *osl, const struct la
         scalars[i] = scalar_of(use->operands[i]);
     const struct lang_pieces *scalar = osl_form(osl->spell, &each);
     if (!scalar)
-        scalar = usual_form(osl, use->op);
+        scalar = usual_form(osl, each.op);
     if (!scalar || !scalar->text)
         return NULL;
     const struct lang_pieces *pair = pair_form(osl, use, scalar);
     if (pair)
         return pair;
     const char *word = operator_word(use->op),
-               *name = word ? word : function_name(osl, use->op, scalar);
+               *name = word ? word : function_name(osl, use->op, use->type, scalar);
     struct text text;
     text_init(&text, osl->spell->scratch);
     write_component_function(osl, name, use, scalar, &text);
@@ -325,6 +367,12 @@ static const struct lang_pieces *construct_form(struct osl *osl, const struct la
 static const struct lang_pieces *convert_form(struct osl *osl, const struct lang_use *use)
 {
     ir_type_id from = use->operands[0], to = use->type;
+    if (from == IR_TYPE_FLOAT && to == IR_TYPE_UINT) {
+        osl_add_helper(
+            osl, "int unsigned_of_float(float x)\n{\n"
+                 "    return x < 2147483648.0 ? int(x) : int(x - 2147483648.0) ^ (1 << 31);\n}\n");
+        return call_form(osl, "unsigned_of_float", 1, NULL);
+    }
     if (to == IR_TYPE_BOOL)
         return form_of(osl, from == IR_TYPE_BOOL ? "$0" : "$0 != 0",
                        from == IR_TYPE_BOOL ? LANG_PREC_ASSIGN : LANG_PREC_EQUAL);
@@ -349,9 +397,58 @@ static const struct lang_pieces *index_form(struct osl *osl, const struct lang_u
 {
     ir_type_id whole = use->operands[0];
     if (whole >= IR_NUM_TYPES || (whole == IR_TYPE_VEC3 && use->named & 1))
-        return NULL; /* arrays, and `v[i]` */
-    const struct helper_row *row = find_helper(osl, use);
-    return row ? helper_form(osl, row, use) : NULL;
+        return NULL;               /* arrays, and `v[i]` */
+    struct lang_use by_int = *use; /* an unsigned index is an int, too */
+    by_int.operands = (ir_type_id[]){whole, IR_TYPE_INT};
+    const struct helper_row *row = find_helper(osl, &by_int);
+    assert(row);
+    return helper_form(osl, row, &by_int);
+}
+
+/* ---- Assignments to parts ---- */
+
+/* "vector with_yx(vector v, vector2 parts)": the whole with new values of some components. */
+static const struct lang_pieces *store_swizzle_form(struct osl *osl, const struct lang_use *use)
+{
+    unsigned count = use->attr >> 8;
+    const char *type = osl_type(osl, use->type);
+    struct text name, text;
+    if (count == 1)
+        return NULL; /* v.x = … */
+    text_init(&name, osl->spell->scratch);
+    text_str(&name, "with_");
+    for (unsigned i = 0; i < count; i++)
+        text_char(&name, parts[use->attr >> 2 * i & 3]);
+    text_init(&text, osl->spell->scratch);
+    text_fmt(&text, "%s %s(%s v, %s parts)\n{\n    %s result = v;\n", type, text_cstr(&name), type,
+             osl_type(osl, use->operands[1]), type);
+    for (unsigned i = 0; i < count; i++)
+        text_fmt(&text, "    result.%c = parts.%c;\n", parts[use->attr >> 2 * i & 3], parts[i]);
+    text_str(&text, "    return result;\n}\n");
+    osl_add_helper(osl, text_cstr(&text));
+    return call_form(osl, text_cstr(&name), 2, NULL);
+}
+
+/* "vector4 with_component(vector4 v, int i, float part)", or with another column of a matrix. */
+static const struct lang_pieces *store_index_form(struct osl *osl, const struct lang_use *use)
+{
+    const char *type = osl_type(osl, use->type), *part = osl_type(osl, use->operands[2]);
+    bool is_matrix = use->type < IR_NUM_TYPES && ir_type_is_matrix(use->type);
+    unsigned count = is_matrix ? ir_type_info(use->type)->columns : components(use->type);
+    struct text text;
+    if (!is_matrix && !osl_is_struct(use->type))
+        return NULL; /* v[i] = … of arrays and of three components */
+    text_init(&text, osl->spell->scratch);
+    text_fmt(&text, "%s with_part(%s whole, int i, %s part)\n{\n    %s result = whole;\n", type,
+             type, part, type);
+    for (unsigned i = 0; i < count; i++)
+        text_fmt(&text,
+                 is_matrix ? "    result[i][%u] = part.%c;\n"
+                           : "    if (i == %u)\n        result.%c = part;\n",
+                 i, parts[i]);
+    text_str(&text, "    return result;\n}\n");
+    osl_add_helper(osl, text_cstr(&text));
+    return call_form(osl, "with_part", 3, NULL);
 }
 
 /* ---- Entry ---- */
@@ -492,6 +589,8 @@ static const struct lang_pieces *color_form(struct osl *osl, const struct lang_u
 const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
 {
     struct osl *osl = ((struct spell *)user_data)->target_data;
+    if (use->is_store)
+        return use->op == IR_SWIZZLE ? store_swizzle_form(osl, use) : store_index_form(osl, use);
     bool makes = use->op == IR_CONST || use->op == IR_CONVERT || use->op == IR_CONSTRUCT;
     const struct lang_pieces *color = makes ? color_form(osl, use) : NULL;
     if (color || use->op == IR_CONST)

@@ -19,7 +19,16 @@ static const struct {
 } structs[] = {
     {IR_TYPE_VEC2, "vector2", "struct vector2 {\n    float x, y;\n};\n"},
     {IR_TYPE_VEC4, "vector4", "struct vector4 {\n    float x, y, z, w;\n};\n"},
-    {IR_TYPE_IVEC2, "ivector2", "struct ivector2 {\n    int x, y;\n};\n"},
+#define OF_INTEGERS(of, letter) \
+    {IR_TYPE_##of##2, letter "vector2", "struct " letter "vector2 {\n    int x, y;\n};\n"}, \
+        {IR_TYPE_##of##3, letter "vector3", "struct " letter "vector3 {\n    int x, y, z;\n};\n"}, \
+    { \
+        IR_TYPE_##of##4, letter "vector4", "struct " letter "vector4 {\n    int x, y, z, w;\n};\n" \
+    }
+    OF_INTEGERS(BVEC, "b"),
+    OF_INTEGERS(IVEC, "i"),
+    OF_INTEGERS(UVEC, "u"),
+#undef OF_INTEGERS
 };
 enum { NUM_STRUCTS = sizeof structs / sizeof *structs };
 

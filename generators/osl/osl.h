@@ -49,7 +49,8 @@ const char *osl_type(struct osl *osl, ir_type_id type); /* its name; marks it as
 void osl_add_helper(struct osl *osl, const char *text); /* adds a helper once */
 static inline bool osl_is_struct(ir_type_id type)
 {
-    return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4 || type == IR_TYPE_IVEC2;
+    return type < IR_NUM_TYPES && ir_type_info(type)->components > 1 && !ir_type_is_matrix(type)
+           && type != IR_TYPE_VEC3;
 }
 
 /* kinds.c */

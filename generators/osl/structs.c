@@ -10,7 +10,7 @@ static bool is_struct(const struct spell *spell, ir_type_id type)
 {
     if (type >= IR_TYPE_FIRST_USER)
         return !lang_user_type(spell->shader->unit, type, NULL)->array_length;
-    return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4 || type == IR_TYPE_IVEC2;
+    return osl_is_struct(type);
 }
 
 static bool has_struct(const struct spell *spell, ir_type_id type)

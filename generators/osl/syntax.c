@@ -12,6 +12,7 @@ static const char *const reserved[] = {
 
 static const struct lang_form forms[IR_NUM_OPS] = {
     [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},
+    [IR_CHOOSE] = {"$2 ? $1 : $0", LANG_PREC_TERNARY, false},
     CALL(ATAN2, "atan2($0, $1)"),
     CALL(RSQRT, "inversesqrt($0)"),
     CALL(INVERSE, "(1 / $0)"),
@@ -26,7 +27,11 @@ static const struct lang_form forms[IR_NUM_OPS] = {
 static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_BOOL] = "int",          [IR_TYPE_INT] = "int",
     [IR_TYPE_UINT] = "int",          [IR_TYPE_FLOAT] = "float",
-    [IR_TYPE_IVEC2] = "ivector2",    [IR_TYPE_VEC2] = "vector2",
+    [IR_TYPE_BVEC2] = "bvector2",    [IR_TYPE_BVEC3] = "bvector3",
+    [IR_TYPE_BVEC4] = "bvector4",    [IR_TYPE_IVEC2] = "ivector2",
+    [IR_TYPE_IVEC3] = "ivector3",    [IR_TYPE_IVEC4] = "ivector4",
+    [IR_TYPE_UVEC2] = "uvector2",    [IR_TYPE_UVEC3] = "uvector3",
+    [IR_TYPE_UVEC4] = "uvector4",    [IR_TYPE_VEC2] = "vector2",
     [IR_TYPE_VEC3] = "vector",       [IR_TYPE_VEC4] = "vector4",
     [IR_TYPE_MAT2] = "matrix",       [IR_TYPE_MAT3] = "matrix",
     [IR_TYPE_MAT4] = "matrix",       [IR_TYPE_STRING] = "string",
@@ -107,10 +112,13 @@ void osl_add_helper(struct osl *osl, const char *text)
 char osl_type_letter(ir_type_id type)
 {
     static const char letters[IR_NUM_TYPES] = {
-        [IR_TYPE_BOOL] = 'b',   [IR_TYPE_INT] = 'i',  [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f',
-        [IR_TYPE_IVEC2] = 'I',  [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3', [IR_TYPE_VEC4] = '4',
-        [IR_TYPE_MAT2] = 'm',   [IR_TYPE_MAT3] = 'M', [IR_TYPE_MAT4] = 'N', [IR_TYPE_SAMPLER] = 's',
-        [IR_TYPE_STRING] = 't',
+        [IR_TYPE_BOOL] = 'b',  [IR_TYPE_INT] = 'i',     [IR_TYPE_UINT] = 'u',
+        [IR_TYPE_FLOAT] = 'f', [IR_TYPE_BVEC2] = 'p',   [IR_TYPE_BVEC3] = 'q',
+        [IR_TYPE_BVEC4] = 'r', [IR_TYPE_IVEC2] = 'I',   [IR_TYPE_IVEC3] = 'J',
+        [IR_TYPE_IVEC4] = 'K', [IR_TYPE_UVEC2] = 'U',   [IR_TYPE_UVEC3] = 'V',
+        [IR_TYPE_UVEC4] = 'W', [IR_TYPE_VEC2] = '2',    [IR_TYPE_VEC3] = '3',
+        [IR_TYPE_VEC4] = '4',  [IR_TYPE_MAT2] = 'm',    [IR_TYPE_MAT3] = 'M',
+        [IR_TYPE_MAT4] = 'N',  [IR_TYPE_SAMPLER] = 's', [IR_TYPE_STRING] = 't',
     };
     return type < IR_NUM_TYPES && letters[type] ? letters[type] : '?';
 }

@@ -152,6 +152,14 @@ static bool belongs_to_pixel(struct builder *b, ir_ref value)
     return false;
 }
 
+/* True for numbers and vectors of numbers, which stages can pass on. */
+static bool is_varying(ir_type_id type)
+{
+    return type < IR_NUM_TYPES && ir_type_info(type)->components > 0 && !ir_type_is_matrix(type)
+           && ir_type_info(type)->scalar >= IR_TYPE_INT
+           && ir_type_info(type)->scalar <= IR_TYPE_FLOAT;
+}
+
 static void make_interpolated(void *request)
 {
     struct code_request *r = request;
@@ -160,7 +168,7 @@ static void make_interpolated(void *request)
     if (!code_ref(r->build, r->value, &value))
         return;
     ir_type_id type = value ? ir_type_of(b->graph, value) : IR_TYPE_VOID;
-    if (type < IR_TYPE_INT || type > IR_TYPE_VEC4 || !r->name) {
+    if (!is_varying(type) || !r->name) {
         code_fault(r->build,
                    "interpolates a value that is no number or vector:", r->name ? r->name : "NULL");
         return;

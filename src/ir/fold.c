@@ -308,6 +308,26 @@ static bool eval_ne(const struct ir_value *args, struct ir_value *out)
     return true;
 }
 
+static unsigned count_true(const struct ir_value *value)
+{
+    unsigned n = 0;
+    for (unsigned i = 0; i < components_of(value); i++)
+        n += value->w[i].u != 0;
+    return n;
+}
+
+static bool eval_any(const struct ir_value *args, struct ir_value *out)
+{
+    out->w[0].u = count_true(&args[0]) > 0;
+    return true;
+}
+
+static bool eval_all(const struct ir_value *args, struct ir_value *out)
+{
+    out->w[0].u = count_true(&args[0]) == components_of(&args[0]);
+    return true;
+}
+
 static bool eval_select(const struct ir_value *args, struct ir_value *out)
 {
     *out = args[args[0].w[0].u ? 1 : 2];
@@ -334,6 +354,8 @@ static whole_fn *const wholes[IR_NUM_OPS] = {
     [IR_UINT_BITS_TO_FLOAT] = eval_bits,
     [IR_EQ] = eval_eq,
     [IR_NE] = eval_ne,
+    [IR_ANY] = eval_any,
+    [IR_ALL] = eval_all,
     [IR_SELECT] = eval_select,
 };
 

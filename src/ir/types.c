@@ -32,9 +32,15 @@ ir_type_id ir_type_vector(ir_type_id scalar, unsigned components)
     if (components == 1 && scalar < IR_NUM_TYPES && ir_types[scalar].scalar == scalar
         && ir_types[scalar].components == 1)
         return scalar;
-    if (scalar == IR_TYPE_FLOAT && components >= 2 && components <= 4)
-        return (ir_type_id)(IR_TYPE_VEC2 + components - 2);
-    return scalar == IR_TYPE_INT && components == 2 ? IR_TYPE_IVEC2 : IR_TYPE_VOID;
+    if (components < 2 || components > 4)
+        return IR_TYPE_VOID;
+    switch (scalar) {
+    case IR_TYPE_BOOL: return (ir_type_id)(IR_TYPE_BVEC2 + components - 2);
+    case IR_TYPE_INT: return (ir_type_id)(IR_TYPE_IVEC2 + components - 2);
+    case IR_TYPE_UINT: return (ir_type_id)(IR_TYPE_UVEC2 + components - 2);
+    case IR_TYPE_FLOAT: return (ir_type_id)(IR_TYPE_VEC2 + components - 2);
+    default: return IR_TYPE_VOID;
+    }
 }
 
 static bool is_scalar(ir_type_id type)
@@ -42,14 +48,24 @@ static bool is_scalar(ir_type_id type)
     return type < IR_NUM_TYPES && ir_types[type].components == 1;
 }
 
-static bool is_numeric(ir_type_id type)
+static ir_type_id scalar_of(ir_type_id type)
 {
-    return type >= IR_TYPE_INT && type <= IR_TYPE_MAT4;
+    return type < IR_NUM_TYPES ? ir_types[type].scalar : IR_TYPE_VOID;
 }
 
 static bool is_integer(ir_type_id type)
 {
-    return type == IR_TYPE_INT || type == IR_TYPE_UINT || type == IR_TYPE_IVEC2;
+    return scalar_of(type) == IR_TYPE_INT || scalar_of(type) == IR_TYPE_UINT;
+}
+
+static bool is_numeric(ir_type_id type)
+{
+    return is_integer(type) || scalar_of(type) == IR_TYPE_FLOAT;
+}
+
+static bool is_vector(ir_type_id type)
+{
+    return type < IR_NUM_TYPES && ir_types[type].components > 1 && ir_types[type].columns == 1;
 }
 
 bool ir_is_linear_mul(ir_type_id a, ir_type_id b)
@@ -117,17 +133,41 @@ static ir_type_id result_compare(enum ir_op op, const ir_type_id *args, unsigned
         return IR_TYPE_BOOL;
     if (is_user_type)
         return IR_TYPE_VOID;
-    bool fits = num_args == 1 ? type == IR_TYPE_FLOAT : is_scalar(type) && is_numeric(type);
-    return fits ? IR_TYPE_BOOL : IR_TYPE_VOID;
+    if (num_args == 1)
+        return scalar_of(type) == IR_TYPE_FLOAT && ir_types[type].columns == 1
+                   ? ir_type_vector(IR_TYPE_BOOL, ir_types[type].components)
+                   : IR_TYPE_VOID;
+    return is_scalar(type) && is_numeric(type) ? IR_TYPE_BOOL : IR_TYPE_VOID;
+}
+
+/* Bools have no order; the relations that commute need none. */
+static ir_type_id result_relation(enum ir_op op, const ir_type_id *args, unsigned num_args)
+{
+    ir_type_id type = args[0];
+    bool has_order = is_numeric(type);
+    if (!all_equal(args, num_args) || !is_vector(type)
+        || (!has_order && !(ir_ops[op].flags & OP_COMMUTES)))
+        return IR_TYPE_VOID;
+    return ir_type_vector(IR_TYPE_BOOL, ir_types[type].components);
+}
+
+static ir_type_id result_choice(const ir_type_id *args)
+{
+    ir_type_id type = args[0];
+    bool fits = is_vector(type) && scalar_of(type) == IR_TYPE_FLOAT && args[1] == type
+                && args[2] == ir_type_vector(IR_TYPE_BOOL, ir_types[type].components);
+    return fits ? type : IR_TYPE_VOID;
 }
 
 static ir_type_id result_integer(enum ir_op op, const ir_type_id *args, unsigned num_args)
 {
     ir_type_id a = args[0], b = args[num_args - 1];
-    bool shift = op == IR_SHL || op == IR_SHR;
-    if (!is_integer(a) || !is_integer(b))
+    bool is_shift = op == IR_SHL || op == IR_SHR;
+    if (!is_integer(a) || !is_integer(b) || (!is_shift && scalar_of(a) != scalar_of(b)))
         return IR_TYPE_VOID;
-    return a == b || (shift && is_scalar(b)) ? a : IR_TYPE_VOID;
+    if (ir_types[a].components == ir_types[b].components || is_scalar(b))
+        return a;
+    return is_scalar(a) && !is_shift ? b : IR_TYPE_VOID;
 }
 
 /* The operands of built-in functions whose types follow no rule. */
@@ -135,12 +175,6 @@ static const struct signature {
     uint8_t op;
     ir_type_id result, args[4];
 } signatures[] = {
-    {IR_FLOAT_TO_INT_BITS, IR_TYPE_INT, {IR_TYPE_FLOAT}},
-    {IR_FLOAT_TO_INT_BITS, IR_TYPE_IVEC2, {IR_TYPE_VEC2}},
-    {IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, {IR_TYPE_FLOAT}},
-    {IR_INT_BITS_TO_FLOAT, IR_TYPE_FLOAT, {IR_TYPE_INT}},
-    {IR_INT_BITS_TO_FLOAT, IR_TYPE_VEC2, {IR_TYPE_IVEC2}},
-    {IR_UINT_BITS_TO_FLOAT, IR_TYPE_FLOAT, {IR_TYPE_UINT}},
     {IR_TEX, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_VEC2}},
     {IR_TEX_LOD, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_VEC2, IR_TYPE_FLOAT}},
     {IR_TEX_GRAD, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_VEC2, IR_TYPE_VEC2, IR_TYPE_VEC2}},
@@ -151,8 +185,33 @@ static const struct signature {
     {IR_TEX_FETCH, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_IVEC2, IR_TYPE_INT}},
 };
 
+/* Built-in functions of one operand whose result has components of another type. */
+static const struct {
+    uint8_t op;
+    ir_type_id from, to; /* types of the components */
+    bool takes_vectors_only, is_scalar;
+} retyping[] = {
+    {IR_FLOAT_TO_INT_BITS, IR_TYPE_FLOAT, IR_TYPE_INT, false, false},
+    {IR_FLOAT_TO_UINT_BITS, IR_TYPE_FLOAT, IR_TYPE_UINT, false, false},
+    {IR_INT_BITS_TO_FLOAT, IR_TYPE_INT, IR_TYPE_FLOAT, false, false},
+    {IR_UINT_BITS_TO_FLOAT, IR_TYPE_UINT, IR_TYPE_FLOAT, false, false},
+    {IR_ANY, IR_TYPE_BOOL, IR_TYPE_BOOL, true, true},
+    {IR_ALL, IR_TYPE_BOOL, IR_TYPE_BOOL, true, true},
+    {IR_NOT_EACH, IR_TYPE_BOOL, IR_TYPE_BOOL, true, false},
+};
+
 static ir_type_id result_builtin(enum ir_op op, const ir_type_id *args, unsigned num_args)
 {
+    for (size_t i = 0; i < sizeof retyping / sizeof *retyping; i++)
+        if (retyping[i].op == op) {
+            bool fits =
+                scalar_of(args[0]) == retyping[i].from
+                && (is_vector(args[0]) || (is_scalar(args[0]) && !retyping[i].takes_vectors_only));
+            return !fits ? IR_TYPE_VOID
+                   : retyping[i].is_scalar
+                       ? retyping[i].to
+                       : ir_type_vector(retyping[i].to, ir_types[args[0]].components);
+        }
     if (op == IR_STEP || op == IR_SMOOTHSTEP) { /* edges of the type of x, or scalar */
         ir_type_id x = args[num_args - 1];
         bool fits = in_domain(op, x) && all_equal(args, num_args - 1)
@@ -182,6 +241,8 @@ ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args
     case IR_RULE_ARITH: return result_arith(op, args, num_args);
     case IR_RULE_SPLAT: return result_splat(op, args, num_args);
     case IR_RULE_COMPARE: return result_compare(op, args, num_args);
+    case IR_RULE_RELATION: return result_relation(op, args, num_args);
+    case IR_RULE_CHOICE: return result_choice(args);
     case IR_RULE_LOGIC:
         return all_equal(args, num_args) && args[0] == IR_TYPE_BOOL ? IR_TYPE_BOOL : IR_TYPE_VOID;
     case IR_RULE_INTEGER: return result_integer(op, args, num_args);

@@ -171,7 +171,8 @@ lang_ref check_member(struct parser *p, lang_ref a, const struct token *name)
     if (type >= IR_TYPE_FIRST_USER && !check_is_array(p, type, &element, &length))
         return check_struct_member(p, a, name);
     uint8_t components[4];
-    bool has_components = check_rank_of(type) && !ir_type_is_matrix(type);
+    bool has_components =
+        check_is_vector(type) || (check_rank_of(type) && !ir_type_is_matrix(type));
     unsigned size = has_components ? ir_type_info(type)->components : 0;
     unsigned count = size ? read_swizzle(name, size, components) : 0;
     if (!count || ir_type_vector(check_scalar(type), count) == IR_TYPE_VOID) {
@@ -193,7 +194,7 @@ static bool indexed(struct parser *p, ir_type_id type, ir_type_id *out_element,
     if (type >= IR_TYPE_FIRST_USER)
         return check_is_array(p, type, out_element, out_length);
     const struct ir_type_info *info = ir_type_info(type);
-    if (!check_rank_of(type) || info->components < 2)
+    if (!check_is_vector(type) && !ir_type_is_matrix(type))
         return false;
     unsigned length = info->columns > 1 ? info->columns : info->components;
     *out_length = length;

@@ -6,14 +6,33 @@
 
 #include <assert.h>
 
-/* IR_NUM_OPS if there is no such built-in. GLSL uses the name `atan` for ATAN2 too. */
+/* Built-in functions that share their name in the language with another op. */
+static const struct {
+    uint8_t op; /* enum ir_op */
+    const char *name;
+    unsigned num_args;
+} renamed[] = {
+    {IR_ATAN2, "atan", 2},
+    {IR_NOT_EACH, "not", 1},
+};
+enum { NUM_RENAMED = sizeof renamed / sizeof *renamed };
+
+static bool is_text(const char *text, const char *name, size_t len)
+{
+    return strlen(text) == len && memcmp(text, name, len) == 0;
+}
+
+/* IR_NUM_OPS if there is no such built-in. */
 static enum ir_op find_builtin(const char *name, size_t len, unsigned num_args)
 {
+    for (unsigned i = 0; i < NUM_RENAMED; i++)
+        if (renamed[i].num_args == num_args && is_text(renamed[i].name, name, len))
+            return (enum ir_op)renamed[i].op;
     for (int op = 0; op < IR_NUM_OPS; op++) {
         const struct ir_op_info *info = ir_op_info((enum ir_op)op);
-        bool named = strlen(info->text) == len && memcmp(info->text, name, len) == 0;
-        if (named && (info->flags & OP_BUILTIN) && op != IR_ATAN2)
-            return op == IR_ATAN && num_args == 2 ? IR_ATAN2 : (enum ir_op)op;
+        bool is_renamed = op == IR_ATAN2 || op == IR_NOT_EACH;
+        if (is_text(info->text, name, len) && (info->flags & OP_BUILTIN) && !is_renamed)
+            return (enum ir_op)op;
     }
     return IR_NUM_OPS;
 }
@@ -39,7 +58,10 @@ static lang_ref call_builtin(struct parser *p, enum ir_op op, lang_ref *args, un
 {
     if (num_args != (unsigned)ir_op_info(op)->arity)
         return 0;
-    /* mix(a, b, bool) of scalars is a choice. */
+    /* With bools as the third argument it is a choice: of scalars, or by component. */
+    if (op == IR_MIX && check_scalar(tree_type(p, args[2])) == IR_TYPE_BOOL
+        && check_is_vector(tree_type(p, args[2])))
+        op = IR_CHOOSE;
     if (op == IR_MIX && tree_type(p, args[2]) == IR_TYPE_BOOL) {
         bool fits = check_unify(p, args, 2, 0) && tree_type(p, args[0]) == tree_type(p, args[1])
                     && tree_type(p, args[0]) == check_scalar(tree_type(p, args[0]));

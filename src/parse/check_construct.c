@@ -17,7 +17,8 @@ static unsigned components_of(ir_type_id type)
 /* True for numbers, bools and their vectors: other scalars and vectors can be built from them. */
 static bool is_part(ir_type_id type)
 {
-    return type == IR_TYPE_BOOL || (check_rank(check_scalar(type)) && !ir_type_is_matrix(type));
+    ir_type_id scalar = check_scalar(type);
+    return scalar == IR_TYPE_BOOL || (check_rank(scalar) && !ir_type_is_matrix(type));
 }
 
 /* Converts to components of another scalar type; their number stays. */

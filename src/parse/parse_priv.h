@@ -331,6 +331,7 @@ unsigned check_rank(ir_type_id scalar);
 /* component type; VOID for user types and opaque ones */
 ir_type_id check_scalar(ir_type_id type);
 unsigned check_rank_of(ir_type_id type); /* rank of its components */
+bool check_is_vector(ir_type_id type);   /* also of bools */
 /* The type of equal shape with components of a higher rank; VOID if there is none. */
 ir_type_id check_with_rank(ir_type_id type, unsigned rank);
 bool check_converts(ir_type_id from, ir_type_id to); /* implicitly, or equal */

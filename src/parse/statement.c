@@ -198,31 +198,74 @@ static lang_ref parse_effect(struct parser *p, lang_ref value, const struct toke
     return ref;
 }
 
-/* Parses an assignment, ++, -- or call, without its ';'. */
-static lang_ref parse_simple(struct parser *p)
+static bool at_assignment(const struct parser *p)
+{
+    const struct symbol *symbol = lex_symbol(p->token.kind);
+    return symbol && symbol->role == SYMBOL_SET;
+}
+
+static lang_ref read_again(struct parser *p, lang_ref variable)
+{
+    const struct lang_node node = *tree_node(p, variable);
+    assert(node.kind == LANG_VAR);
+    lang_ref ref = tree_new(p, LANG_VAR, IR_NUM_OPS, node.type, tree_place(p, variable));
+    tree_node(p, ref)->a = node.a;
+    return ref;
+}
+
+/*
+ * Parses from the operator on. `a = b = x` is two statements, b = x and a = b, so the targets after
+ * the first are variables.
+ */
+static struct tree_chain parse_assignment(struct parser *p, lang_ref target)
+{
+    struct tree_chain chain = {0};
+    enum ir_op op = (enum ir_op)lex_symbol(p->token.kind)->op;
+    uint32_t place = parse_place(&p->token);
+    parse_advance(p);
+    if (!parse_enter(p))
+        return chain;
+    lang_ref value = parse_expression(p);
+    if (value && !p->panic && at_assignment(p) && tree_node(p, value)->kind == LANG_VAR) {
+        chain = parse_assignment(p, value);
+        value = chain.first ? read_again(p, value) : 0;
+    }
+    if (target && value)
+        tree_append(p, &chain, check_assign(p, op, target, value, place));
+    parse_leave(p);
+    return chain;
+}
+
+/* Parses assignments, ++, -- or a call, without the ';'. */
+static struct tree_chain parse_simple(struct parser *p)
 {
     struct token start = p->token;
     const struct symbol *symbol = lex_symbol(start.kind);
     if (symbol && symbol->role == SYMBOL_STEP) {
         parse_advance(p);
-        return step_by_one(p, start.kind, parse_expression(p), parse_place(&start));
+        return chain_of(step_by_one(p, start.kind, parse_expression(p), parse_place(&start)));
     }
     lang_ref target = parse_expression(p);
     if (p->panic)
-        return 0;
+        return chain_of(0);
     struct token at = p->token;
     symbol = lex_symbol(at.kind);
     if (symbol && symbol->role == SYMBOL_STEP) {
         parse_advance(p);
-        return step_by_one(p, at.kind, target, parse_place(&at));
+        return chain_of(step_by_one(p, at.kind, target, parse_place(&at)));
     }
-    if (!symbol || symbol->role != SYMBOL_SET)
-        return parse_effect(p, target, &start);
-    parse_advance(p);
-    lang_ref value = parse_expression(p);
-    return target && value
-               ? check_assign(p, (enum ir_op)symbol->op, target, value, parse_place(&at))
-               : 0;
+    return at_assignment(p) ? parse_assignment(p, target)
+                            : chain_of(parse_effect(p, target, &start));
+}
+
+/* The step of a loop: one statement. */
+static lang_ref parse_step(struct parser *p)
+{
+    struct token start = p->token;
+    struct tree_chain chain = parse_simple(p);
+    if (chain.first != chain.last)
+        PARSE_SYNTAX_ERROR(p, &start, "the step of a loop has one assignment");
+    return chain.first;
 }
 
 /* Control flow */
@@ -289,14 +332,14 @@ static struct tree_chain parse_for(struct parser *p, uint32_t place)
     if (parse_at_type(p))
         init = parse_declaration(p);
     else if (p->token.kind != TOKEN_SEMICOLON)
-        init = chain_of(parse_simple(p));
+        init = parse_simple(p);
     lang_ref condition = 0, step = 0;
     bool good = parse_expect(p, TOKEN_SEMICOLON);
     if (good && p->token.kind != TOKEN_SEMICOLON)
         condition = parse_condition(p);
     good = good && parse_expect(p, TOKEN_SEMICOLON);
     if (good && p->token.kind != TOKEN_CLOSE)
-        step = parse_simple(p);
+        step = parse_step(p);
     good = good && parse_expect(p, TOKEN_CLOSE);
     lang_ref loop = good ? loop_node(p, LANG_FOR, condition, parse_loop_body(p), place) : 0;
     close_scope(p, scope);
@@ -363,7 +406,7 @@ static lang_ref parse_jump(struct parser *p, const struct token *at)
 static struct tree_chain parse_plain(struct parser *p)
 {
     bool declares = p->token.kind == TOKEN_CONST || parse_at_type(p);
-    struct tree_chain chain = declares ? parse_declaration(p) : chain_of(parse_simple(p));
+    struct tree_chain chain = declares ? parse_declaration(p) : parse_simple(p);
     if (!p->panic)
         parse_expect(p, TOKEN_SEMICOLON);
     return chain;

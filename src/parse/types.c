@@ -21,6 +21,11 @@ unsigned check_rank_of(ir_type_id type)
     return check_rank(check_scalar(type));
 }
 
+bool check_is_vector(ir_type_id type)
+{
+    return type < IR_NUM_TYPES && ir_type_info(type)->components > 1 && !ir_type_is_matrix(type);
+}
+
 ir_type_id check_with_rank(ir_type_id type, unsigned rank)
 {
     assert(rank < sizeof scalar_of_rank / sizeof *scalar_of_rank);

@@ -336,8 +336,56 @@ static bool print_typed_assignment(struct printer *p, const struct lang_node *no
     return true;
 }
 
+/* The value of an assignment: of `a += b` it is a + b. */
+static void print_assigned(struct printer *p, const struct lang_node *node)
+{
+    const struct lang_node *operands[] = {node_at(p, node->a), node_at(p, node->b)};
+    if (node->op == IR_NUM_OPS) {
+        print_expression(p, operands[1], LANG_PREC_ASSIGN);
+        return;
+    }
+    const struct lang_pieces *form = typed_form(p, node->op, 0, operands[0]->type, operands, 2);
+    print_form(p, form ? form : lang_style_form(p->style, node->op), operands[0]->type, operands);
+}
+
+/* Writes whole = with_parts(whole, value) if the target cannot assign these parts. */
+static bool print_part_assignment(struct printer *p, const struct lang_node *node)
+{
+    const struct lang_node *target = node_at(p, node->a);
+    bool is_swizzle = target->op == IR_SWIZZLE;
+    if (!p->is_typed || target->kind != LANG_OP || (!is_swizzle && target->op != IR_INDEX))
+        return false;
+    const struct lang_node *whole = node_at(p, target->a), *operands[] = {whole, whole, whole};
+    unsigned n = is_swizzle ? 2 : 3;
+    operands[1] = is_swizzle ? whole : node_at(p, whole->next);
+    ir_type_id types[] = {whole->type, operands[1]->type, target->type};
+    types[n - 1] = target->type;
+    struct lang_use use = {.op = target->op,
+                           .type = whole->type,
+                           .attr = target->b,
+                           .operands = types,
+                           .num_operands = n,
+                           .is_store = true};
+    const struct lang_pieces *form = p->names->form(p->names->user_data, &use);
+    if (!form)
+        return false;
+    print_expression(p, whole, LANG_PREC_UNARY);
+    text_mem(p->out, " = ", 3);
+    for (unsigned i = 0; i < form->num; i++) {
+        text_put(p->out, form->pieces[i].before);
+        if (form->pieces[i].index + 1u == n)
+            print_assigned(p, node);
+        else
+            print_expression(p, operands[form->pieces[i].index], LANG_PREC_ASSIGN);
+    }
+    text_put(p->out, form->rest);
+    return true;
+}
+
 static void print_assignment(struct printer *p, const struct lang_node *node)
 {
+    if (print_part_assignment(p, node))
+        return;
     if (print_typed_assignment(p, node))
         return;
     if ((node->op == IR_ADD || node->op == IR_SUB) && is_int_one(p, node->b)) {

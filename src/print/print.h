@@ -120,6 +120,11 @@ struct lang_use {
     uint32_t attr;              /* of SWIZZLE and MEMBER, as in struct ir_node */
     const ir_type_id *operands; /* types of the operands */
     unsigned num_operands;
+    /*
+     * SWIZZLE or INDEX as the target of an assignment: the last operand is the new value of the
+     * parts, and the form is the whole with this value. NULL: the language assigns parts.
+     */
+    bool is_store;
     /* bit i: the text may repeat operand i, for example a variable */
     uint32_t named;
     ir_ref node; /* the graph's node; 0 in a tree */

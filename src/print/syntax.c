@@ -39,6 +39,10 @@ static const struct lang_form forms[IR_NUM_OPS] = {
     CALL1(CEIL, "ceil"), CALL1(FRACT, "fract"), CALL2(MOD, "mod"),
     CALL2(MIN, "min"), CALL2(MAX, "max"), CALL3(CLAMP, "clamp"), CALL3(MIX, "mix"), CALL2(STEP, "step"),
     CALL3(SMOOTHSTEP, "smoothstep"), CALL1(ISNAN, "isnan"), CALL1(ISINF, "isinf"),
+    CALL2(LESS, "lessThan"), CALL2(LESS_EQUAL, "lessThanEqual"),
+    CALL2(GREATER, "greaterThan"), CALL2(GREATER_EQUAL, "greaterThanEqual"),
+    CALL2(EQUAL, "equal"), CALL2(NOT_EQUAL, "notEqual"),
+    CALL1(ANY, "any"), CALL1(ALL, "all"), CALL1(NOT_EACH, "not"), CALL3(CHOOSE, "mix"),
     CALL1(LENGTH, "length"), CALL2(DISTANCE, "distance"), CALL2(DOT, "dot"), CALL2(CROSS, "cross"),
     CALL1(NORMALIZE, "normalize"), CALL3(FACEFORWARD, "faceforward"), CALL2(REFLECT, "reflect"),
     CALL3(REFRACT, "refract"),
@@ -67,10 +71,11 @@ static const char *const type_names[IR_NUM_TYPES] = {
 };
 
 static const char *const keywords[] = {
-    "bool",    "break", "const",  "continue",  "do",     "else",   "false", "float",
-    "for",     "if",    "in",     "inout",     "int",    "ivec2",  "mat2",  "mat3",
-    "mat4",    "out",   "return", "sampler2D", "string", "struct", "true",  "uint",
-    "uniform", "vec2",  "vec3",   "vec4",      "void",   "while"};
+    "bool",      "break",  "bvec2",  "bvec3", "bvec4", "const",   "continue", "do",
+    "else",      "false",  "float",  "for",   "if",    "in",      "inout",    "int",
+    "ivec2",     "ivec3",  "ivec4",  "mat2",  "mat3",  "mat4",    "out",      "return",
+    "sampler2D", "string", "struct", "true",  "uint",  "uniform", "uvec2",    "uvec3",
+    "uvec4",     "vec2",   "vec3",   "vec4",  "void",  "while"};
 
 const struct lang_syntax lang_syntax_portable = {
     .name = "portable",

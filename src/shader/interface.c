@@ -590,7 +590,7 @@ ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value)
     ir_type_id type = ir_type_of(shader->graph, value);
     value = at_vertices(shader, value);
     uint32_t index = find_computed(shader, value);
-    assert(type >= IR_TYPE_INT && type <= IR_TYPE_VEC4);
+    assert(ir_type_info(type)->scalar != IR_TYPE_BOOL && !ir_type_is_matrix(type));
     if (index == UINT32_MAX) {
         struct shader_variable variable = {.name = name,
                                            .block = BLOCK_VERTEX_DATA,

@@ -44,10 +44,17 @@ static void write_flags(struct text *out, unsigned flags)
 
 static void write_ops(struct text *out)
 {
-    static const char *const rules[] = {
-        [IR_RULE_NONE] = "",       [IR_RULE_SAME] = "same",       [IR_RULE_ARITH] = "arith",
-        [IR_RULE_SPLAT] = "splat", [IR_RULE_REDUCE] = "reduce",   [IR_RULE_COMPARE] = "compare",
-        [IR_RULE_LOGIC] = "logic", [IR_RULE_INTEGER] = "integer", [IR_RULE_SELECT] = "select"};
+    static const char *const rules[] = {[IR_RULE_NONE] = "",
+                                        [IR_RULE_SAME] = "same",
+                                        [IR_RULE_ARITH] = "arith",
+                                        [IR_RULE_SPLAT] = "splat",
+                                        [IR_RULE_REDUCE] = "reduce",
+                                        [IR_RULE_COMPARE] = "compare",
+                                        [IR_RULE_RELATION] = "relation",
+                                        [IR_RULE_CHOICE] = "choice",
+                                        [IR_RULE_LOGIC] = "logic",
+                                        [IR_RULE_INTEGER] = "integer",
+                                        [IR_RULE_SELECT] = "select"};
     text_str(out,
              "| op | operands | typing | marks | meaning |\n| --- | --- | --- | --- | --- |\n");
     for (unsigned op = 0; op < IR_NUM_OPS; op++) {

@@ -51,7 +51,27 @@ static const char source[] =
     "1.0, true, 0); }\n"
     "mat3 matrices(vec3 v, float s, mat3 m) { mat3 r = m * s; r[1] = v; r[2].x = s; mat3 i = "
     "mat3(1.0);\n"
-    "    i[0][1] += s; return r * i + transpose(m) * v.x; }\n";
+    "    i[0][1] += s; return r * i + transpose(m) * v.x; }\n"
+    "float chain(float x, int n) { float a, b = 2.0; vec2 c = vec2(x); c.y = a = b = x + float(n); "
+    "c.x += a *= b;\n"
+    "    for (a = b = 1.0; a < c.x; a += 1.0) { b += a; if (b > 9.0) break; } return a + b * c.y; "
+    "}\n"
+    "bvec3 relations(vec3 a, vec3 b, bvec3 c, int n) { bvec3 r = lessThan(a, b);\n"
+    "    if (any(c) && !all(c)) r = not(r); if (n == 1) r = lessThanEqual(a, b);\n"
+    "    if (n == 2) { r = greaterThan(a, b); r.x = c[n]; }\n"
+    "    if (n == 3) r.zy = greaterThanEqual(a.xy, b.yx); if (n == 4) r = notEqual(c, r);\n"
+    "    return equal(r, bvec3(c.yx, n > 2)); }\n"
+    "vec3 chosen(vec3 a, vec3 b, bvec3 c, int n) { vec3 r = mix(a, b, c); bvec2 d = isnan(a.xy);\n"
+    "    for (int i = 0; i < n; ++i) { r = mix(r, a * 2.0, lessThan(r, b)); c = not(c.zxy); }\n"
+    "    r.xy = mix(r.xy, vec2(1, n), d); return c == bvec3(true) ? r : mix(r, vec3(c), c); }\n"
+    "uvec3 unsigned_parts(uvec3 a, uint s, int n) { uvec3 r = a & 6u; r.x |= s << 3; r[n & 1] += "
+    "7u;\n"
+    "    r = (r << 1) ^ (a >> ivec3(n)); uvec4 w = uvec4(r, s); w.wz %= 5u; if (n > 2) w = ~w;\n"
+    "    return min(w.xyz, uvec3(1u, 2u, 3u) * s) + uvec3(vec3(a)); }\n"
+    "ivec4 signed_parts(ivec4 a, ivec3 b, float x) { ivec4 r = a - 2 * ivec4(b, int(x)); r.yz -= "
+    "b.xx;\n"
+    "    ivec3 q = max(abs(r.xyz), b); vec4 f = vec4(q, 1) * x; return ivec4(f) + r * "
+    "ivec4(notEqual(a, r)); }\n";
 
 struct agree {
     struct mem mem;
@@ -81,7 +101,7 @@ static struct ir_value random_value(struct agree *a, ir_type_id type)
         if (ir_type_info(type)->scalar == IR_TYPE_FLOAT)
             value.w[i].f = kind < 2 ? (float)kind : (float)next_random(a, 17) * 0.25f - 1.0f;
         else
-            value.w[i].u = next_random(a, type == IR_TYPE_BOOL ? 2 : 5);
+            value.w[i].u = next_random(a, ir_type_info(type)->scalar == IR_TYPE_BOOL ? 2 : 5);
     return value;
 }
 
