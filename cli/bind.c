@@ -63,33 +63,11 @@ static void write_page(struct bind *bind, const mxg_document *document, const mx
                      reason);
 }
 
-/* The path of a primitive, which the caller frees. */
-static char *path_of(const mxg_scene *scene, uint32_t primitive)
-{
-    size_t size = mxg_scene_path(scene, primitive, NULL, 0) + 1;
-    char *path = memory_alloc(size);
-    mxg_scene_path(scene, primitive, path, size);
-    return path;
-}
-
-static void report_unknown(struct bind *bind, const mxg_scene *scene)
-{
-    enum { MAX_GUESSES = 1000 };
-    uint32_t num = mxg_scene_num_primitives(scene);
-    struct arg_list paths = {0};
-    for (uint32_t i = 0; i < num && i < MAX_GUESSES; ++i)
-        args_append(&paths, path_of(scene, i));
-    const char *near = args_closest(bind->geom, paths.items, paths.len);
-    report_error(&bind->cli.report, "unknown-primitive", "the stage has no primitive '%s'%s%s%s",
-                 bind->geom, near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "");
-    args_free(&paths);
-}
-
 static void explain(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
 {
     uint32_t primitive = mxg_scene_find(scene, bind->geom);
     if (primitive == UINT32_MAX)
-        report_unknown(bind, scene);
+        stage_report_unknown(&bind->cli.report, scene, bind->geom);
     else
         report_status(&bind->cli.report, mxg_bindings_explain(bindings, primitive, put, stdout));
 }

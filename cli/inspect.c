@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen inspect: the state of the compiler after each stage, as text. */
 #include "cli/cli.h"
+#include "cli/stage.h"
 
 #include <string.h>
 
 struct inspect {
     bool views[MXG_VIEW_SLABS_SVG + 1];
     const char *target, *element, *format;
+    struct stage_place place; /* file NULL: an element of the document */
+    const mxg_bindings *bindings;
+    uint32_t stack;
 };
 
 static bool print_view(struct cli *cli, const mxg_document *document, const struct inspect *inspect,
@@ -14,7 +18,9 @@ static bool print_view(struct cli *cli, const mxg_document *document, const stru
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = inspect->target;
-    desc.element = inspect->element;
+    desc.element = inspect->bindings ? NULL : inspect->element;
+    desc.bindings = inspect->bindings;
+    desc.stack = inspect->stack;
     desc.options = cli->options;
     mxg_result *result = NULL;
     mxg_status status = mxg_inspect(cli->context, document, view, &desc, &result);
@@ -66,6 +72,25 @@ static void print_views(struct cli *cli, const mxg_document *document,
         print_view(cli, document, inspect, MXG_VIEW_ELEMENTS);
 }
 
+/* The stack of a primitive of a stage. */
+static void print_stack(struct cli *cli, const mxg_document *own, struct inspect *inspect)
+{
+    struct bound_stage stage;
+    if (stage_bind(cli->context, cli->library, &cli->report, &inspect->place, own, &stage)) {
+        const char *path = inspect->element;
+        uint32_t primitive = path ? mxg_scene_find(stage.scene, path) : 0;
+        inspect->bindings = stage.bindings;
+        if (primitive < mxg_scene_num_primitives(stage.scene)) {
+            inspect->stack = mxg_bindings_stack(stage.bindings, primitive);
+            print_views(cli, stage.document, inspect);
+        } else {
+            stage_report_unknown(&cli->report, stage.scene, path ? path : "/");
+        }
+    }
+    stage_unbind(&stage);
+    inspect->bindings = NULL;
+}
+
 int command_inspect(const struct command *command, int argc, char **argv)
 {
     struct inspect inspect = {.target = "glsl"};
@@ -83,8 +108,17 @@ int command_inspect(const struct command *command, int argc, char **argv)
          "slabs, their operators, media and features, and what budgets would do",
          &inspect.views[MXG_VIEW_SLABS]},
         {"format", 0, ARG_TEXT, "text|json|svg", "of --slabs (default: text)", &inspect.format},
-        {"element", 'e', ARG_TEXT, "PATH", "path of an element (default: the first renderable)",
+        {"element", 'e', ARG_TEXT, "PATH",
+         "path of an element (default: the first renderable), or of a primitive of the stage",
          &inspect.element},
+        {"stage", 0, ARG_TEXT, "FILE",
+         "shows the stack of layers of a primitive, the first one without --element",
+         &inspect.place.file},
+        {"look", 0, ARG_TEXT, "NAME", "for --stage: the look (default: the first one)",
+         &inspect.place.look},
+        {"purpose", 0, ARG_TEXT, "full|preview",
+         "for --stage: also takes the bindings of the scene for this purpose",
+         &inspect.place.purpose},
         {"target", 't', ARG_TEXT, "T", "target language (default: glsl)", &inspect.target},
     };
     struct cli cli;
@@ -96,7 +130,9 @@ int command_inspect(const struct command *command, int argc, char **argv)
                     && cli_options_apply(&cli, &target.name, 1) && choose_format(&inspect);
         for (size_t i = 0; good && i < cli.parser.inputs.len; ++i) {
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
-            if (document)
+            if (document && inspect.place.file)
+                print_stack(&cli, document, &inspect);
+            else if (document)
                 print_views(&cli, document, &inspect);
             mxg_document_destroy(document);
         }

@@ -25,10 +25,8 @@ enum { NUM_BUCKETS = 4096 };
 
 struct stacks {
     struct generate *gen;
-    mxg_document *document; /* with the materials of the stage */
     const char *folder;
-    mxg_scene *scene;
-    mxg_bindings *bindings;
+    struct bound_stage stage;
     struct program *programs;
     size_t num_programs;
     uint32_t buckets[NUM_BUCKETS]; /* 1 + the first program */
@@ -37,9 +35,9 @@ struct stacks {
 
 static char *stack_name(const struct stacks *s, uint32_t stack)
 {
-    size_t size = mxg_bindings_stack_name(s->bindings, stack, NULL, 0) + 1;
+    size_t size = mxg_bindings_stack_name(s->stage.bindings, stack, NULL, 0) + 1;
     char *name = memory_alloc(size);
-    mxg_bindings_stack_name(s->bindings, stack, name, size);
+    mxg_bindings_stack_name(s->stage.bindings, stack, name, size);
     return name;
 }
 
@@ -150,7 +148,7 @@ static mxg_generate_desc desc_of(const struct stacks *s, uint32_t stack)
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = s->gen->target;
     desc.options = s->gen->cli.options;
-    desc.bindings = s->bindings;
+    desc.bindings = s->stage.bindings;
     desc.stack = stack;
     return desc;
 }
@@ -160,7 +158,7 @@ static mxg_result *generate_one(struct stacks *s, uint32_t stack, bool without_s
     mxg_generate_desc desc = desc_of(s, stack);
     mxg_result *result = NULL;
     desc.without_source = without_source;
-    mxg_status status = mxg_generate(s->gen->cli.context, s->document, &desc, &result);
+    mxg_status status = mxg_generate(s->gen->cli.context, s->stage.document, &desc, &result);
     if (result && (without_source || status != MXG_OK))
         report_list(&s->gen->cli.report, mxg_result_diagnostics(result));
     if (report_status(&s->gen->cli.report, status))
@@ -177,7 +175,7 @@ static void write_program(struct stacks *s, uint32_t stack)
     const mxg_generate_desc desc = desc_of(s, stack);
     if (result && generate_claim(s->gen, s->folder, name)) {
         generate_write(s->gen, s->folder, name, result);
-        generate_write_cuts(s->gen, s->document, s->folder, &desc, result);
+        generate_write_cuts(s->gen, s->stage.document, s->folder, &desc, result);
     }
     free(name);
     mxg_result_destroy(result);
@@ -243,12 +241,12 @@ static void put_facts(const struct stacks *s, uint32_t primitive, FILE *out)
                                        [MXG_FACT_TOKEN] = "tokens",
                                        [MXG_FACT_PROPERTY] = "properties",
                                        [MXG_FACT_VISIBILITY] = "visibility"};
-    uint32_t num = mxg_bindings_num_facts(s->bindings, primitive);
+    uint32_t num = mxg_bindings_num_facts(s->stage.bindings, primitive);
     for (size_t k = 0; num && k < sizeof keys / sizeof *keys; ++k) {
         json_t *list = json_array();
         for (uint32_t i = 0; i < num; ++i) {
             mxg_fact fact = {sizeof fact};
-            mxg_bindings_fact(s->bindings, primitive, i, &fact);
+            mxg_bindings_fact(s->stage.bindings, primitive, i, &fact);
             if (fact.kind != (mxg_fact_kind)k)
                 continue;
             json_t *item = json_object();
@@ -269,19 +267,19 @@ static void put_facts(const struct stacks *s, uint32_t primitive, FILE *out)
 /* A line for each primitive, written at once: a scene may have a million of them. */
 static void put_primitives(const struct stacks *s, FILE *out)
 {
-    uint32_t num = mxg_scene_num_primitives(s->scene);
+    uint32_t num = mxg_scene_num_primitives(s->stage.scene);
     char *path = NULL;
     size_t capacity = 0;
     fputs("  \"primitives\": [", out);
     for (uint32_t i = 0; i < num; ++i) {
-        size_t size = mxg_scene_path(s->scene, i, NULL, 0) + 1;
+        size_t size = mxg_scene_path(s->stage.scene, i, NULL, 0) + 1;
         if (size > capacity) {
             capacity = 2 * size;
             path = memory_resize(path, capacity);
         }
-        mxg_scene_path(s->scene, i, path, capacity);
+        mxg_scene_path(s->stage.scene, i, path, capacity);
         json_t *text = json_text(path);
-        char *name = stack_name(s, mxg_bindings_stack(s->bindings, i));
+        char *name = stack_name(s, mxg_bindings_stack(s->stage.bindings, i));
         fputs(i ? ",\n    {\"path\":" : "\n    {\"path\":", out);
         json_dumpf(text, out, JSON_ENCODE_ANY | JSON_COMPACT);
         fprintf(out, ",\"stack\":\"%s\"", name);
@@ -320,21 +318,11 @@ static void write_bindings(struct stacks *s)
 
 /* ---- The whole ---- */
 
-/* The scene, its materials and its bindings; false after a message. */
 static bool bind_scene(struct stacks *s, const mxg_document *own)
 {
     struct cli *cli = &s->gen->cli;
-    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
-    desc.look = s->gen->look;
-    s->scene = stage_load(cli->context, &cli->report, s->gen->stage_file, s->gen->purpose);
-    if (s->scene)
-        s->document = stage_document(cli->context, cli->library, &cli->report, own, s->scene);
-    if (!s->document)
-        return false;
-    mxg_status status = mxg_bind(cli->context, s->document, s->scene, &desc, &s->bindings);
-    if (s->bindings)
-        report_list(&cli->report, mxg_bindings_diagnostics(s->bindings));
-    return report_status(&cli->report, status);
+    struct stage_place place = {s->gen->stage_file, s->gen->look, s->gen->purpose};
+    return stage_bind(cli->context, cli->library, &cli->report, &place, own, &s->stage);
 }
 
 static bool note_files(struct stacks *s, const mxg_document *own)
@@ -347,7 +335,7 @@ static bool note_files(struct stacks *s, const mxg_document *own)
 
 static void tell_programs(const struct stacks *s)
 {
-    uint32_t num = mxg_bindings_num_stacks(s->bindings);
+    uint32_t num = mxg_bindings_num_stacks(s->stage.bindings);
     if (!s->gen->cli.quiet)
         printf("%u %s, %zu %s\n", (unsigned)num, num == 1 ? "stack" : "stacks", s->num_programs,
                s->num_programs == 1 ? "program" : "programs");
@@ -360,7 +348,7 @@ void generate_stacks(struct generate *gen, const mxg_document *document, const c
     json_use_memory();
     s->stacks = json_array();
     if (note_files(s, document) && bind_scene(s, document) && generate_make_folder(gen, folder)) {
-        for (uint32_t i = 0; i < mxg_bindings_num_stacks(s->bindings); ++i)
+        for (uint32_t i = 0; i < mxg_bindings_num_stacks(s->stage.bindings); ++i)
             generate_stack(s, i);
         if (!gen->cli.report.errors) {
             write_bindings(s);
@@ -371,8 +359,6 @@ void generate_stacks(struct generate *gen, const mxg_document *document, const c
         args_free(&s->programs[i].names);
     free(s->programs);
     json_decref(s->stacks);
-    mxg_bindings_destroy(s->bindings);
-    mxg_scene_destroy(s->scene);
-    mxg_document_destroy(s->document);
+    stage_unbind(&s->stage);
     free(s);
 }

@@ -4,6 +4,7 @@
 
 #include "cli/cli.h"
 #include "cli/files.h"
+#include "cli/memory.h"
 
 #include <errno.h>
 #include <spawn.h>
@@ -115,4 +116,51 @@ mxg_document *stage_document(mxg_context *context, mxg_library *library, struct 
         return whole;
     mxg_document_destroy(whole);
     return NULL;
+}
+
+/* ---- Primitives ---- */
+
+/* The path of a primitive, which the caller frees. */
+static char *path_of(const mxg_scene *scene, uint32_t primitive)
+{
+    size_t size = mxg_scene_path(scene, primitive, NULL, 0) + 1;
+    char *path = memory_alloc(size);
+    mxg_scene_path(scene, primitive, path, size);
+    return path;
+}
+
+void stage_report_unknown(struct report *report, const mxg_scene *scene, const char *path)
+{
+    enum { MAX_GUESSES = 1000 };
+    uint32_t num = mxg_scene_num_primitives(scene);
+    struct arg_list paths = {0};
+    for (uint32_t i = 0; i < num && i < MAX_GUESSES; ++i)
+        args_append(&paths, path_of(scene, i));
+    const char *near = args_closest(path, paths.items, paths.len);
+    report_error(report, "unknown-primitive", "the stage has no primitive '%s'%s%s%s", path,
+                 near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "");
+    args_free(&paths);
+}
+
+bool stage_bind(mxg_context *context, mxg_library *library, struct report *report,
+                const struct stage_place *place, const mxg_document *own, struct bound_stage *out)
+{
+    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    desc.look = place->look;
+    *out = (struct bound_stage){.scene = stage_load(context, report, place->file, place->purpose)};
+    if (out->scene)
+        out->document = stage_document(context, library, report, own, out->scene);
+    if (!out->document)
+        return false;
+    mxg_status status = mxg_bind(context, out->document, out->scene, &desc, &out->bindings);
+    if (out->bindings)
+        report_list(report, mxg_bindings_diagnostics(out->bindings));
+    return report_status(report, status);
+}
+
+void stage_unbind(struct bound_stage *stage)
+{
+    mxg_bindings_destroy(stage->bindings);
+    mxg_scene_destroy(stage->scene);
+    mxg_document_destroy(stage->document);
 }

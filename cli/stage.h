@@ -28,4 +28,24 @@ mxg_scene *stage_load(mxg_context *context, struct report *report, const char *p
 mxg_document *stage_document(mxg_context *context, mxg_library *library, struct report *report,
                              const mxg_document *own, const mxg_scene *scene);
 
+struct stage_place {
+    const char *file, *look, *purpose; /* look and purpose may be NULL */
+};
+
+/* A stage with the layers of its primitives. */
+struct bound_stage {
+    mxg_scene *scene;
+    mxg_document *document;
+    mxg_bindings *bindings;
+};
+
+/* Binds a stage, and reports diagnostics. The caller finishes it in any case. False: it has none.
+ */
+bool stage_bind(mxg_context *context, mxg_library *library, struct report *report,
+                const struct stage_place *place, const mxg_document *own, struct bound_stage *out);
+void stage_unbind(struct bound_stage *stage);
+
+/* Tells that a stage has no such primitive, with the nearest path. */
+void stage_report_unknown(struct report *report, const mxg_scene *scene, const char *path);
+
 #endif

@@ -4,6 +4,7 @@
 #include "slabs/blend.h"
 #include "slabs/estimate.h"
 #include "slabs/recognise.h"
+#include "slabs/stack.h"
 
 #include <assert.h>
 
@@ -305,12 +306,12 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
     *out = (struct slab_report){.is_met = true};
     if (!root || (!is_asked(budget) && !slabs_has(shader, root)))
         return root;
-    set_root(&s, root);
+    set_root(&s, has_limits(budget) ? slabs_join_stacks(shader, host, root) : root);
     out->before = out->after = s.cost;
     if (!s.cost.closures || (!is_asked(budget) && !any_asked(&s)))
-        return root;
+        return s.root;
     if (host->scratch)
-        slabs_look(shader, host, root, NULL, &s.whole);
+        slabs_look(shader, host, s.root, NULL, &s.whole);
     recognise(&s);
     blend_asked(&s);
     turn_off(&s);

@@ -4,6 +4,7 @@
 #include "slabs/bytes.h"
 #include "slabs/estimate.h"
 #include "slabs/recognise.h"
+#include "slabs/stack.h"
 
 #include <math.h>
 
@@ -274,6 +275,7 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host, ir_r
     const struct ir_graph *g = shader->graph;
     struct slab_budget budget = {.max_closures = 1, .max_error = -1.0f};
     *out = (struct slab_sheet){.shader = shader};
+    root = slabs_join_stacks(shader, host, root);
     out->is_recognised = root && !slabs_has(shader, root);
     if (out->is_recognised)
         root = slabs_recognise(shader, host, false, root);

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Budgets of a stack of eight layers (docs/slots.md, docs/slabs.md): as one surface it looks as before, and its slabs become as few as the
+budget says.
+
+Arguments: mxgen, mxgen-render ('' to draw nothing)."""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path += [str(HERE.parent), str(HERE.parent.parent / "bench")]
+import slabs
+from checks import check, finish, skip
+
+MXGEN, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:3])
+NUM_LAYERS = 8
+STAGE = """#usda 1.0
+def Sphere "ball" { double radius = 1 }
+"""
+
+
+def slab(name, albedo, roughness, more=""):
+    return f"""<slab name="{name}" type="BSDF"><input name="diffuse_albedo" type="color3" value="{albedo}"/>
+      <input name="roughness" type="float" value="{roughness}"/>{more}</slab>"""
+
+
+def layer(i, surface, inputs):
+    return f"""{surface}<substance name="layer_{i}" type="material"><input name="surfaceshader" type="surfaceshader"
+      nodename="surface_{i}"/>{inputs}</substance>"""
+
+
+def slab_layer(i):
+    """Each layer has another colour and another part of the ball."""
+    albedo = ", ".join(f"{0.1 + 0.1 * (i * k % 8):.1f}" for k in (1, 3, 5))
+    mask = f"""<smoothstep name="mask_{i}" type="float"><input name="in" type="float" nodename="noise_{i}"/>
+      <input name="low" type="float" value="0"/><input name="high" type="float" value="0.3"/></smoothstep>
+      <multiply name="place_{i}" type="vector3"><input name="in1" type="vector3" nodename="place"/>
+      <input name="in2" type="float" value="{1 + 0.4 * i}"/></multiply>
+      <noise3d name="noise_{i}" type="float"><input name="position" type="vector3" nodename="place_{i}"/></noise3d>"""
+    surface = slab(f"slab_{i}", albedo, 0.2 + 0.1 * i) + f"""<slab_surface name="surface_{i}" type="surfaceshader">
+      <input name="bsdf" type="BSDF" nodename="slab_{i}"/></slab_surface>"""
+    inputs = f'<input name="mask" type="float" nodename="mask_{i}"/>' if i else ""
+    return mask + layer(i, surface, inputs)
+
+
+# Layers that differ from the others: matter on a layer; another model with an opacity and light of its own; a normal.
+COAT = slab("coat", "0, 0, 0", 0.05, '<input name="mean_free_path" type="vector3" value="0.05, 0.2, 0.4"/>') + """
+  <slab_surface name="surface_coat" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="coat"/></slab_surface>
+  <substance name="varnish" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface_coat"/>
+    <input name="mask" type="float" value="0.7"/></substance>"""
+GLOW = """<uniform_edf name="light" type="EDF"><input name="color" type="color3" value="0.2, 0.1, 0"/></uniform_edf>
+  <burley_diffuse_bsdf name="matt" type="BSDF"/><surface name="surface_3" type="surfaceshader">
+  <input name="bsdf" type="BSDF" nodename="matt"/><input name="edf" type="EDF" nodename="light"/><input name="opacity" type="float" value="0.5"/>
+  </surface>"""
+NORMAL = """<rotate3d name="bent" type="vector3"><input name="in" type="vector3" nodename="up"/><input name="amount" type="float" value="20"/>
+  </rotate3d><normal name="up" type="vector3"><input name="space" type="string" value="world"/></normal>"""
+
+
+def document(kind):
+    """Eight layers: `slabs` alone, or with `others`, a vertical coat on the third, a `hole` in all."""
+    parts = []
+    for i in range(NUM_LAYERS):
+        part = slab_layer(i)
+        if kind == "others" and i == 3:
+            part = re.sub(r"<slab name.*</slab_surface>", GLOW, part, flags=re.S)
+        if kind == "others" and i == 5:
+            part = NORMAL + part.replace("</substance>", '<input name="normal" type="vector3" nodename="bent"/></substance>')
+        if kind == "hole" and i == 6:
+            part = part.replace("</substance>", '<input name="cutout" type="float" value="0.6"/></substance>')
+        if kind == "hole" and i == 0:
+            part = part.replace("</substance>", '<input name="mask" type="float" value="0.4"/></substance>')
+        parts.append(part)
+    assigns = "".join(f'<materialassign slot="{10 * i:03}" material="layer_{i}" geom="/"/>' for i in range(NUM_LAYERS))
+    if kind == "coat":
+        parts.append(COAT)
+        assigns += '<materialassign slot="020|010" material="varnish" geom="/"/>'
+    look = f'<look name="L">{assigns}</look>'
+    place = '<position name="place" type="vector3"><input name="space" type="string" value="object"/></position>'
+    return f'<?xml version="1.0"?><materialx version="1.39">{place}{"".join(parts)}{look}</materialx>'
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+
+
+def generate(path, stage, out, *options):
+    return run(MXGEN, path, "--stage", stage, "--target", "vulkan", "--interface", "reduced", "-o", out, "-Wbudget-step", *options)
+
+
+def steps_of(text):
+    return [tuple(map(int, step)) for step in re.findall(r"closures (\d+) to (\d+), bytes (\d+) to (\d+)", text)]
+
+
+def check_reports(kind, path, stage, num):
+    sheet = run(MXGEN, "inspect", "--slabs", "--format", "json", "--interface", "reduced", path, "--stage", stage, "-e", "/ball")
+    check(sheet.returncode == 0 and not sheet.stderr, f"{kind}: inspect --slabs: {sheet.stderr}")
+    trees = json.loads(sheet.stdout or "{}").get("trees", [])
+    check(len(trees) == 1, f"{kind}: the stack is {len(trees)} surfaces")
+    tree = trees[0]
+    kinds = [row["kind"] for row in tree["rows"]]
+    check(tree["name"] == "stack" and tree["cost"]["closures"] == num, f"{kind}: {tree['name']}, {tree['cost']}")
+    check(kinds.count("mix") == NUM_LAYERS - 1, f"{kind}: the layers are mixes: {kinds}")
+    check(kinds.count("layer") == (1 if kind == "coat" else 0), f"{kind}: vertical layers are layers: {kinds}")
+    for closures in (3, 2, 1):
+        made = generate(path, stage, path.parent / "made", "--max-closures", closures)
+        steps = steps_of(made.stderr)
+        check(made.returncode == 0 and steps and steps[-1][1] <= closures, f"{kind}: {closures} closures: {made.stderr}")
+        check(all(b <= a and d <= c for a, b, c, d in steps), f"{kind}: a step raises the cost: {steps}")
+    made = generate(path, stage, path.parent / "made", "--max-bytes", 16)
+    check(made.returncode == 0 and steps_of(made.stderr)[-1][3] <= 16, f"{kind}: 16 bytes: {made.stderr}")
+    made = generate(path, stage, path.parent / "made", "--max-error", 0.5)
+    check(made.returncode == 0 and steps_of(made.stderr)[-1][1] < num, f"{kind}: an error of 0.5: {made.stderr}")
+
+
+def draw(path, stage, name, *options):
+    picture = path.parent / f"{name}.ppm"
+    made = run(RENDER, path, "--stage", stage, "--look", "L", "-q", "-s", 64, "--camera", "0,0", "-o", picture, *options)
+    if made.returncode and "no-device" in made.stderr:
+        return None
+    check(made.returncode == 0 and not made.stderr, f"render {name}: {made.stderr}")
+    return picture if made.returncode == 0 else None
+
+
+def check_pictures(kind, path, stage, num):
+    """As one surface, and with one closure, which must not be the same."""
+    whole, joined, one = (draw(path, stage, f"{kind}{closures}", *(("--max-closures", closures) if closures else ()))
+                          for closures in (0, num, 1))
+    if not whole or not joined or not one:
+        return False
+    check(slabs.compare(whole, joined) < 0.1, f"{kind}: one surface differs from the stack by {slabs.compare(whole, joined)}")
+    check(0 < slabs.compare(whole, one) < 8, f"{kind}: one closure differs by {slabs.compare(whole, one)}")
+    return True
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        stage = folder / "stage.usda"
+        stage.write_text(STAGE)
+        draws = RENDER is not None
+        for kind in ("slabs", "others", "coat", "hole"):
+            path = folder / f"{kind}.mtlx"
+            path.write_text(document(kind))
+            num = NUM_LAYERS + (kind == "coat")
+            check_reports(kind, path, stage, num)
+            draws = draws and check_pictures(kind, path, stage, num)
+        stored = generate(folder / "slabs.mtlx", stage, folder / "stored", "--pipeline", "deferred", "--max-closures", 3)
+        check(stored.returncode == 0 and "drawn-forward" not in stored.stderr, f"the deferred pipeline: {stored.stderr}")
+        unknown = run(MXGEN, "inspect", "--slabs", folder / "slabs.mtlx", "--stage", stage, "-e", "/bell")
+        check(unknown.returncode == 1 and "did you mean '/ball'" in unknown.stderr, f"a primitive that is not there: {unknown.stderr}")
+        if not draws:
+            skip("without a Vulkan device nothing is drawn")
+    finish("slab-stacks")
+
+
+if __name__ == "__main__":
+    main()
