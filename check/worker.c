@@ -47,9 +47,25 @@ static void tell_no_memory(void)
         atomic_store(&desk_of_worker->is_out_of_memory, 1);
 }
 
-/* Allocations past the limit fail. Its children, which render and compile, inherit the limit. */
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define HAS_ADDRESS_SANITIZER true
+#endif
+#endif
+#if !defined(HAS_ADDRESS_SANITIZER) && defined(__SANITIZE_ADDRESS__)
+#define HAS_ADDRESS_SANITIZER true
+#elif !defined(HAS_ADDRESS_SANITIZER)
+#define HAS_ADDRESS_SANITIZER false
+#endif
+
+/*
+ * Allocations past the limit fail. Its children, which render and compile, inherit the limit. The
+ * address sanitizer maps terabytes, so there is no limit with it.
+ */
 static void limit_memory(size_t mib)
 {
+    if (HAS_ADDRESS_SANITIZER)
+        return;
     struct rlimit limit;
     if (getrlimit(RLIMIT_DATA, &limit) != 0)
         return;

@@ -224,8 +224,8 @@ bool generation_start(struct generation *g)
     if (good) {
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena,
                                  context_dialect(g->result->object.context, g->result->target));
-        bool fits = generation_check_options(g), is_drawn = generation_check_pipeline(g);
-        good = check_version(g) && fits && is_drawn;
+        bool has_names = generation_check_names(g), fits = generation_check_combinations(g);
+        good = check_version(g) && fits && has_names;
     }
     g->element = g->desc.bindings ? element_of_stack(g)
                                   : document_find_element(g->document, g->desc.element, diags_of(g),
@@ -404,6 +404,7 @@ bool generation_emit(struct generation *g)
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
+    generation_hide_misfits(g);
     if (!generation_budget_slabs(g) || !generation_can_store(g))
         return false;
     generation_walk_slabs(g);

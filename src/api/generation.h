@@ -74,6 +74,7 @@ struct generation {
     bool cancelled;
     bool is_pass;               /* a pass of the deferred pipeline that belongs to no material */
     enum deferred_class stored; /* a pass that lights stored closures; CLASS_EMPTY: a material */
+    ir_ref misfit; /* a closure that is no slab, so the material is drawn forward; 0: none */
     struct closure_above above;
     void *user_data; /* for the caller's `steps` */
 };
@@ -113,8 +114,6 @@ bool generation_spell(struct generation *g);  /* source */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* deferred.c: the deferred pipeline. */
-/* False, after diagnostics, if options have no meaning together. */
-bool generation_check_pipeline(struct generation *g);
 /* True for the material pass of a material. */
 bool generation_stores(const struct generation *g);
 struct deferred_layout generation_storage(const struct option_value *options,
@@ -123,7 +122,12 @@ struct deferred_layout generation_storage(const struct option_value *options,
 void generation_defer(struct generation *g);
 /* Warns about a material whose shader lights itself; reports one with too many closures. */
 void generation_tell_forward(struct generation *g);
-/* False, after a diagnostic, if a surface to store has closures that are no slabs. */
+/* Before budgets: leaves out what a slab cannot stand for, where the document hides it. */
+void generation_hide_misfits(struct generation *g);
+/*
+ * After budgets, about closures that are no slabs: with the option `slabs` the material is drawn
+ * forward, else false after a diagnostic.
+ */
 bool generation_can_store(struct generation *g);
 
 /* generation.c: shared with network.c. */
@@ -178,11 +182,10 @@ bool generation_is_defined(struct generation *g, const struct ir_graph *graph, c
 bool generation_effects_are_defined(struct generation *g, const struct shader *shader,
                                     elem_id where);
 
-/*
- * conflicts.c: false, after diagnostics, if an option has no effect with another one, or a name is
- * none.
- */
-bool generation_check_options(struct generation *g);
+/* combinations.c: false, after diagnostics, if options have no meaning together. */
+bool generation_check_combinations(struct generation *g);
+/* host_names.c: false, after diagnostics, if a name that the host chooses is none. */
+bool generation_check_names(struct generation *g);
 /* The items of the option `rename`. */
 void naming_pairs(const struct option_value *value, struct arena *arena, struct name_rules *out);
 

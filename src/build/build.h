@@ -133,6 +133,11 @@ const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned 
 struct closure_host build_closure_host(struct builder *builder, struct closure_point *point);
 /* Before the build: the layers of stacks may have slabs. */
 void build_know_slabs(struct builder *builder);
+/*
+ * hidden.c: a root without the BSDFs that no slab stands for, as far as the values of the document
+ * hide them.
+ */
+ir_ref build_without_hidden(struct builder *builder, ir_ref root);
 /* slabs_walk with the library's slabs. */
 ir_ref build_walk_slabs(struct builder *builder, const struct closure_host *closures, ir_ref root);
 /* slabs_fill_sheet with the library's slabs; scratch as below. */

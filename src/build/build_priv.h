@@ -353,6 +353,8 @@ ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct sl
 /* slabs_host.slab_of: by the library's definition ND_slab_of_ and the name of the leaf's function.
  */
 ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely);
+/* True if a slab stands for all parts of a leaf. */
+bool build_fits_slab(struct builder *b, ir_ref leaf);
 /* slabs_host.slab_like */
 ir_ref build_slab_like(struct builder *b, ir_ref albedo);
 /* The definition of the lobes of slabs; LIBRARY_NONE: the library has none. */

@@ -101,6 +101,13 @@ static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, i
     return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
 }
 
+bool build_fits_slab(struct builder *b, ir_ref leaf)
+{
+    return !closure_source(b->shader, leaf)
+           && definition_for(b, build_leaf_family(b, ir_get(b->graph, leaf)->attr)) != LIBRARY_NONE
+           && fits(b, leaf, false);
+}
+
 ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely)
 {
     ir_ref results[LIBRARY_MAX_OUTPUTS] = {0};

@@ -4,6 +4,7 @@
 scenes of depth 12 under 200 assignments with patterns and collections. Counted are instructions, which do not depend on the machine.
 
 Arguments: mxgen, the number of primitives."""
+import os
 import pathlib
 import re
 import shutil
@@ -50,8 +51,8 @@ def work(folder, stage, look):
 
 
 def main():
-    if not shutil.which("valgrind"):
-        skip("valgrind is not installed: no instructions are counted")
+    if not shutil.which("valgrind") or os.environ.get("SANITIZER"):
+        skip("valgrind is not installed, or a sanitizer is in the program: no instructions are counted")
         return
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

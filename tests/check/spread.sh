@@ -141,9 +141,13 @@ with open("heavy.mtlx", "w", encoding="ascii") as out:
                   f'<input name="in2" type="vector3" value="{i}, 1, 2"/></add>')
     out.write('<output name="o" type="vector3" nodename="n59999"/></materialx>')
 P
-check 'a document that needs more memory than a worker has' exits 1 "$mxgen" check heavy.mtlx show/m2.mtlx -j1 --no-compile --memory-limit 48 --json heavy.json
-check 'is told' grep -q 'a worker needs more than 48 MiB of memory: .*\[check-memory\]' out
-check 'and the next is checked' says heavy.json '[x["status"] for x in d]' "['failed', 'passed']"
+if [ -n "${SANITIZER:-}" ]; then
+    skip 'a worker with a sanitizer has no limit of memory'
+else
+    check 'a document that needs more memory than a worker has' exits 1 "$mxgen" check heavy.mtlx show/m2.mtlx -j1 --no-compile --memory-limit 48 --json heavy.json
+    check 'is told' grep -q 'a worker needs more than 48 MiB of memory: .*\[check-memory\]' out
+    check 'and the next is checked' says heavy.json '[x["status"] for x in d]' "['failed', 'passed']"
+fi
 
 # A run that ends while a worker waits: for the other end of a pipe
 mkfifo pipe.mtlx

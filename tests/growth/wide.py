@@ -309,8 +309,8 @@ def work(mxgen, folder, shape, count):
 
 def main():
     mxgen, wanted = sys.argv[1], sys.argv[2:]
-    if not shutil.which("valgrind"):
-        checks.skip("valgrind is not installed: no instructions are counted")
+    if not shutil.which("valgrind") or os.environ.get("SANITIZER"):
+        checks.skip("valgrind is not installed, or a sanitizer is in the program: no instructions are counted")
         checks.finish("wide")
     shapes = [shape for shape in SHAPES if not wanted or shape[0] in wanted]
     counts = (1, FEW, FACTOR * FEW)

@@ -3,6 +3,10 @@
 # `meson install` into an empty folder: a program finds the library there by pkg-config and by CMake. Arguments: the build folder, the examples.
 build=$1 examples=$2
 . "$(dirname "$0")/common.sh"
+if [ -n "${SANITIZER:-}" ]; then
+    skip 'a library with a sanitizer is not installed'
+    finish install
+fi
 check "meson install" meson install -C "$build" --no-rebuild --quiet --destdir "$work/system"
 package=$(find system -name mxgen.pc)
 prefix=$(dirname "$package")/../../..

@@ -72,6 +72,35 @@ check "positions are invariant" grep -q 'invariant gl_Position' materials/Plain.
 echo /a >eight.txt
 check "a stack of eight layers" "$mxgen" eight.mtlx --stage eight.txt --look L --target vulkan --pipeline deferred --reflect -o eight
 
+# ---- other materials, as slabs ----
+
+cat >models.mtlx <<'X'
+<materialx version="1.39">
+  <standard_surface name="Paint" type="surfaceshader"><input name="base" type="float" value="1"/></standard_surface>
+  <standard_surface name="Glass" type="surfaceshader"><input name="transmission" type="float" value="1"/></standard_surface>
+  <surface_unlit name="Flat" type="surfaceshader"/>
+</materialx>
+X
+as_slabs() { "$mxgen" models.mtlx --target vulkan --pipeline deferred --reflect -o models "$@" >out 2>&1; }
+check "a model without --slabs is an error" exits 1 as_slabs -e Paint
+check "and says so" grep -q closure-not-stored out
+check "a model" as_slabs -e Paint --interface reduced --slabs
+check "takes the bytes of one slab" eval '[ "$(number models/Paint.json words)" = 3 ] && ! grep -q drawn-forward out'
+check "with all inputs" as_slabs -e Paint --slabs --transparency opaque
+check "its glass is compiled in" python3 -c 'import json
+reflection = json.load(open("models/Paint.json"))
+assert reflection["deferred"]["words"] > 3, reflection["deferred"]
+compiled = {item["path"] for item in reflection["compiledInputs"]}
+assert {"Paint/transmission", "Paint/thin_walled"} <= compiled and "Paint/specular_roughness" not in compiled, compiled'
+check "glass" as_slabs -e Glass --interface reduced --slabs
+check "is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction' is no slab" out
+check "and lights itself" eval '! grep -q mx_word_0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
+check "glass in a budget" as_slabs -e Glass --interface reduced --max-closures 4
+check "is stored" eval 'grep -q mx_word_0 models/Glass.frag && ! grep -q drawn-forward out'
+check "what only glows" as_slabs -e Flat --interface reduced
+check "passes do not become slabs" "$mxgen" pipeline slabs --slabs --max-closures 1
+check "but stay as they are" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'
+
 # ---- what is an error ----
 
 cat >other.mtlx <<'X'
@@ -116,53 +145,5 @@ for target in essl essl310 hlsl osl; do
     check "no passes for $target" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --pipeline deferred -o no
 done
 check "no passes for OpenGL 3.3" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
-
-# ---- combinations: docs/deferred.md ----
-
-# Pairs of values without a meaning; every other combination has one.
-clashes='deferred:integrator=path deferred:integrator=scatter deferred:slots=stochastic deferred:transparency=blend
-deferred:form=function depth:form=function deferred:transmission=opacity deferred:layering=two-sided deferred:encode=srgb depth:integrator=path depth:integrator=scatter
-depth:slots=stochastic depth:transparency=blend'
-# expected PIPELINE OPTION=VALUE...: prints the pairs of a combination that clash.
-expected() {
-    local pipeline=$1 pair
-    shift
-    for pair in "$@"; do
-        [[ " ${clashes//$'\n'/ } " == *" $pipeline:$pair "* ]] && echo "$pair"
-    done
-    return 0
-}
-combination() {
-    local pipeline=$1 pair arguments=() wanted got=0
-    shift
-    for pair in "$@"; do
-        arguments+=("--${pair%%=*}" "${pair#*=}")
-    done
-    wanted=$(expected "$pipeline" "$@")
-    # The caller of a path tracer's function decides about opacity, in every pipeline.
-    local idle=0
-    [[ "$*" == *integrator=scatter*transparency=* && "$*" != *transparency=auto* ]] && idle=1
-    "$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --interface reduced --pipeline "$pipeline" "${arguments[@]}" -o walk \
-        >out 2>err || got=$?
-    [ "$got" -eq "$([ -z "$wanted" ] && echo $idle || echo 1)" ] || { echo "exit code $got"; cat err; return 1; }
-    [ $idle = 0 ] || grep -q "'transparency' has no effect with 'integrator=scatter'" err || { echo "no message about transparency"; return 1; }
-    for pair in $wanted; do
-        grep -q "'pipeline=$pipeline' and '$pair'.*\[options-clash\]" err || { echo "no message about $pair"; return 1; }
-    done
-    [ "$(grep -c options-clash err)" -eq "$(wc -w <<<"$wanted")" ]
-}
-for pipeline in forward deferred depth; do
-    for integrator in raster path scatter; do
-        for slots in blend stochastic; do
-            for transparency in auto opaque mask blend; do
-                check "$pipeline $integrator $slots $transparency" combination "$pipeline" "integrator=$integrator" "slots=$slots" \
-                    "transparency=$transparency"
-            done
-        done
-    done
-    for pair in transmission=opacity layering=two-sided encode=srgb form=function; do
-        check "$pipeline $pair" combination "$pipeline" "$pair"
-    done
-done
 
 finish pipeline

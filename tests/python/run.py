@@ -12,7 +12,7 @@ import unittest
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path += [str(FOLDER.parent), str(FOLDER)]
-from checks import check, finish
+from checks import check, finish, skip
 
 os.environ.pop("LD_PRELOAD", None) # the sanitizer of this process, but not of the program
 if sys.argv[2]:
@@ -70,10 +70,12 @@ def check_library():
 sys.setprofile(remember)
 result = unittest.TextTestRunner(stream=sys.stdout, verbosity=0).run(unittest.defaultTestLoader.discover(str(FOLDER)))
 sys.setprofile(None)
-for _ in range(result.testsRun - len(result.failures) - len(result.errors)):
+for _ in range(result.testsRun - len(result.failures) - len(result.errors) - len(result.skipped)):
     check(True, "")
 for test, text in result.failures + result.errors:
     check(False, f"{test}: {text}")
+for _, reason in result.skipped:
+    skip(reason)
 check_calls()
 check_library()
 finish("python")

@@ -159,6 +159,17 @@ def check_semantics():
         check(semantic in known, f"semantics.def: there is no {semantic}")
 
 
+def check_combinations():
+    """The table of options that mean nothing together has a row for each row of combinations.def."""
+    rows = re.findall(r'^COMBINATION\((\w+), "([^"]*)", (\w+), (?:NULL|"([^"]*)"), "([^"]*)"\)', text_of(ROOT / "src/api/combinations.def"),
+                      re.MULTILINE)
+    key = lambda name: name.replace("_", "-")
+    wanted = [f"| `{key(a)}={value}` | `{key(b)}{f'={other}' if other else ''}` | {why} |" for a, value, b, other, why in rows]
+    section = text_of(ROOT / "docs/deferred.md").partition("## Combinations")[2].partition("\n## ")[0]
+    check(len(wanted) > 20 and re.findall(r"^\| `.*$", section, re.MULTILINE) == wanted,
+          "docs/deferred.md: the table of combinations differs from src/api/combinations.def")
+
+
 pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 for page in pages:
     check_links(page)
@@ -168,5 +179,6 @@ check_references()
 check_commands()
 check_program()
 check_semantics()
+check_combinations()
 check_embedding()
 finish("docs")

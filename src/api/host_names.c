@@ -1,40 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Options that mean nothing beside others, and names that the host chooses. */
+/* Names in the source that the host chooses. */
 #include "api/generation.h"
-
-/* With value `number` of option `with`, `option` has no effect. */
-static const struct conflict {
-    enum option_id with;
-    int32_t number;
-    enum option_id option;
-} conflicts[] = {
-#define CONFLICT(with, number, option) {OPTION_##with, number, OPTION_##option},
-#include "api/conflicts.def"
-#undef CONFLICT
-};
-
-/* Options of a value that the default has, too, change nothing. */
-static bool is_changed(const struct generation *g, enum option_id option)
-{
-    const struct option_value *value = &g->options[option];
-    bool is_none = value->list.len == 1 && strcmp(value->list.items[0], "none") == 0;
-    return value->is_set && !is_none && option_differs(option, value);
-}
-
-static bool check_conflicts(struct generation *g)
-{
-    uint32_t before = g->result->object.diagnostics.list.num_errors;
-    for (size_t i = 0; i < sizeof conflicts / sizeof *conflicts; i++) {
-        const struct conflict *c = &conflicts[i];
-        if (g->options[c->with].number == c->number && is_changed(g, c->option))
-            diag_add(&g->result->object.diagnostics.list, DIAG_ID_option_without_effect,
-                     (struct diag_place){0}, option_key(c->option), option_key(c->with),
-                     g->options[c->with].text);
-    }
-    return g->result->object.diagnostics.list.num_errors == before;
-}
-
-/* ---- Names ---- */
 
 enum { MAX_PREFIX = 64 };
 
@@ -98,8 +64,8 @@ static bool check_renamed(struct generation *g)
     return good;
 }
 
-bool generation_check_options(struct generation *g)
+bool generation_check_names(struct generation *g)
 {
-    bool names = check_prefix(g), renamed = check_renamed(g);
-    return check_conflicts(g) && names && renamed;
+    bool prefix = check_prefix(g), renamed = check_renamed(g);
+    return prefix && renamed;
 }
