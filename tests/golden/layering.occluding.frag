@@ -20,7 +20,6 @@ uniform LightData u_lightData[1];
 in VertexData {
     vec3 positionWorld;
     vec3 normalWorld;
-    vec3 tangentWorld;
 } vd;
 out vec4 out1;
 
@@ -40,18 +39,17 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 {
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.05),
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.05),
         sqrt(cosine * cosine + 0.0025 * (1.0 - cosine * cosine)));
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float cos_h = lobe.cosine + dot(lobe.N, L);
@@ -96,16 +94,15 @@ void main()
     // lights
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    float c = max(abs(dot(N, V)), 1e-8);
-    vec3 scaled_ggx_compensation = ((1.0 / mx_ggx_albedo_fit(0.05 / (c + 0.05), c).x - 1.0)
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    vec3 scaled_ggx_compensation = ((1.0 / mx_ggx_albedo_fit(0.05 / (cosine + 0.05), cosine).x - 1.0)
         * vec3(0.94687736, 0.78681135, 0.40318817) + vec3(1.0)) * 0.15;
-    mx_GgxLobe metal_ggx_lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
+    mx_GgxLobe lobe = mx_ggx_lobe(N, V);
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // metal
         float intensity = u_lightData[i].intensity;
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(-u_lightData[i].direction, V) * 0.5 + 0.5, 1e-8, 1.0)));
-        vec3 metal_response = scaled_ggx_compensation
-            * (mx_ggx_light(metal_ggx_lobe, V, -u_lightData[i].direction) * fresnel);
+        vec3 metal_response = scaled_ggx_compensation * (mx_ggx_light(lobe, V, -u_lightData[i].direction) * fresnel);
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * metal_response;
     }
     out1 = vec4(color, 1.0);
