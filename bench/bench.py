@@ -54,6 +54,24 @@ def generation(document, *options):
     return (instructions(program, document, "glsl", "1", *options) - instructions(program, document, "glsl", "0", *options))
 
 
+def with_materialx(folder):
+    """The cost with MaterialX's own library, packed, beside that with the built-in one and that of MaterialX's generator."""
+    root = os.environ.get("MXGEN_MATERIALX")
+    if not root:
+        print("\nMXGEN_MATERIALX names no folder with MaterialX's libraries: their cost is not measured")
+        return
+    image = f"{folder}/materialx.mxlib"
+    run(MXGEN, "library", "pack", f"{root}/libraries", "-o", image, "-q")
+    command = MXGEN, DOCUMENT, "--target", "glsl", "-o", folder
+    theirs = ["--no-builtin-library", "--library", image]
+    rows = (("process", instructions(*command), instructions(*command, *theirs)),
+            ("generation", generation(DOCUMENT), generation(DOCUMENT, f"library={image}")))
+    print(f"\n{'instructions with the library':45} {'of mxgen':>12} {'of MaterialX':>14} {'MaterialX':>14}")
+    for key, own, other in rows:
+        print(f"{ROWS[key][0]:45} {number(own):>12} {number(other):>14} {number(ROWS[key][1]):>14}")
+    print(f"{'bytes of the library image':45} {'':12} {number(os.path.getsize(image)):>14}")
+
+
 def mapping():
     """Instructions to map the library, once libxml2 has started."""
     program = f"{BUILD}/bench/bench-map"
@@ -205,6 +223,7 @@ def main():
         print(f"\nprocess / libxml2 alone (start and parse: {base:,} instructions): {process / base:.2f}")
         print(f"libxml2 alone: {number(peak(f'{BUILD}/bench/bench-parse', DOCUMENT)[0] * 1024 / 1e6)} MB peak")
         print(f"two runs in two folders give the same bytes: {'yes' if same_bytes(folder) else 'NO'}")
+        with_materialx(folder)
         checks(folder)
         if len(sys.argv) > 3:
             materials(sys.argv[3])

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * bench-generate FILE TARGET N [KEY=VALUE...]: loads library and document, then generates N times.
+ * bench-generate FILE TARGET N [library=PATH] [KEY=VALUE...]: loads library and document, then
+ * generates N times. PATH is a library in place of the built-in one; KEY an option.
  */
 #include <mxgen/mxgen.h>
 
@@ -20,17 +21,24 @@ static bool set_option(mxg_options *options, char *text)
 int main(int argc, char **argv)
 {
     if (argc < 4) {
-        fputs("usage: bench-generate FILE TARGET N [KEY=VALUE...]\n", stderr);
+        fputs("usage: bench-generate FILE TARGET N [library=PATH] [KEY=VALUE...]\n", stderr);
         return 2;
     }
     mxg_context *context;
     mxg_document *document;
     mxg_options *options;
     mxg_context_create(NULL, &context);
-    mxg_library *library = mxg_library_builtin(context);
-    bool good = mxg_document_load(context, library, argv[1], &document) == MXG_OK
+    int first = 4;
+    mxg_library *library = NULL;
+    if (argc > first && strncmp(argv[first], "library=", strlen("library=")) == 0) {
+        const char *path = argv[first++] + strlen("library=");
+        mxg_library_load(context, NULL, &path, 1, &library);
+    } else {
+        library = mxg_library_builtin(context);
+    }
+    bool good = library && mxg_document_load(context, library, argv[1], &document) == MXG_OK
                 && mxg_options_create(context, &options) == MXG_OK;
-    for (int i = 4; good && i < argc; ++i)
+    for (int i = first; good && i < argc; ++i)
         good = set_option(options, argv[i]);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = argv[2];

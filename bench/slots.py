@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The cost of layers (docs/benchmarks.md, "Slots"): stacks of standard_surface whose masks are textures, blended and picked, beside one layer.
-The processor time that lavapipe takes for the pixels of a plane: that of a larger picture less that of a smaller one, each the least of a few
-runs. And what Mesa's compiler for AMD GPUs makes of the shaders.
+The processor time that lavapipe takes for the pixels of a plane: that of a larger picture less that of a smaller one. And what Mesa's compiler for AMD GPUs makes of the shaders.
 
 Arguments: the build folder, and perhaps "pixels" or "gpu" for one of the two."""
 import math
 import os
 import pathlib
 import random
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -18,7 +18,7 @@ import gpu
 
 BUILD, PARTS = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:] or ["pixels", "gpu"]
 COUNTS, MODES = (1, 2, 4, 8), ("blend", "stochastic")
-SMALL, LARGE, RUNS = 64, 384, 3
+SMALL, LARGE, RUNS = 32, 256, 5
 
 STAGE = """#usda 1.0
 def Camera "camera"
@@ -73,28 +73,31 @@ def write_documents(folder):
 
 
 def seconds(folder, count, mode, size):
-    """Processor time of the whole program."""
+    """Processor time of the whole program. A mode may have a number that picks the layers of all pixels."""
+    mode, _, number = mode.partition(" ")
     command = [BUILD / "mxgen-render", "look.mtlx", "--stage", "stage.usda", "--look", f"L{count}",
                "--slots", mode, "-s", size, "-o", "out.ppm", "--samples", "16", "--interface", "complete"]
+    if number:
+        command += ["--layer-sample", number]
     env = dict(os.environ, LP_NUM_THREADS="0", MESA_SHADER_CACHE_DISABLE="true")
-    times = []
-    for _ in range(RUNS):
-        before = os.times().children_user
-        subprocess.run([str(part) for part in command], cwd=folder, env=env, capture_output=True, check=True)
-        times.append(os.times().children_user - before)
-    return min(times)
+    before = os.times().children_user
+    subprocess.run([str(part) for part in command], cwd=folder, env=env, capture_output=True, check=True)
+    return os.times().children_user - before
 
 
 def pixels(folder):
-    base = None
-    print("| layers | " + " | ".join(f"{mode}: nanoseconds for a pixel, to one layer" for mode in MODES) + " |\n| --- | --- | --- |")
-    for count in COUNTS:
-        cells = []
-        for mode in MODES:
-            number = (seconds(folder, count, mode, LARGE) - seconds(folder, count, mode, SMALL)) * 1e9 / (LARGE**2 - SMALL**2)
-            base = base or number
-            cells.append(f"{number:,.0f}, {number / base:.2f}")
-        print(f"| {count} | {' | '.join(cells)} |", flush=True)
+    """Rounds of all stacks, one after the other: the median of the ratios to the one layer of the same round."""
+    modes = "blend", "stochastic 0.3", "stochastic"
+    stacks = [(1, "blend")] + [(count, mode) for count in COUNTS[1:] for mode in modes]
+    times = {stack: [] for stack in stacks}
+    for _ in range(RUNS):
+        for stack in stacks:
+            times[stack].append(seconds(folder, *stack, LARGE) - seconds(folder, *stack, SMALL))
+    print("| layers | blend | stochastic, one number for all pixels | stochastic, a hash in each pixel |\n| --- | --- | --- | --- |")
+    for count in COUNTS[1:]:
+        cells = [statistics.median(time / one for time, one in zip(times[count, mode], times[1, "blend"])) for mode in modes]
+        print(f"| {count} | {' | '.join(f'{cell:.2f}' for cell in cells)} |", flush=True)
+    print(f"One layer: {statistics.median(times[1, 'blend']) * 1e9 / (LARGE**2 - SMALL**2):,.0f} nanoseconds for a pixel.")
 
 
 def gpu_rows(folder):

@@ -45,6 +45,10 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
          &options->background},
         {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 32)",
          &options->samples, .low = 1, .high = 65536},
+        {"layer-sample", 0, ARG_TEXT, "NUMBER",
+         "the number, from 0 to below 1, that picks a layer of each stack with --slots stochastic "
+         "(default: another one at each point)",
+         &options->layer_sample, ARG_MORE},
         {"set", 0, ARG_LIST, "PATH=VALUE", "sets an input to a value, or a texture to a file",
          &options->settings},
         {"missing-texture", 0, ARG_TEXT, "error|checker",

@@ -40,6 +40,8 @@ static const struct {
     {"turntable", FACT_NO_STAGE, "a turntable shows one element"},
     {"set", FACT_NO_STAGE, "a stage has many shaders; change the document"},
     {"show", FACT_SHOWN, "slots and weights need --stage, the other views --pipeline deferred"},
+    {"layer-sample", FACT_STAGE, "only a stage has stacks of layers"},
+    {"layer-sample", FACT_RASTER, "--path-trace picks layers by itself"},
     {"mattes", FACT_STAGE, "only a stage has slots"},
     {"mattes", FACT_CHANNELS, "only EXR files have channels for the AOVs"},
     {"aovs", FACT_CHANNELS, "only EXR files have channels for the AOVs"},

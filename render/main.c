@@ -42,6 +42,7 @@ struct job {
     struct render_options options;
     struct painter painter;
     enum scene_kind scene_kind;
+    double layer_sample; /* below 0: not given */
     struct stage stage;
     struct bind_value *values;
     struct arg_list found; /* documents, including those in folders; allocated */
@@ -76,6 +77,20 @@ static bool parse_size(struct job *job)
     job->painter.width = (uint32_t)width;
     job->painter.height = (uint32_t)height;
     return true;
+}
+
+static bool parse_layer_sample(struct job *job)
+{
+    const char *text = job->options.layer_sample;
+    char *end;
+    job->layer_sample = -1;
+    if (!text)
+        return true;
+    job->layer_sample = strtod(text, &end);
+    if (end != text && !*end && job->layer_sample >= 0 && job->layer_sample < 1)
+        return true;
+    fprintf(stderr, "mxgen: '%s' picks no layer; write a number from 0 to below 1\n", text);
+    return false;
 }
 
 /* Splits "path=value" in place. NULL after reporting an error. The caller frees the result. */
@@ -334,6 +349,7 @@ static bool prepare(struct job *job)
         return false;
     painter->scene.environment_samples = (uint32_t)job->options.samples;
     painter->scene.frame = (int32_t)job->options.frame;
+    painter->scene.layer_sample = job->layer_sample;
     return open_gpu(job);
 }
 
@@ -784,7 +800,8 @@ static int run(struct job *job)
     if (!job->options.size)
         job->options.size = is_grid ? "4" : is_one ? "512" : "160";
     if (!cli_options_apply(&job->cli, (const char *const[]){"vulkan"}, 1) || !parse_size(job)
-        || !parse(job) || !applies_all(&job->cli.parser, find_facts(job, is_grid, is_one)))
+        || !parse_layer_sample(job) || !parse(job)
+        || !applies_all(&job->cli.parser, find_facts(job, is_grid, is_one)))
         return EXIT_USAGE;
     if (can_write(job, job->options.output) && can_write(job, job->options.copy)
         && find_documents(job) && claim_outputs(job)) {

@@ -179,6 +179,7 @@ unsigned scene_uniform(const struct scene *scene, const struct scene_object *obj
         double value;
     } numbers[] = {
         {"u_frame", scene->frame},
+        {"u_layerSample", scene->layer_sample},
         {"u_time", 1.37},
         {"u_numActiveLightSources", scene->num_lights},
         {"u_envRadianceMips", image_num_mips(&scene->radiance)},
@@ -307,6 +308,7 @@ bool scene_init_sphere(struct scene *scene, double aspect)
     *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS,
                             .environment_samples = 64,
                             .frame = SCENE_FRAME,
+                            .layer_sample = -1,
                             .studio = matrix_identity(),
                             .near = SCENE_NEAR,
                             .environment = half_turn()};
@@ -396,6 +398,7 @@ bool scene_init_grid(struct scene *scene)
     };
     *scene = (struct scene){.environment_samples = 64,
                             .frame = SCENE_FRAME,
+                            .layer_sample = -1,
                             .studio = matrix_identity(),
                             .near = SCENE_NEAR,
                             .environment = half_turn()};
@@ -421,6 +424,7 @@ bool scene_init_plane(struct scene *scene)
     *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS,
                             .environment_samples = 64,
                             .frame = SCENE_FRAME,
+                            .layer_sample = -1,
                             .object.world = matrix_identity(),
                             .studio = matrix_identity(),
                             .near = SCENE_NEAR,

@@ -46,6 +46,7 @@ struct scene {
     uint32_t num_lights;
     uint32_t environment_samples;
     int32_t frame;
+    double layer_sample; /* picks a layer of each stack; below 0: another number at each point */
     struct matrix environment;         /* rotates world directions to directions in the map */
     struct image radiance, irradiance; /* latitude-longitude, first row towards +y */
     struct image albedo;               /* of GGX; only for shaders that read it */

@@ -424,10 +424,11 @@ static ir_ref source_leaf(struct osl_tree *t, ir_ref ref)
             arg = closure ? closure : osl_emission(t, ir_const_splat(g, IR_TYPE_VEC3, 0.0f));
         args[i - 1] = arg;
     }
-    uint32_t callee = ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
-                                                          .index = source.verbatim[0],
-                                                          .name = g->callees.items[node.attr].name,
-                                                          .derivative = source.has_derivatives});
+    uint32_t callee =
+        ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                            .index = source.verbatim[0],
+                                            .name = g->callees.items[node.attr].name,
+                                            .derivative = verbatim->needs_neighbours});
     ir_type_id type = verbatim->function ? IR_TYPE_VOID : node.type;
     ir_ref call = ir_build(g, IR_VERBATIM, type, callee, args, node.num_args - 1);
     return verbatim->function ? ir_build(g, IR_RESULT, node.type, 1, &call, 1) : call;

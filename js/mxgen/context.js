@@ -8,7 +8,7 @@ import { ArgumentError, DocumentError, MxgenError, OutOfMemoryError } from "./er
 import { Library } from "./library.js";
 import { expect, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
 import { Scene } from "./scene.js";
-import { Shader } from "./shader.js";
+import { Shader, withOptions } from "./shader.js";
 
 const LIMITS = ["maxMemory", "maxFileMib", "maxElements", "maxNodes", "maxOutputMib", "maxErrors", "maxDepth", "maxIncludeDepth", "maxIncludes"];
 const OPTIONS = [...LIMITS, "resolver", "listFolder", "cancel", "warnings", "trust", "sourcePaths"];
@@ -273,6 +273,26 @@ export class Context extends Owner {
                                           out => [used._pointer, document ? document._pointer : 0, called, out]);
             return new Edit(this, used, document, handle);
         });
+    }
+
+    // ---- The deferred pipeline ----
+
+    /**
+     * The passes of the deferred pipeline that belong to no material (docs/deferred.md): [{ name, shader }] in their order. The source of a
+     * pass is that of `shader.pixel`, a compute stage. Throws DocumentError.
+     */
+    passes(target, { options = null } = {}) {
+        const native = this._native, { lib } = native;
+        return native.using(() => withOptions(this, options, made => {
+            const desc = native.newStruct("mxg_generate_desc", { target: native.newText(target, "target"), options: made });
+            return Array.from({ length: lib.mxg_num_passes() }, (_, index) => {
+                const { handle, status } = this._make("mxg_generate_pass", "mxg_result_destroy", [], out => [index, desc, out]);
+                const shader = new Shader(native, handle);
+                if (status === STATUS.errorDocument)
+                    throw new DocumentError(shader.diagnostics);
+                return { name: native.text(lib.mxg_pass_name(index)), shader };
+            });
+        }));
     }
 
     // ---- Scenes ----

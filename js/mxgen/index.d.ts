@@ -27,6 +27,8 @@ export class Mxgen {
     readonly targets: Target[];
     /** Every option of `Document.generate`. */
     readonly options: Option[];
+    /** The resources that the passes of the deferred pipeline share; the place in the list is the binding. */
+    readonly passResources: PassResource[];
     /** Whether an option has a meaning for a target, which ignores the others. */
     optionApplies(key: string, target: string): boolean;
     /** The name of a slot in USD: "050::010" is "_050:_:_010". Throws ArgumentError. */
@@ -141,6 +143,8 @@ export class Context extends Owner {
     loadScene(path: string, request?: { purpose?: string | null }): Scene;
     /** The materials in a USD scene as a document. Throws DocumentError. */
     sceneMaterials(scene: Scene, request?: { library?: Library | null }): Document;
+    /** The passes of the deferred pipeline that belong to no material, in their order. Their source is `shader.pixel`. Throws DocumentError. */
+    passes(target: string, request?: { options?: Record<string, boolean | number | string | string[]> | null }): { name: string; shader: Shader }[];
     /** Reads a document and writes it again. `text` null: reads the file `name`. */
     rewrite(rewriting: Rewriting, name: string, text?: string | ArrayBuffer | ArrayBufferView | null): { text: string; diagnostics: Diagnostics };
     /** The text of a document in one layout; comments stay. */
@@ -409,6 +413,32 @@ export class Scene extends Owner implements Iterable<Primitive> {
 
 export type LayerKind = "layer" | "layerProduct" | "layerOverride" | "layerVertical" | "layerVolume" | "layerLight";
 
+export type FactKind = "geomprop" | "token" | "property" | "visibility";
+
+/** What the document says of a primitive beside its layers. */
+export interface Fact {
+    kind: FactKind;
+    /** as in the document; of a visibility the vistype, "" for all */
+    name: string;
+    type: string;
+    value: string;
+    /** the renderer that a property is for; the geometry that sees a visibility; "": all */
+    target: string;
+    /** the primitive where it stands; null: the whole scene */
+    source: Primitive | null;
+    file: string;
+    line: number;
+}
+
+/** A resource of the deferred pipeline, in descriptor set binding-set + 1. */
+export interface PassResource {
+    name: string;
+    kind: "image2D" | "image2DArray" | "sampler2D" | "buffer" | "uniform";
+    /** "r32ui", "std430"; "": any */
+    format: string;
+    doc: string;
+}
+
 /** A layer of a primitive (docs/slots.md). */
 export interface Layer {
     kind: LayerKind;
@@ -444,6 +474,8 @@ export class Bindings extends Owner {
     readonly numResolved: number;
     /** The layers of a primitive, base first; a product, override or vertical layer follows its layer. */
     layers(primitive: Primitive | string): Layer[];
+    /** Properties, tokens and visibility of a primitive: the strongest of each kind, name and target. */
+    facts(primitive: Primitive | string): Fact[];
     readonly stacks: Stack[];
     stack(primitive: Primitive | string): Stack | null;
     text(format?: "table" | "tableColour" | "json" | "usda"): string;
@@ -592,6 +624,8 @@ export class Shader extends Owner {
     change(after: Shader): { kind: ChangeKind; variables: Variable[] };
     block(block: Block): BlockInfo;
     pack(block: Block): Uint8Array;
+    /** The block with the values of another document: after an edit of inputs that are uniforms. Generates nothing. */
+    packFrom(document: Document, block: Block): Uint8Array;
     packValue(data: Uint8Array, variable: Pick<Variable, "index" | "name">, values: ArrayLike<number>, element?: number): void;
     readonly lightTypes: LightType[];
     readonly reflectionJson: string;

@@ -48,6 +48,12 @@ export class Mxgen {
         return this.#native.records("mxg_option", lib.mxg_num_options(), (index, out) => lib.mxg_get_option(index, out));
     }
 
+    /** The resources that the passes of the deferred pipeline share; the place in the list is the binding. */
+    get passResources() {
+        const { lib } = this.#native;
+        return this.#native.records("mxg_pass_resource", lib.mxg_num_pass_resources(), (index, out) => lib.mxg_get_pass_resource(index, out));
+    }
+
     /** Whether an option has a meaning for a target, which ignores the others. */
     optionApplies(key, target) {
         const index = this.options.findIndex(option => option.key === key);

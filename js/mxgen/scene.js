@@ -335,6 +335,14 @@ export class Bindings extends Owner {
         return found.map(({ from, ...layer }) => ({ ...layer, source: this.scene._primitive(from) }));
     }
 
+    /** Properties, tokens and visibility of a primitive: the strongest of each kind, name and target. */
+    facts(primitive) {
+        const { lib } = this._native, number = this.#number(primitive);
+        const found = this._native.records("mxg_fact", lib.mxg_bindings_num_facts(this._pointer, number),
+                                           (index, out) => lib.mxg_bindings_fact(this._pointer, number, index, out));
+        return found.map(({ from, ...fact }) => ({ ...fact, source: this.scene._primitive(from) }));
+    }
+
     /** The different stacks of the scene. */
     get stacks() {
         return Array.from({ length: this._native.lib.mxg_bindings_num_stacks(this._pointer) }, (_, number) => this.#stack(number));

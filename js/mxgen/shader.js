@@ -2,6 +2,7 @@
 // Shaders: sources and reflection.
 
 import { Diagnostics } from "./diagnostics.js";
+import { Document } from "./document.js";
 import { ArgumentError, OutOfMemoryError } from "./errors.js";
 import { expect, kindOf, nameOf, numberOf, Owner, STATUS } from "./native.js";
 
@@ -162,6 +163,24 @@ export class Shader extends Owner {
         return native.using(() => {
             const size = native.lib.mxg_result_pack(this._pointer, number, 0, 0), data = native.space(size);
             native.lib.mxg_result_pack(this._pointer, number, data, size);
+            return native.bytes(data, size).slice();
+        });
+    }
+
+    /**
+     * The buffer of a block with the values of another document, for example after an edit of inputs that are uniforms. Generates nothing.
+     * Throws ArgumentError if an input of the block has no value there, for example because it is connected.
+     */
+    packFrom(document, block) {
+        const native = this._native, number = numberOf("mxg_block", block, "block");
+        expect(document, Document, "document");
+        return native.using(() => {
+            const size = native.lib.mxg_result_pack(this._pointer, number, 0, 0), data = native.space(size);
+            native.lib.mxg_result_pack(this._pointer, number, data, size);
+            const status = size ? native.lib.mxg_document_values(document._pointer, this._pointer, number, data, size) : STATUS.ok;
+            if (status === STATUS.errorDocument)
+                throw new ArgumentError("an input of the block has no value in the document");
+            native.check(status, status === STATUS.errorArgument ? "the document has another library" : "");
             return native.bytes(data, size).slice();
         });
     }

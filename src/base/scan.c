@@ -32,9 +32,21 @@ static void skip_to_line_end(struct scan *scan)
 
 static void skip_block_comment(struct scan *scan)
 {
+    const char *begin = scan->at;
     for (scan->at += 2; scan->at < scan->end && !is_next(scan, "*/"); scan->at++)
         ;
-    scan->at = scan->end - scan->at >= 2 ? scan->at + 2 : scan->end;
+    bool ends = scan->end - scan->at >= 2;
+    scan->at = ends ? scan->at + 2 : scan->end;
+    if (!ends)
+        scan->unended = begin;
+}
+
+/* A line that goes on. At the end of a file it would take a line of the text after it. */
+static void skip_line_join(struct scan *scan)
+{
+    if (scan->end - scan->at == 2)
+        scan->unended = scan->at;
+    scan->at += 2;
 }
 
 /* Spaces and comments. */
@@ -48,7 +60,7 @@ static void skip(struct scan *scan)
         else if (*scan->at == '\n')
             scan->line_begins = scan->line_ended = true, scan->at++;
         else if (is_next(scan, "\\\n"))
-            scan->at += 2;
+            skip_line_join(scan);
         else if ((unsigned char)*scan->at <= ' ')
             scan->at++;
         else

@@ -30,6 +30,8 @@ struct scan {
     const char *start, *at, *end;
     bool line_begins;
     bool line_ended; /* a line end precedes the last word */
+    /* a comment, or a line that goes on, at which the source ends; NULL: there is none */
+    const char *unended;
 };
 
 void scan_begin(struct scan *scan, const char *text, size_t len);

@@ -145,6 +145,26 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
     b->called = 0;
 }
 
+/*
+ * Reports source that mxgen's own code for an operator replaces. Source beside the definition, as
+ * in MaterialX's libraries, says the same as this code; source of a later library wants something
+ * else.
+ */
+static void report_operator(struct builder *b, const struct implementation *impl,
+                            const struct nodedef *def)
+{
+    const struct document *layer = &b->lib->doc;
+    struct diag_place place = doc_place(layer, impl->element);
+    while (impl->element < layer->first_element)
+        layer = layer->base;
+    if (def->element < layer->first_element)
+        diag_add(b->diags, DIAG_ID_ignored_operator, place, build_text(b, impl->name),
+                 build_text(b, def->node));
+    else
+        diag_add(b->diags, DIAG_ID_builtin_operator, place, build_text(b, def->node),
+                 build_text(b, impl->name));
+}
+
 static void build_by_implementation(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct implementation *impl = frame->impl;
@@ -153,8 +173,7 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     switch ((enum impl_kind)impl->kind) {
     case IMPL_VERBATIM:
         if (build_is_combined(b, frame)) {
-            diag_add(b->diags, DIAG_ID_builtin_operator, doc_place(&b->lib->doc, impl->element),
-                     build_text(b, def->node), build_text(b, impl->name));
+            report_operator(b, impl, def);
             build_dynamic(b, frame, results);
         } else {
             call(b, frame, results);

@@ -68,7 +68,7 @@ static void begin_layer(struct builder *b, const char *slot, const struct librar
     memset(b->document->slots, 0, b->document->num_slots * sizeof *b->document->slots);
     b->public_nodes.len = 0;
     b->resolved.drives = drives->items.len ? drives : NULL;
-    b->slot = str_intern_z(b->shader->strings, slot);
+    b->slot = b->graph->slot = str_intern_z(b->shader->strings, slot);
     publish_drives(b, drives);
 }
 
@@ -153,7 +153,7 @@ ir_ref build_stack(struct builder *b, const struct bindings *bindings, uint32_t 
         part->is_vertical = items[i].kind == ITEM_VERTICAL;
         part->slot = build_text(b, b->slot);
     }
-    b->slot = 0;
+    b->slot = b->graph->slot = 0;
     if (!num_parts)
         return volume ? volume : default_substance(b);
     return build_compose(b, parts, num_parts);

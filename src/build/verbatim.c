@@ -35,6 +35,16 @@ static void fail(const struct source_call *c, ir_ref *results)
         results[i] = ir_poison(c->b->graph, type_of(c, c->def->num_inputs + i));
 }
 
+/* The node that needs the source, after a message at its implementation. */
+static void report_use(const struct source_call *c)
+{
+    const struct document *doc = &c->b->lib->doc;
+    elem_id node = c->frame ? c->frame->node.element : 0;
+    if (node && doc_element(doc, node)->kind == KIND_NODE) /* default lights have no node */
+        diag_add(c->b->diags, DIAG_ID_needed_by, doc_place(doc, node),
+                 build_text(c->b, doc_element(doc, node)->name));
+}
+
 /* Reports source that mxgen cannot call, with the reason why it is not portable. */
 static void report_unusable(const struct source_call *c, const struct port *port)
 {
@@ -49,6 +59,7 @@ static void report_unusable(const struct source_call *c, const struct port *port
                                      .line = c->verbatim->reason_line,
                                      .column = c->verbatim->reason_column},
                  build_text(b, c->verbatim->reason));
+    report_use(c);
 }
 
 static void report_token(const struct source_call *c, const struct source_file *file,
@@ -61,6 +72,7 @@ static void report_token(const struct source_call *c, const struct source_file *
              fault->token);
     diag_add(b->diags, DIAG_ID_source_used_by, doc_place(&b->lib->doc, c->impl->element),
              build_text(b, c->impl->name));
+    report_use(c);
 }
 
 /* ---- Files ---- */
@@ -111,19 +123,6 @@ static bool add_files(const struct source_call *c, struct shader_verbatim *v)
     return true;
 }
 
-static bool has_derivatives(const struct source_call *c, const struct shader_verbatim *v)
-{
-    const struct shader *shader = c->b->shader;
-    struct source_list all = {0};
-    bool any = false;
-    for (uint32_t i = 0; i < v->num_sources; i++)
-        shader_collect_sources(shader, shader->source_refs.items[v->first_source + i], c->b->arena,
-                               &all);
-    for (uint32_t i = 0; i < all.len; i++)
-        any |= shader->sources.items[all.items[i]].has_derivatives;
-    return any;
-}
-
 static bool same_sources(const struct shader *shader, const struct shader_verbatim *a,
                          const struct shader_verbatim *b)
 {
@@ -147,17 +146,18 @@ static uint32_t add_verbatim(const struct source_call *c, const struct shader_ve
             return i;
     }
     vec_push(shader->arena, &shader->verbatim, *v);
+    vec_last(&shader->verbatim).needs_neighbours = shader_needs_neighbours(shader, v, c->b->arena);
     return shader->verbatim.len - 1;
 }
 
 static uint32_t callee_of(const struct source_call *c, uint32_t verbatim)
 {
-    return ir_add_callee(c->b->graph,
-                         (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
-                                            .index = verbatim,
-                                            .name = c->def->name,
-                                            .derivative = has_derivatives(
-                                                c, &c->b->shader->verbatim.items[verbatim])});
+    return ir_add_callee(
+        c->b->graph,
+        (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                           .index = verbatim,
+                           .name = c->def->name,
+                           .derivative = c->b->shader->verbatim.items[verbatim].needs_neighbours});
 }
 
 /* ---- Arguments ---- */
@@ -275,6 +275,7 @@ static str_id number_inputs(const struct source_call *c, str_id source)
         if (index < 0) {
             diag_add(b->diags, DIAG_ID_lang_unknown, doc_place(&b->lib->doc, c->impl->element),
                      "input", build_text(b, name), "");
+            report_use(c);
             return 0;
         }
         text_fmt(&out, "{{%d}}", index);
@@ -442,7 +443,6 @@ static void build_leaf(const struct source_call *c, const struct shader_verbatim
     struct shader *shader = c->b->shader;
     struct source_leaf leaf = {.convention = c->verbatim->convention,
                                .answers = answers_of(c),
-                               .has_derivatives = has_derivatives(c, files),
                                .nodedef = c->impl->nodedef};
     bool is_native = !has_convention(c);
     ir_type_id *types = ARENA_ARRAY(shader->arena, ir_type_id, num_args);

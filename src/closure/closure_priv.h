@@ -253,4 +253,22 @@ ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
 /* Names a value after its role for a leaf or operator: "coat_weight" of the leaf "coat". */
 void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const char *role);
 
+/* ---- merge.c ---- */
+
+/* A variable of a merged surface; the values of the members begin at `first_value`. */
+struct closure_variable {
+    uint32_t local, first_value;
+};
+struct closure_merged {
+    struct closure_surface surface; /* over the variables; without AOVs */
+    VEC(struct closure_variable) variables;
+    VEC(ir_ref) values;
+};
+/* True if two surfaces have the same closures, perhaps with other values. */
+bool closure_are_alike(struct shader *shader, struct closure_surface *a, struct closure_surface *b);
+/* One surface for members that are alike, each with the first. */
+void closure_merge(struct shader *shader, const struct closure_host *host,
+                   struct closure_surface *const *members, uint32_t num,
+                   struct closure_merged *out);
+
 #endif

@@ -171,10 +171,11 @@ struct closure_value closure_call_with(struct shader *shader, const struct closu
     ir_type_id type = shader->result_types.items[verbatim->first_result];
     put(&c, struct_of(&c, type, nothing(&c)));
     ir_push_origin(g, node.origin);
-    uint32_t callee = ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
-                                                          .index = index,
-                                                          .name = verbatim->function,
-                                                          .derivative = source.has_derivatives});
+    uint32_t callee =
+        ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                            .index = index,
+                                            .name = verbatim->function,
+                                            .derivative = verbatim->needs_neighbours});
     ir_ref call = ir_build(g, IR_VERBATIM, IR_TYPE_VOID, callee, c.args, c.num_args);
     ir_ref result = ir_build(g, IR_RESULT, type, 1, &call, 1);
     struct closure_value value = {result, 0};

@@ -701,22 +701,106 @@ static bool is_dark(const struct emitter *e, const struct closure_surface *s)
     return !s->bsdf && !s->edf && (!s->unlit || ir_const_is(e->graph, s->unlit, 0.0f));
 }
 
+static ir_ref zero_of(struct ir_graph *g, ir_type_id type)
+{
+    return type == IR_TYPE_INT    ? ir_const_int(g, 0)
+           : type == IR_TYPE_BOOL ? ir_const_bool(g, false)
+                                  : ir_const_splat(g, type, 0.0f);
+}
+
+/* Declares the variables of merged layers, and gives them the values of the one that is picked. */
+static void emit_values(struct emitter *e, const struct closure_merged *merged,
+                        const struct closure_choice *const *members, uint32_t num,
+                        const uint32_t *aovs)
+{
+    for (uint32_t i = 0; i < merged->variables.len; i++) {
+        uint32_t local = merged->variables.items[i].local;
+        ir_type_id type = e->shader->locals.items[local].type;
+        effect(e, EFFECT_VAR, local, zero_of(e->graph, type));
+    }
+    for (uint32_t k = 0; k < num; k++) {
+        if (members[k]->is_it)
+            effect(e, EFFECT_IF, 0, members[k]->is_it);
+        for (uint32_t i = 0; i < merged->variables.len; i++)
+            effect(e, EFFECT_ASSIGN, merged->variables.items[i].local,
+                   merged->values.items[merged->variables.items[i].first_value + k]);
+        keep_aovs(e, members[k]->layer.aovs, aovs);
+        if (members[k]->is_it)
+            effect(e, EFFECT_END, 0, 0);
+    }
+}
+
+static void emit_lit_layer(struct emitter *e, const struct closure_surface *s)
+{
+    uint32_t color = e->lit.color;
+    e->lit = (struct closure_lit){.color = color};
+    light_surface(e, s);
+    if (e->lit.base)
+        effect(e, EFFECT_ACCUMULATE, color, vec3_of(e, e->lit.base));
+    emit_lit(e);
+    e->lit.color = color;
+}
+
+/* Layers that are alike. is_it: one of them is picked; 0: always. */
+static void emit_layers(struct emitter *e, const struct closure_choice *const *members,
+                        uint32_t num, ir_ref is_it, const uint32_t *aovs)
+{
+    struct closure_surface **surfaces =
+        ARENA_ARRAY(e->shader->arena, struct closure_surface *, num);
+    struct closure_merged merged;
+    uint32_t color = e->lit.color;
+    for (uint32_t i = 0; i < num; i++) {
+        surfaces[i] = ARENA_ARRAY(e->shader->arena, struct closure_surface, 1);
+        *surfaces[i] = members[i]->layer;
+    }
+    closure_merge(e->shader, e->host, surfaces, num, &merged);
+    emit_values(e, &merged, members, num, aovs);
+    e->lit.color = color;
+    if (is_it)
+        effect(e, EFFECT_IF, 0, is_it);
+    emit_lit_layer(e, &merged.surface);
+    if (is_it)
+        effect(e, EFFECT_END, 0, 0);
+}
+
 static void emit_layer(struct emitter *e, const struct closure_choice *choice, const uint32_t *aovs)
 {
     uint32_t color = e->lit.color;
-    if (is_dark(e, &choice->layer))
-        return;
     if (choice->is_it)
         effect(e, EFFECT_IF, 0, choice->is_it);
-    e->lit = (struct closure_lit){.color = e->lit.color};
-    light_surface(e, &choice->layer);
-    if (e->lit.base)
-        effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, e->lit.base));
-    emit_lit(e);
+    emit_lit_layer(e, &choice->layer);
     keep_aovs(e, choice->layer.aovs, aovs);
     e->lit.color = color;
     if (choice->is_it)
         effect(e, EFFECT_END, 0, 0);
+}
+
+static ir_ref either(struct ir_graph *g, ir_ref a, ir_ref b)
+{
+    return a && b ? ir_op2(g, IR_LOR, a, b) : 0;
+}
+
+/* A layer with those below it that are alike; marks them in `is_done`. */
+static void emit_group(struct emitter *e, struct closure_choices *choices, uint32_t first,
+                       bool *is_done, const uint32_t *aovs)
+{
+    uint32_t num = 0, num_all = choices->items.len;
+    const struct closure_choice **members =
+        ARENA_ARRAY(e->shader->arena, const struct closure_choice *, num_all);
+    struct closure_choice *items = choices->items.items;
+    ir_ref is_it = items[first].is_it;
+    members[num++] = &items[first];
+    for (uint32_t i = first + 1; i < num_all; i++) {
+        if (is_done[i] || !closure_are_alike(e->shader, &items[first].layer, &items[i].layer))
+            continue;
+        is_done[i] = true;
+        is_it = either(e->graph, is_it, items[i].is_it);
+        members[num++] = &items[i];
+    }
+    if (num == 1)
+        emit_layer(e, members[0], aovs);
+    else
+        emit_layers(e, members, num, num == num_all && !choices->covered ? 0 : is_it, aovs);
 }
 
 static void emit_picked(struct emitter *e, ir_ref slots)
@@ -728,8 +812,12 @@ static void emit_picked(struct emitter *e, ir_ref slots)
     closure_choose(e->shader, e->host, closure_own_textures(e->shader, slots), number, &choices);
     declare_color(e);
     uint32_t *aovs = declare_aovs(e);
+    bool *is_done = ARENA_ARRAY(e->shader->arena, bool, choices.items.len);
     for (uint32_t i = 0; i < choices.items.len; i++)
-        emit_layer(e, &choices.items.items[i], aovs);
+        is_done[i] = is_dark(e, &choices.items.items[i].layer);
+    for (uint32_t i = 0; i < choices.items.len; i++)
+        if (!is_done[i])
+            emit_group(e, &choices, i, is_done, aovs);
     e->lit.base = 0;
     struct closure_surface whole = {.premultiplied = true, .aovs = read_aovs(e, aovs)};
     if (choices.covered)

@@ -40,22 +40,31 @@ static unsigned channel_count(str_id type)
     }
 }
 
-/* A missing or unknown channel means the first one. false: the types have no channels. */
+/*
+ * A missing or unknown channel means the first one, with a warning. false: the types have no
+ * channels.
+ */
 static bool read_selection(const struct upgrade *u, str_id from, str_id to, str_id channels,
-                           struct selection *out)
+                           struct diag_place place, struct selection *out)
 {
     const char *text = str_text(u->doc->strings, channels);
     size_t len = str_len(u->doc->strings, channels);
     *out = (struct selection){
         .from = from, .to = to, .num_from = channel_count(from), .num_to = channel_count(to)};
     assert(out->num_from <= MAX_CHANNELS && out->num_to <= MAX_CHANNELS);
+    bool is_complete = true;
     for (unsigned i = 0; i < out->num_to; i++) {
         unsigned channel = i < len ? channel_of(text[i]) : CHANNEL_BAD;
         bool missing =
             channel == CHANNEL_BAD || (channel < CHANNEL_ZERO && channel >= out->num_from);
         out->channels[i] = missing ? 0 : channel;
+        is_complete = is_complete && !missing;
     }
-    return out->num_from && out->num_to;
+    bool has_channels = out->num_from && out->num_to;
+    if (has_channels && !is_complete)
+        diag_add(u->diags, DIAG_ID_unknown_channel, place, out->num_to,
+                 str_text(u->doc->strings, from), text);
+    return has_channels;
 }
 
 static bool is_constant(const struct selection *s)
@@ -202,8 +211,9 @@ static void upgrade_port_channels(struct upgrade *u, elem_id port, str_id channe
     struct selection s;
     from = channel_count(from) ? from : guess_type(u, channels, to);
     bool is_output = doc_element(doc, port)->kind == KIND_OUTPUT;
+    struct diag_place place = doc_attr_place(doc, port, STR_channels);
     doc_remove_attr(doc, port, STR_channels);
-    if (!read_selection(u, from, to, channels, &s) || !upgrade_is_connected(u, port))
+    if (!upgrade_is_connected(u, port) || !read_selection(u, from, to, channels, place, &s))
         return;
     upgrade_note(u, port, "channels=\"%s\" is now a node", str_text(doc->strings, channels));
     if (s.num_from == 1 && s.num_to == 1)
@@ -233,10 +243,12 @@ void upgrade_swizzles(struct upgrade *u)
         elem_id in = upgrade_child(u, e, "in"), channels = upgrade_child(u, e, "channels");
         str_id from = in ? doc_attr_value(doc, in, STR_type) : STR_float,
                to = doc_attr_value(doc, e, STR_type);
+        str_id letters = channels ? doc_attr_value(doc, channels, STR_value) : STR_EMPTY;
+        struct diag_place place =
+            channels ? doc_attr_place(doc, channels, STR_value) : doc_place(doc, e);
         struct selection s;
         if ((channels && upgrade_is_connected(u, channels))
-            || !read_selection(u, from, to,
-                               channels ? doc_attr_value(doc, channels, STR_value) : STR_EMPTY, &s))
+            || !read_selection(u, from, to, letters, place, &s))
             continue; /* 1.39 has no equivalent node: it is reported as unknown */
         while (doc_element(doc, e)->first_child)
             doc_remove_element(doc, doc_element(doc, e)->first_child);

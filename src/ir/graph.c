@@ -272,7 +272,7 @@ uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, ui
 {
     assert(parent < graph->origins.len);
     uint32_t index = graph->origins.len;
-    vec_push(graph->arena, &graph->origins, (struct ir_origin){name, element, parent});
+    vec_push(graph->arena, &graph->origins, (struct ir_origin){name, element, parent, graph->slot});
     return index;
 }
 

@@ -206,6 +206,7 @@ struct ir_origin {
     str_id name;      /* a readable name for a local variable: "metal_ior" */
     uint32_t element; /* element of a document or library; 0 = none */
     uint32_t parent;  /* origin of the node that instantiates this one; 0 = none */
+    str_id slot;      /* the layer of a stack: "050"; 0 = none */
 };
 
 enum ir_callee_kind {
@@ -267,6 +268,7 @@ struct ir_graph {
     struct table table;          /* hash-consing: of nodes */
     struct table callee_table;   /* callee indices + 1 */
     uint32_t origin;             /* of new nodes: ir_push_origin */
+    str_id slot;                 /* of new origins */
     VEC(uint32_t) outer_origins; /* origins below it on the stack */
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;

@@ -118,6 +118,14 @@ static bool read_includes(struct indexer *ix, struct source_file *file,
         report_conditional(&scan, &open.last, name, diags);
         return false;
     }
+    if (scan.unended) {
+        struct diag_place where = {.file = name};
+        scan_place(&scan, scan.unended, &where.line, &where.column);
+        diag_add(diags, DIAG_ID_lang_syntax, where,
+                 *scan.unended == '/' ? "this comment does not end"
+                                      : "this line goes on after the end of the file");
+        return false;
+    }
     file->first_include = ix->lib->refs.len;
     file->num_includes = includes.len;
     for (uint32_t i = 0; i < includes.len; i++)

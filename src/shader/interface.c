@@ -619,6 +619,6 @@ void shader_add_closure(struct shader *shader, ir_ref leaf)
 
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type)
 {
-    vec_push(shader->arena, &shader->locals, (struct shader_local){name, type});
+    vec_push(shader->arena, &shader->locals, (struct shader_local){.name = name, .type = type});
     return shader->locals.len - 1;
 }

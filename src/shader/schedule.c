@@ -80,7 +80,11 @@ static void note_variable(const struct scheduler *s, uint32_t index)
 static inline unsigned note_needs(struct scheduler *s, ir_ref ref, const struct ir_node *node)
 {
     switch (node->op) {
-    case IR_LOCAL: s->any_local = true; return PLAN_LOCAL;
+    case IR_LOCAL:
+        if (s->shader->locals.items[node->attr].is_settled)
+            return 0;
+        s->any_local = true;
+        return PLAN_LOCAL;
     case IR_CONTEXT:
         if (ir_is_light_member(node->attr))
             note_variable(s, node->attr);

@@ -134,6 +134,7 @@ struct shader_light {
 struct shader_verbatim {
     /* in source_refs: the sources that the call needs, in their order (shader/source.h) */
     uint32_t first_source, num_sources;
+    bool needs_neighbours; /* shader_needs_neighbours */
     /* the function, with the operands and an `out` argument per RESULT; 0: use `expression` */
     str_id function;
     str_id expression; /* {{i}} stands for operand i */
@@ -179,6 +180,7 @@ struct effect {
 struct shader_local { /* a mutable variable: EFFECT_VAR, read by LOCAL nodes */
     str_id name;
     ir_type_id type;
+    bool is_settled; /* no effect changes it after the first that reads it */
 };
 
 struct effect_list { /* layout of VEC(struct effect) */
@@ -266,6 +268,7 @@ struct shader {
     VEC(ir_type_id) result_types;                  /* of verbatim functions */
     const struct source_language *source_language; /* of the target; NULL: it has none */
     VEC(struct shader_source) sources;             /* source.h */
+    VEC(struct source_function) source_functions;
     VEC(uint32_t) source_refs;
     VEC(struct shader_token) tokens; /* of all sources */
     VEC(struct source_leaf) source_leaves;

@@ -170,9 +170,11 @@ struct reader {
     struct shader *shader;
     struct shader_source source;
     struct source_list variables, names;
-    unsigned depth; /* of braces and parentheses */
-    bool is_value;  /* after '=' of a declaration */
-    bool is_macro;  /* after #define */
+    struct source_list calls;        /* of the function that is read */
+    struct source_function function; /* name 0: none is read */
+    unsigned depth;                  /* of braces and parentheses */
+    bool is_value;                   /* after '=' of a declaration */
+    bool is_macro;                   /* after #define */
     struct scan_word last;
 };
 
@@ -183,14 +185,53 @@ static void declare(struct reader *r, const struct scan_word *name)
     r->source.declares |= helper_bit(r->shader, name);
 }
 
+static uint32_t keep_refs(struct shader *shader, const uint32_t *refs, uint32_t n)
+{
+    uint32_t first = shader->source_refs.len;
+    for (uint32_t i = 0; i < n; i++)
+        vec_push(shader->arena, &shader->source_refs, refs[i]);
+    return first;
+}
+
+/* At the end of a function or of its prototype, which calls nothing. */
+static void end_function(struct reader *r)
+{
+    struct shader *shader = r->shader;
+    if (!r->function.name)
+        return;
+    r->function.num_calls = r->calls.len;
+    r->function.first_call = keep_refs(shader, r->calls.items, r->calls.len);
+    vec_push(shader->arena, &shader->source_functions, r->function);
+    r->function = (struct source_function){0};
+    r->calls.len = 0;
+}
+
+/* A name before '(' inside of a function is a call, or the name of a type or variable. */
+static void note_call(struct reader *r, const struct scan *scan, const struct scan_word *name)
+{
+    const char *next = scan->at;
+    while (next < scan->end && strchr(" \t\r\n", *next))
+        next++;
+    if (next < scan->end && *next == '(')
+        vec_push(r->shader->arena, &r->calls,
+                 str_intern(r->shader->strings, name->text, name->len));
+}
+
 /* A name at file scope before one of these marks is declared: "float f(", "vec3 a =", "struct S {".
  */
 static void note_declaration(struct reader *r, const struct scan_word *mark)
 {
+    /* of two at file scope the last is the function, after a macro */
+    if (r->depth == 0 && !r->is_value && r->last.len && *mark->text == '(') {
+        end_function(r);
+        r->function.name = str_intern(r->shader->strings, r->last.text, r->last.len);
+    }
     if (r->depth == 0 && !r->is_value && r->last.len && strchr("(=;[{,", *mark->text))
         declare(r, &r->last);
     r->depth += *mark->text == '(' || *mark->text == '{';
     r->depth -= r->depth > 0 && (*mark->text == ')' || *mark->text == '}');
+    if (r->depth == 0 && (*mark->text == '}' || *mark->text == ';'))
+        end_function(r);
     if (r->depth == 0 && *mark->text == '=')
         r->is_value = true;
     if (r->depth == 0 && *mark->text == ';')
@@ -210,8 +251,12 @@ static bool read_word(struct reader *r, const struct scan *scan, const struct sc
     if (word->kind == SCAN_NAME && r->is_macro && r->last.kind == SCAN_DIRECTIVE)
         declare(r, word);
     if (word->kind == SCAN_NAME) {
+        bool *has_derivatives = r->function.name && !r->is_macro ? &r->function.has_derivatives
+                                                                 : &r->source.has_derivatives;
+        *has_derivatives |= is_derivative(r->shader, word);
         r->source.uses |= helper_bit(r->shader, word);
-        r->source.has_derivatives |= is_derivative(r->shader, word);
+        if (r->function.name && !r->is_macro)
+            note_call(r, scan, word);
     } else if (word->kind == SCAN_MARK && !r->is_macro) {
         note_declaration(r, word);
     } else if (word->kind == SCAN_DIRECTIVE) {
@@ -223,14 +268,6 @@ static bool read_word(struct reader *r, const struct scan *scan, const struct sc
     return true;
 }
 
-static uint32_t keep_refs(struct shader *shader, const uint32_t *refs, uint32_t n)
-{
-    uint32_t first = shader->source_refs.len;
-    for (uint32_t i = 0; i < n; i++)
-        vec_push(shader->arena, &shader->source_refs, refs[i]);
-    return first;
-}
-
 uint32_t shader_add_source(struct shader *shader, str_id text, const uint32_t *includes,
                            uint32_t num_includes, struct source_fault *out_fault)
 {
@@ -239,6 +276,7 @@ uint32_t shader_add_source(struct shader *shader, str_id text, const uint32_t *i
             return i;
     index_helpers(shader);
     struct reader r = {.shader = shader, .source = {.text = text, .num_includes = num_includes}};
+    r.source.first_function = shader->source_functions.len;
     struct scan scan;
     struct scan_word word;
     scan_begin(&scan, str_text(shader->strings, text), str_len(shader->strings, text));
@@ -251,6 +289,8 @@ uint32_t shader_add_source(struct shader *shader, str_id text, const uint32_t *i
             return UINT32_MAX;
         }
     }
+    end_function(&r);
+    r.source.num_functions = shader->source_functions.len - r.source.first_function;
     r.source.first_include = keep_refs(shader, includes, num_includes);
     r.source.num_variables = r.variables.len;
     r.source.first_variable = keep_refs(shader, r.variables.items, r.variables.len);
@@ -287,6 +327,67 @@ static void collect_verbatim(const struct shader *shader, uint32_t verbatim, str
     const struct shader_verbatim *v = &shader->verbatim.items[verbatim];
     for (uint32_t i = 0; i < v->num_sources; i++)
         shader_collect_sources(shader, shader->source_refs.items[v->first_source + i], arena, out);
+}
+
+/* ---- Derivatives ---- */
+
+/* Adds the words of an expression that may be calls. True if one needs adjacent pixels. */
+static bool calls_of_expression(const struct shader *shader, const char *text,
+                                struct arena *scratch, struct source_list *out)
+{
+    struct scan scan;
+    struct scan_word word;
+    bool any = false;
+    scan_begin(&scan, text, strlen(text));
+    while (scan_next(&scan, &word)) {
+        if (word.kind != SCAN_NAME)
+            continue;
+        any |= is_derivative(shader, &word);
+        str_id name = str_find(shader->strings, word.text, word.len);
+        if (name)
+            add_once(out, name, scratch);
+    }
+    return any;
+}
+
+/* Adds what the functions of this name call. True if one of them needs adjacent pixels. */
+static bool calls_of_name(const struct shader *shader, const struct shader_source *source,
+                          str_id name, struct arena *scratch, struct source_list *out)
+{
+    bool any = false;
+    assert(source->first_function + source->num_functions <= shader->source_functions.len);
+    for (uint32_t i = 0; i < source->num_functions; i++) {
+        const struct source_function *function =
+            &shader->source_functions.items[source->first_function + i];
+        if (function->name != name)
+            continue;
+        any |= function->has_derivatives;
+        for (uint32_t k = 0; k < function->num_calls; k++)
+            add_once(out, shader->source_refs.items[function->first_call + k], scratch);
+    }
+    return any;
+}
+
+bool shader_needs_neighbours(const struct shader *shader, const struct shader_verbatim *verbatim,
+                             struct arena *scratch)
+{
+    struct source_list files = {0}, names = {0};
+    bool any = false;
+    for (uint32_t i = 0; i < verbatim->num_sources; i++)
+        shader_collect_sources(shader, shader->source_refs.items[verbatim->first_source + i],
+                               scratch, &files);
+    for (uint32_t i = 0; i < files.len; i++)
+        any |= shader->sources.items[files.items[i]].has_derivatives;
+    if (verbatim->function)
+        vec_push(scratch, &names, verbatim->function);
+    else if (verbatim->expression)
+        any |= calls_of_expression(shader, str_text(shader->strings, verbatim->expression), scratch,
+                                   &names);
+    for (uint32_t next = 0; next < names.len && !any; next++)
+        for (uint32_t i = 0; i < files.len; i++)
+            any |= calls_of_name(shader, &shader->sources.items[files.items[i]], names.items[next],
+                                 scratch, &names);
+    return any;
 }
 
 void shader_mark_sources(struct shader *shader, enum shader_stage_id id)

@@ -73,9 +73,8 @@ enum source_convention {
 
 /* A closure in source, the callee of a LEAF. Operands of the LEAF: 1, then all inputs in order. */
 struct source_leaf {
-    uint8_t convention; /* enum source_convention */
-    uint8_t answers;    /* bits by context: where it contributes light */
-    bool has_derivatives;
+    uint8_t convention;                     /* enum source_convention */
+    uint8_t answers;                        /* bits by context: where it contributes light */
     uint32_t verbatim[NUM_SOURCE_CONTEXTS]; /* in shader->verbatim; UINT32_MAX: there is none */
     const ir_type_id *operand_types;        /* of the inputs */
     uint32_t nodedef;                       /* number of its definition */
@@ -87,8 +86,16 @@ struct shader_source {
     uint32_t first_include, num_includes;   /* in source_refs: a source per #include, in order */
     uint32_t first_variable, num_variables; /* in source_refs: variables of its tokens */
     uint32_t first_name, num_names;         /* in source_refs: str_id of the names it declares */
+    uint32_t first_function, num_functions; /* in source_functions */
     uint64_t uses, declares;                /* bits: names of helpers */
-    bool has_derivatives;
+    bool has_derivatives;                   /* in macros, which any function may name */
+};
+
+/* A function that a text defines. */
+struct source_function {
+    str_id name;
+    uint32_t first_call, num_calls; /* in source_refs: str_id of the functions that it calls */
+    bool has_derivatives;           /* it calls a function that needs adjacent pixels */
 };
 
 /* The text or variable of a token. */
@@ -119,6 +126,10 @@ struct source_list { /* layout of VEC(uint32_t) */
 };
 void shader_collect_sources(const struct shader *shader, uint32_t source, struct arena *arena,
                             struct source_list *out);
+
+/* True if the function or the expression of a verbatim source needs adjacent pixels. */
+bool shader_needs_neighbours(const struct shader *shader, const struct shader_verbatim *verbatim,
+                             struct arena *scratch);
 
 /* Marks the variables that the sources of a stage read. */
 void shader_mark_sources(struct shader *shader, enum shader_stage_id stage);

@@ -23,8 +23,27 @@ static void write_assignment(struct spell *spell, unsigned indent, struct spell_
 
 /* ---- Locals ---- */
 
-static struct spell_name add_local(struct spell *spell, struct spell_name base)
+/* Nodes of several layers of a stack often have one name: then the slot tells them apart. */
+static struct spell_name with_slot(struct spell *spell, struct spell_name base, ir_ref ref)
 {
+    const struct shader *shader = spell->shader;
+    str_id slot = shader->graph->origins.items[ir_get(shader->graph, ref)->origin].slot;
+    if (!slot || shader->rules.neutral_names || names_is_free(&spell->names, base.text, base.len))
+        return base;
+    struct text text;
+    size_t len;
+    text_init(&text, spell->scratch);
+    text_mem(&text, base.text, base.len);
+    text_char(&text, '_');
+    text_mem(&text, str_text(shader->strings, slot), str_len(shader->strings, slot));
+    const char *name = identifier_from(text_cstr(&text), text.len, spell->scratch, &len);
+    return (struct spell_name){name, len};
+}
+
+/* The name of a result of `ref`. */
+static struct spell_name add_local(struct spell *spell, struct spell_name base, ir_ref ref)
+{
+    base = with_slot(spell, base, ref);
     struct spell_name name = names_unique(&spell->names, base.text, base.len);
     vec_push(spell->scratch, &spell->let_names, name);
     return name;
@@ -210,7 +229,7 @@ static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsi
         struct call_out out = describe_out(spell, call, i);
         bool is_whole = node->type == IR_TYPE_VOID && outs == 1;
         struct spell_name name =
-            add_local(spell, part_name(spell, base, is_whole ? NULL : out.part));
+            add_local(spell, part_name(spell, base, is_whole ? NULL : out.part), call);
         bool joins = i > 0 && !out.inout && !last.inout && out.type == last.type
                      && out.type < IR_TYPE_FIRST_USER;
         if (joins) {
@@ -238,7 +257,7 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
     if (node->type == IR_TYPE_VOID)
         vec_push(spell->scratch, &spell->let_names, (struct spell_name){0});
     else
-        (void)add_local(spell, spell_call_base(spell, call));
+        (void)add_local(spell, spell_call_base(spell, call), call);
     declare_outs(spell, indent, call, outs);
     assert(spell->let_names.len == first + 1 + outs);
     open_line(spell, indent, node->origin);
@@ -263,7 +282,7 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
             return;
         }
     }
-    struct spell_name name = add_local(spell, spell_local_base(spell, ref));
+    struct spell_name name = add_local(spell, spell_local_base(spell, ref), ref);
     open_line(spell, indent, node->origin);
     if (node->op == IR_CONST && !spell->target->syntax->defines_constants)
         spell_text(spell, "const ");

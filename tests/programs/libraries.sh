@@ -183,4 +183,50 @@ sed 's/<surface name="s" type="surfaceshader"/<other name="s" type="surfaceshade
 check 'other nodes without implementations' exits 1 "$mxgen" other.mtlx --no-builtin-library --library operators.mtlx -o made
 check 'are an error' grep -q 'missing-implementation' err
 
+# Only what needs adjacent pixels counts as a derivative, function by function; several outputs have an expression each.
+cat >near.glsl <<'END'
+float mx_near_step(float x) { return x / fwidth(x); }
+float mx_near_edge(float x) { return clamp(mx_near_step(x), 0.0, 1.0); }
+void mx_near(float x, out float result) { result = mx_near_edge(x) + unpackHalf2x16(0u).x; }
+void mx_far(float x, out float result) { result = x + unpackHalf2x16(0u).x; }
+END
+cat >near.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_near" node="near"><input name="x" type="float" value="0"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_near" nodedef="ND_near" target="genglsl" file="near.glsl" function="mx_near"/>
+  <nodedef name="ND_far" node="far"><input name="x" type="float" value="0"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_far" nodedef="ND_far" target="genglsl" file="near.glsl" function="mx_far"/>
+  <nodedef name="ND_inline" node="inlined"><input name="x" type="float" value="0"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_inline" nodedef="ND_inline" target="genglsl" sourcecode="dFdx({{x}}) + unpackHalf2x16(0u).x"/>
+  <nodedef name="ND_both" node="both"><input name="x" type="float" value="0"/><output name="a" type="float"/><output name="b" type="float"/></nodedef>
+  <implementation name="IM_both" nodedef="ND_both" target="genglsl">
+    <output name="a" type="float" sourcecode="{{x}} + unpackHalf2x16(1u).x"/>
+    <output name="b" type="float" sourcecode="fwidth({{x}}) + unpackHalf2x16(2u).x"/>
+  </implementation>
+  <nodegraph name="NG">
+    <texcoord name="uv" type="vector2"/>
+    <extract name="u" type="float"><input name="in" type="vector2" nodename="uv"/></extract>
+    <near name="n" type="float"><input name="x" type="float" nodename="u"/></near>
+    <far name="f" type="float"><input name="x" type="float" nodename="u"/></far>
+    <inlined name="i" type="float"><input name="x" type="float" nodename="u"/></inlined>
+    <both name="b2" type="multioutput"><input name="x" type="float" nodename="u"/></both>
+    <combine4 name="c" type="color4">
+      <input name="in1" type="float" nodename="n"/><input name="in2" type="float" nodename="f"/><input name="in3" type="float" nodename="i"/>
+      <input name="in4" type="float" nodename="b2" output="a"/>
+    </combine4>
+    <multiply name="m" type="color4"><input name="in1" type="color4" nodename="c"/><input name="in2" type="float" nodename="b2" output="b"/></multiply>
+    <output name="out" type="color4" nodename="m"/>
+  </nodegraph>
+</materialx>
+END
+check 'derivatives of source' exits 0 "$mxgen" inspect near.mtlx --ir --trust
+cat >callees <<'END'
+callee "ND_near" verbatim 0 derivative
+callee "ND_far" verbatim 1
+callee "ND_inline" verbatim 2 derivative
+callee "ND_both" verbatim 3
+callee "ND_both" verbatim 4 derivative
+END
+check 'are those of the functions that have them' diff <(grep '^callee' out) callees
+
 finish libraries

@@ -36,13 +36,14 @@ samples=2|plain.mtlx -o x.png --environment prefiltered
 samples=2|plain.mtlx -o x.png --path-trace
 sample-filter=wide|plain.mtlx -o x.png --path-trace
 element=M|plain.mtlx -o x.png --look L
+layer-sample=0.5|plain.mtlx -o x.png
 mesh=cube|--bake-environment sky -o baked
 paths=2|--bake-environment sky -o baked
 lights=none|--bake-environment sky -o baked
 X
 check 'documents have no environment to bake' exits 2 "$render" plain.mtlx --bake-environment sky -o baked
 for count in '--samples 0' '--samples 65537' '--frame 99999999999' '--paths 0 --path-trace' '--bounces 65 --path-trace' \
-    '--turntable 0' '--turntable 10001' '--camera nan,0' '--camera 0,0,inf' '--size nan'; do
+    '--layer-sample 1' '--layer-sample -0.1' '--layer-sample x' '--layer-sample nan' '--turntable 0' '--turntable 10001' '--camera nan,0' '--camera 0,0,inf' '--size nan'; do
     # shellcheck disable=SC2086
     check "out of range: $count" exits 2 "$render" plain.mtlx -o x.png $count
 done

@@ -157,6 +157,26 @@ check 'picks a closure' eval 'grep -q "if (layerSample" osl.d/*.osl && grep -q "
 check 'a path tracer' exits 0 stacks --integrator scatter
 check 'picks a layer' eval '[ "$(grep -cE "^    if \(.*(distance|product|random|w)" out.d/$(program /c).frag)" -ge 1 ]'
 
+# Two layers of one material: their locals have one name, and the slot tells them apart, in every target.
+cat >twins.mtlx <<'XML'
+<materialx version="1.39">
+  <fractal3d name="noise" type="float"/>
+  <standard_surface name="s" type="surfaceshader"><input name="specular_roughness" type="float" nodename="noise"/></standard_surface>
+  <substance name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></substance>
+  <nodegraph name="other"><constant name="c" type="float"><input name="value" type="float" value="0.4"/></constant>
+    <output name="specular_roughness" type="float" nodename="c"/><output name="mask" type="float" nodename="c"/></nodegraph>
+  <look name="L"><materialassign slot="a" material="M" geom="/"/><materialassign slot="b" material="M" geom="/"/>
+    <materialassign slot="b::x" nodegraph="other" geom="/"/></look>
+</materialx>
+XML
+echo /c >one.txt
+for target in glsl vulkan essl hlsl osl; do
+    check "layers of one name, $target" exits 0 "$mxgen" twins.mtlx --look L --stage one.txt --target $target -o twins.d/$target
+    cat twins.d/$target/stack_* >twins
+    check 'their locals have the slot' grep -qE "^ +[a-zA-Z_0-9 ]+_[ab] =" twins
+    check 'in the place of a number' eval '! grep -E "^ +(closure color|vec.|float.?) (metal|reflection|diffuse)[a-z_]*_2 =" twins'
+done
+
 # Slabs: the opacity of their lobes weighs a layer.
 slabs='<slab name="metal" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="1, 0.8, 0.3"/></slab>
   <slab name="coat" type="BSDF"><input name="mean_free_path" type="vector3" value="0.006, 0.015, 0.2"/></slab>

@@ -76,6 +76,14 @@ at = 3 * (int(sys.argv[3]) * int(header.split()[1]) + int(sys.argv[2]))
 print("".join(c for c, v in zip("rgb", pixels[at : at + 3]) if v > 100) or "-")
 P
 }
+# colors FILE: the letters of the channels that any pixel has.
+colors() {
+    python3 - "$1" <<'P'
+import sys
+pixels = open(sys.argv[1], "rb").read().split(b"255\n", 1)[1]
+print("".join(c for i, c in enumerate("rgb") if max(pixels[i::3]) > 100))
+P
+}
 # draw FILE ARGUMENT...: raster and path traced, to FILE.ppm and FILE.path.ppm.
 draw() {
     exits 0 "$render" "${document:-colors.mtlx}" --stage "$1.usda" -s 64 --background environment --environment black.ppm -o "$1.ppm" "${@:2}" || return
@@ -311,6 +319,23 @@ check 'no operation of a transform' broken 's/\["xformOp:rotateZ", /["xformOp:sp
 check 'a prototype that is missing' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [2, 0, 0]/' 'protoIndices'
 check 'instances without a prototype each' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [1, 0]/' 'has 2 numbers for 3 positions'
 check 'a face that a subset lacks' broken 's/int\[\] indices = \[1\]/int[] indices = [2]/' 'the mesh has 2 faces'
+# One number for the whole picture picks a layer: the upper one, which has a mask, below 0.5.
+cat >picked.mtlx <<'XML'
+<materialx version="1.39">
+  <xi:include xmlns:xi="http://www.w3.org/2001/XInclude" href="colors.mtlx"/>
+  <substance name="Half" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SGreen"/><input name="mask" type="float" value="0.5"/></substance>
+  <look name="layers"><materialassign material="Red" geom="/"/><materialassign slot="050" material="Half" geom="/"/></look>
+</materialx>
+XML
+for number in 0 0.499 0.5 0.999; do
+    check "--layer-sample $number" exits 0 "$render" picked.mtlx --stage two.obj --look layers --slots stochastic --layer-sample $number \
+        -s 64 --camera 0,0 --background environment --environment black.ppm -o picked.ppm
+    check 'picks the layer' test "$(colors picked.ppm)" = "$(case $number in 0 | 0.499) echo g ;; *) echo r ;; esac)"
+done
+check 'without it each point has its own' exits 0 "$render" picked.mtlx --stage two.obj --look layers --slots stochastic \
+    -s 64 --camera 0,0 --background environment --environment black.ppm -o picked.ppm
+check 'both layers are seen' test "$(colors picked.ppm)" != r -a "$(colors picked.ppm)" != g
+
 check 'a primvar that is missing' eval 'sed "/int primvars:number = 0/d" scene.usda >lacking.usda; exits 0 "$render" colors.mtlx --stage lacking.usda -s 16 -o no.ppm && grep -qF "[missing-primvar]" err'
 check 'a camera that is missing' fails unknown-camera "there is '/camera'" colors.mtlx --stage scene.usda --camera /kamera
 check 'a camera by its path' exits 0 "$render" colors.mtlx --stage scene.usda --camera /camera -s 16 -o yes.ppm
