@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Materials as slabs: the mean CIEDE2000 of a ball drawn as slabs, and with one closure, from the ball as it is.
+"""Materials with options of generation: the mean CIEDE2000 of a ball drawn as slabs, and with one closure, from the ball as it is.
 
-    bench/slabs.py build/mxgen FOLDER... [--size 64] [--jobs 2]
+    bench/slabs.py build/mxgen FOLDER... [--size 64] [--jobs 2] [--variant "NAME=OPTIONS"]...
 
-Draws the first renderable of each document. Prints a row for each model of shading, then the worst documents."""
+Draws the first renderable of each document where the options change its shader. Prints a row for each model of shading, then the worst
+documents. --variant takes the place of slabs and one closure: --variant "occluding=--layering occluding"."""
 
 import argparse
 import collections
@@ -73,6 +74,12 @@ def run(*command):
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
 
 
+def source_of(mxgen, document, *options):
+    """The shaders of a document; None: it has none."""
+    made = run(mxgen, document, "-q", "--interface", "reduced", "--stdout", *options)
+    return made.stdout if made.returncode == 0 else None
+
+
 def model_of(document):
     text = document.read_text(errors="replace")
     for name in ("open_pbr_surface", "standard_surface", "gltf_pbr", "UsdPreviewSurface", "disney_principled", "slab_surface"):
@@ -81,7 +88,7 @@ def model_of(document):
     return "Lama" if "<Lama" in text else "BSDF nodes"
 
 
-def measure(mxgen, document, size):
+def measure(mxgen, document, size, variants):
     """The differences by variant; None for a document that mxgen does not draw."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
@@ -89,7 +96,11 @@ def measure(mxgen, document, size):
         if run(*draw, "-o", folder / "whole.ppm").returncode:
             return None
         result = {}
-        for name, options in VARIANTS.items():
+        source = source_of(mxgen, document)
+        for name, options in variants.items():
+            if source and source == source_of(mxgen, document, *options):
+                result[name] = 0.0
+                continue
             picture = folder / (name.replace(" ", "-") + ".ppm")
             failed = run(*draw, *options, "-o", picture).returncode
             result[name] = None if failed else compare(folder / "whole.ppm", picture)
@@ -102,23 +113,26 @@ def main():
     parser.add_argument("folders", type=pathlib.Path, nargs="+")
     parser.add_argument("--size", type=int, default=64)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--variant", action="append", metavar="NAME=OPTIONS")
     args = parser.parse_args()
+    args.mxgen = args.mxgen.resolve()
+    variants = {name: options.split() for name, _, options in (text.partition("=") for text in args.variant or [])} or VARIANTS
     documents = sorted({path for folder in args.folders for path in (folder.rglob("*.mtlx") if folder.is_dir() else [folder])})
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
-        results = list(zip(documents, pool.map(lambda path: measure(args.mxgen, path, args.size), documents)))
+        results = list(zip(documents, pool.map(lambda path: measure(args.mxgen, path, args.size, variants), documents)))
     models = collections.defaultdict(list)
     for document, result in results:
         if result:
             models[model_of(document)].append((document, result))
-    print("| model | documents |", " | ".join(f"{name}: median | worst" for name in VARIANTS), "|")
-    print("| --- | --- |", " | ".join("--- | ---" for _ in VARIANTS), "|")
+    print("| model | documents |", " | ".join(f"{name}: median | worst" for name in variants), "|")
+    print("| --- | --- |", " | ".join("--- | ---" for _ in variants), "|")
     for model, rows in sorted(models.items()):
         columns = []
-        for name in VARIANTS:
+        for name in variants:
             values = [result[name] for _, result in rows if result[name] is not None]
             columns += [f"{statistics.median(values):.2f}", f"{max(values):.2f}"] if values else ["-", "-"]
         print(f"| `{model}` | {len(rows)} |", " | ".join(columns), "|")
-    for name in VARIANTS:
+    for name in variants:
         rows = [(result[name], document) for document, result in results if result and result[name] is not None]
         for value, document in sorted(rows, reverse=True)[:12]:
             print(f"{name}: {value:.2f} {document}")

@@ -110,6 +110,7 @@ static void set_build_options(struct generation *g)
         .texture_fault = stdio_texture_fault,
         .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
+        .keeps_absent = o[OPTION_layering].number == LAYERING_OCCLUDING,
         .stored = g->stored != CLASS_EMPTY,
         .marks_slabs = generation_stores(g),
         .mattes = o[OPTION_mattes].number != 0,
@@ -327,7 +328,7 @@ void generation_start_closures(struct generation *g)
     g->lighting = (struct closure_lighting){
         .lights = has_lights(g),
         .environment = g->options[OPTION_environment].number != 0,
-        .two_sided = g->options[OPTION_layering].number != 0,
+        .two_sided = g->options[OPTION_layering].number == LAYERING_TWO_SIDED,
         .transmits_alpha = g->options[OPTION_transmission].number != 0,
         .transparency =
             g->stored ? TRANSPARENCY_OPAQUE : (uint8_t)g->options[OPTION_transparency].number,
@@ -337,6 +338,7 @@ void generation_start_closures(struct generation *g)
         .encodes = g->options[OPTION_encode].number != 0,
     };
     generation_defer(g);
+    g->closure_host.occludes = g->options[OPTION_layering].number == LAYERING_OCCLUDING;
     g->closure_host.keeps_color = g->lighting.transparency == TRANSPARENCY_OPAQUE
                                   || g->lighting.transparency == TRANSPARENCY_MASK;
 }

@@ -62,6 +62,7 @@ struct build_options {
     const char *(*texture_fault)(void *user_data, const char *from, const char *file);
     void *texture_user_data;
     int integrator;
+    bool keeps_absent; /* closures of weight 0 hide what lies below them */
     int stored;        /* closures come from storage: the lighting of the deferred pipeline */
     bool marks_slabs;  /* a slab_mark_bsdf lies on each slab, for src/deferred */
     bool mattes;       /* each layer of a stack has an AOV of its own */

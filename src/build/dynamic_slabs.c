@@ -3,6 +3,8 @@
  */
 #include "build/dynamic.h"
 
+#include <math.h>
+
 /* A layer of an OSL network is complete before anyone knows where its slabs lie. */
 static bool is_in_network(const mxg_build *build)
 {
@@ -40,6 +42,65 @@ static bool is_missing(const mxg_build *build, str_id input, enum slab_feature f
     return true;
 }
 
+/* ---- Values that matter cannot have ---- */
+
+enum bounds { SHARE, LENGTH, SIGNED, NUM_BOUNDS };
+
+static const struct {
+    float low, high;
+    const char *text;
+} bounds[NUM_BOUNDS] = {
+    [SHARE] = {0.0f, 1.0f, "0 to 1"},
+    [LENGTH] = {0.0f, INFINITY, "0 or more"},
+    [SIGNED] = {-1.0f, 1.0f, "-1 to 1"},
+};
+
+/* The part of a value that is out of its bounds; NULL: there is none. */
+static const float *stray_part(const struct ir_value *value, enum bounds in)
+{
+    for (unsigned i = 0; i < ir_type_info(value->type)->components; i++)
+        if (!(value->w[i].f >= bounds[in].low && value->w[i].f <= bounds[in].high))
+            return &value->w[i].f;
+    return NULL;
+}
+
+/* Values of the document, also where the host may change them. */
+static void check_bounds(const mxg_build *build, str_id input, ir_ref ref, enum bounds in)
+{
+    struct builder *b = build->b;
+    struct ir_value value;
+    const float *stray = ref && build_initial(b, ref, &value) && ir_type_is_float(value.type)
+                             ? stray_part(&value, in)
+                             : NULL;
+    if (!stray)
+        return;
+    struct text text;
+    text_init(&text, b->arena);
+    text_float(&text, *stray);
+    diag_add(b->diags, DIAG_ID_slab_not_physical,
+             doc_place(&b->lib->doc, build->frame->node.element), build_text(b, input),
+             build_text(b, build->def->node), text_cstr(&text), bounds[in].text);
+}
+
+static void check_slab(const mxg_build *build, const str_id *names, const ir_ref *args)
+{
+    static const struct {
+        enum slab_operand input;
+        enum bounds in;
+    } checked[] = {
+        {SLAB_diffuse_albedo, SHARE},    {SLAB_f0, SHARE},
+        {SLAB_roughness, SHARE},         {SLAB_anisotropy, SIGNED},
+        {SLAB_second_roughness, SHARE},  {SLAB_second_roughness_weight, SHARE},
+        {SLAB_fuzz_amount, SHARE},       {SLAB_fuzz_color, SHARE},
+        {SLAB_fuzz_roughness, SIGNED},   {SLAB_mean_free_path, LENGTH},
+        {SLAB_phase_anisotropy, SIGNED}, {SLAB_emission, LENGTH},
+    };
+    for (size_t i = 0; i < sizeof checked / sizeof *checked; i++)
+        check_bounds(build, names[checked[i].input], args[checked[i].input], checked[i].in);
+}
+
+/* ---- Nodes ---- */
+
 static bool finish(mxg_build *build, enum ir_op op, uint32_t attr, const ir_ref *args, unsigned n,
                    mxg_ref *results)
 {
@@ -72,6 +133,7 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
         args[i] = dynamic_arg(build, names[i]);
     args[SLAB_coverage] = ir_const_float(build->b->graph, 1.0f);
+    check_slab(build, names, args);
     return finish(build, IR_SLAB, 0, args, NUM_SLAB_OPERANDS, results);
 }
 
@@ -80,6 +142,7 @@ bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
     ir_ref args[3] = {dynamic_arg(build, STR_top), dynamic_arg(build, STR_base),
                       dynamic_arg(build, STR_thickness)};
     (void)user_data;
+    check_bounds(build, STR_thickness, args[2], LENGTH);
     if (args[0])
         return finish(build, IR_SLAB_LAYER, blends(build), args, 3, results);
     results[0] = code_issue(build, args[1]);
@@ -101,15 +164,18 @@ static bool beside(mxg_build *build, ir_ref bg, ir_ref fg, ir_ref share, mxg_ref
 bool dynamic_slab_mix(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    ir_ref bg = dynamic_arg(build, STR_bg), fg = dynamic_arg(build, STR_fg);
-    return beside(build, bg, fg, dynamic_arg(build, STR_mix), results);
+    ir_ref bg = dynamic_arg(build, STR_bg), fg = dynamic_arg(build, STR_fg),
+           share = dynamic_arg(build, STR_mix);
+    check_bounds(build, STR_mix, share, SHARE);
+    return beside(build, bg, fg, share, results);
 }
 
 bool dynamic_slab_coverage(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    ir_ref in = dynamic_arg(build, STR_in);
-    return beside(build, 0, in, dynamic_arg(build, STR_weight), results);
+    ir_ref in = dynamic_arg(build, STR_in), share = dynamic_arg(build, STR_weight);
+    check_bounds(build, STR_weight, share, SHARE);
+    return beside(build, 0, in, share, results);
 }
 
 bool dynamic_slab_select(void *user_data, mxg_build *build, mxg_ref *results)
@@ -131,5 +197,6 @@ bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results)
     ir_ref args[3] = {dynamic_arg(build, STR_bsdf),
                       ir_const_bool(build->b->graph, thin.values[0] != 0),
                       dynamic_arg(build, STR_surface_thickness)};
+    check_bounds(build, STR_surface_thickness, args[2], LENGTH);
     return finish(build, IR_SLAB_SURFACE, 0, args, 3, results);
 }

@@ -54,9 +54,8 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
     }
     uint32_t callee = build_leaf_callee(b, impl->ref);
     ir_type_id type = build_type(b, ports[def->num_inputs].type);
-    results[0] = ir_const_is(b->graph, operands[0], 0.0f)
-                     ? 0
-                     : ir_build(b->graph, IR_LEAF, type, callee, operands, n);
+    bool is_absent = ir_const_is(b->graph, operands[0], 0.0f) && !b->options->keeps_absent;
+    results[0] = is_absent ? 0 : ir_build(b->graph, IR_LEAF, type, callee, operands, n);
 }
 
 const struct family *build_leaf_family(struct builder *b, uint32_t callee)

@@ -167,7 +167,9 @@ ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host 
         return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     ir_ref through = unit_throughput(shader, host, leaf, out_decay);
     ir_ref weight = ir_arg(g, leaf, 0);
-    if (!through) /* opaque */
+    if (!through && host->occludes)
+        return ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    if (!through) /* opaque: its weight is a coverage */
         return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
     if (ir_const_is(g, weight, 1.0f))
         return through;

@@ -63,6 +63,7 @@ struct closure_host {
     const ir_ref *light;
     /* the option `transparency` is opaque or mask: opacity does not scale the colour of surfaces */
     bool keeps_color;
+    bool occludes; /* an opaque leaf hides what lies below it, whatever its weight */
     /* The functions of the leaf family of a LEAF node, which is no leaf in source. */
     const uint32_t *(*leaf_functions)(void *user_data, uint32_t callee);
     /* The input name of operand `index` + 1 of a LEAF node; NULL after the last. */
@@ -115,6 +116,9 @@ enum closure_transparency {
     TRANSPARENCY_MASK,
     TRANSPARENCY_BLEND,
 };
+
+/* The option `layering`. */
+enum closure_layering { LAYERING_VIEW, LAYERING_TWO_SIDED, LAYERING_OCCLUDING };
 
 /* The lighting of the shaded point, from the options of the caller. */
 struct closure_lighting {

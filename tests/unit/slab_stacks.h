@@ -30,6 +30,7 @@ struct stack_node {
 struct stack {
     struct stack_node nodes[STACK_NODES]; /* operands first; the last one is the root */
     int num_nodes;
+    int is_sheet; /* 0.01 cm thick */
 };
 
 /* ---- Numbers ---- */
@@ -87,11 +88,24 @@ static inline int stack_random_top(struct stack *stack, int clear)
 /* Tops over an opaque base of this albedo. */
 static inline void stack_make(struct stack *stack, int num_tops, int clear, double base_albedo)
 {
-    stack->num_nodes = 0;
+    stack->num_nodes = stack->is_sheet = 0;
     int below = stack_add(
         stack, (struct stack_node){.kind = STACK_SLAB, .albedo = base_albedo, .roughness = 0.5});
     for (int i = 0; i < num_tops; ++i) {
         int top = stack_random_top(stack, clear);
+        below = stack_add(stack, (struct stack_node){
+                                     .kind = STACK_LAYER, .a = top, .b = below, .thickness = 0.01});
+    }
+}
+
+/* A sheet of one or two random slabs whose media scatter. */
+static inline void stack_make_sheet(struct stack *stack, int num_layers)
+{
+    stack->num_nodes = 0;
+    stack->is_sheet = 1;
+    int below = stack_random_top(stack, 0);
+    for (int i = 1; i < num_layers; ++i) {
+        int top = stack_random_top(stack, 0);
         below = stack_add(stack, (struct stack_node){
                                      .kind = STACK_LAYER, .a = top, .b = below, .thickness = 0.01});
     }
@@ -143,8 +157,9 @@ static inline void stack_write(const struct stack *stack, char out[STACK_TEXT])
         len += (size_t)stack_write_node(&stack->nodes[i], i, out + len, STACK_TEXT - len);
     snprintf(out + len, STACK_TEXT - len,
              "<slab_surface name='out' type='surfaceshader'>"
-             "<input name='bsdf' type='BSDF' nodename='n%d'/></slab_surface></materialx>",
-             stack->num_nodes - 1);
+             "<input name='bsdf' type='BSDF' nodename='n%d'/>"
+             "<input name='thin' type='boolean' value='%s'/></slab_surface></materialx>",
+             stack->num_nodes - 1, stack->is_sheet ? "true" : "false");
 }
 
 /* ---- Throughput of clear media, exactly ---- */
@@ -163,6 +178,33 @@ static inline double stack_throughput(const struct stack *stack, int at, double 
         return 1.0 - node->share * (1.0 - a);
     b = stack_throughput(stack, node->b, thickness, ways);
     return node->kind == STACK_LAYER ? a * b : node->share * a + (1.0 - node->share) * b;
+}
+
+/* ---- OpenPBR's layering (version 1.1, "Coat") ---- */
+
+/*
+ * What comes back from above `base`: a coat absorbs on both ways, and covers with its share. It
+ * does not scatter, and no light bounces below it.
+ */
+static inline double stack_openpbr(const struct stack *stack, int at, double thickness, double ways,
+                                   double base)
+{
+    const struct stack_node *node = &stack->nodes[at];
+    double a;
+    switch (node->kind) {
+    case STACK_SLAB:
+        return node->mfp > 0.0 ? base * exp(-ways * thickness / node->mfp) : node->albedo;
+    case STACK_LAYER:
+        base = stack_openpbr(stack, node->b, thickness, ways, base);
+        return stack_openpbr(stack, node->a, node->thickness, ways, base);
+    case STACK_MIX:
+        a = stack_openpbr(stack, node->a, thickness, ways, base);
+        return node->share * a
+               + (1.0 - node->share) * stack_openpbr(stack, node->b, thickness, ways, base);
+    default:
+        a = stack_openpbr(stack, node->a, thickness, ways, base);
+        return node->share * a + (1.0 - node->share) * base;
+    }
 }
 
 /* ---- The random walk ---- */

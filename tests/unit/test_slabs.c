@@ -187,9 +187,10 @@ static void test_many_tops(struct run *run)
 /* ---- Light that stacks reflect ---- */
 
 struct reflected {
-    double whole; /* by the walk */
-    double plain; /* without the way in, as a layer */
-    double both;  /* by the product of two one-way throughputs */
+    double whole;  /* by the walk */
+    double plain;  /* without the way in, as a layer */
+    double both;   /* by the product of two one-way throughputs */
+    double passed; /* light that shines through to the viewer */
 };
 
 static void reflect(struct run *run)
@@ -199,7 +200,7 @@ static void reflect(struct run *run)
     struct shader *shader = &g->result->shader;
     struct ir_graph *graph = &g->result->graph;
     struct closure_list list = lobes_of(run);
-    *out = (struct reflected){0.0, 0.0, 0.0};
+    *out = (struct reflected){.whole = 0.0};
     ir_ref mean = ir_const_float(graph, CLOSURE_MEAN_WAY), rest = ir_const_float(graph, 0.0f);
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         const struct closure_leaf *leaf = &list.leaves.items[i];
@@ -212,6 +213,8 @@ static void reflect(struct run *run)
         out->plain += reflects * once;
         out->both += reflects * once * once;
     }
+    ir_ref bsdf = ir_arg(graph, g->root, 0);
+    out->passed = value_of(run, closure_throughput(shader, &g->closure_host, bsdf, rest));
 }
 
 static struct reflected reflected_by(struct run *run, const struct stack *stack, double view)
@@ -225,29 +228,35 @@ static struct reflected reflected_by(struct run *run, const struct stack *stack,
 /* The walk is nearer to the truth than a layer in nine of ten stacks. */
 static void test_truth(struct run *run)
 {
-    unsigned nearer_plain = 0, nearer_both = 0;
-    double sum[3] = {0.0, 0.0, 0.0}, worst = 0.0;
+    enum { WALK, PLAIN, BOTH, OPENPBR, NUM_MODELS };
+    unsigned nearer_plain = 0, nearer_both = 0, nearer_openpbr = 0;
+    double sum[NUM_MODELS] = {0.0}, worst = 0.0;
     for (int i = 0; i < NUM_STACKS; ++i) {
         struct stack stack;
         stack_make(&stack, 1 + i % 4, i % 3 == 0, stack_between(0.2, 1.0));
         double view = stack_between(0.1, 1.0), truth = stack_walk(&stack, view, NUM_PATHS);
         struct reflected got = reflected_by(run, &stack, view);
-        double error[3] = {fabs(got.whole - truth), fabs(got.plain - truth),
-                           fabs(got.both - truth)};
-        nearer_plain += error[0] < error[1];
-        nearer_both += error[0] < error[2];
-        for (int k = 0; k < 3; ++k)
+        double openpbr = stack_openpbr(&stack, stack.num_nodes - 1, 0.01,
+                                       stack_way(view) + CLOSURE_MEAN_WAY, 0.0);
+        double error[NUM_MODELS] = {fabs(got.whole - truth), fabs(got.plain - truth),
+                                    fabs(got.both - truth), fabs(openpbr - truth)};
+        nearer_plain += error[WALK] < error[PLAIN];
+        nearer_both += error[WALK] < error[BOTH];
+        nearer_openpbr += error[WALK] < error[OPENPBR];
+        for (int k = 0; k < NUM_MODELS; ++k)
             sum[k] += error[k] / NUM_STACKS;
-        worst = fmax(worst, error[0]);
+        worst = fmax(worst, error[WALK]);
     }
     printf("%d stacks against a random walk: mean error %.4f, worst %.4f; without the way in %.4f; "
-           "two one-way throughputs %.4f\n",
-           NUM_STACKS, sum[0], worst, sum[1], sum[2]);
-    printf("nearer than without the way in: %u, than two one-way throughputs: %u\n", nearer_plain,
-           nearer_both);
+           "two one-way throughputs %.4f; OpenPBR %.4f\n",
+           NUM_STACKS, sum[WALK], worst, sum[PLAIN], sum[BOTH], sum[OPENPBR]);
+    printf(
+        "nearer than without the way in: %u, than two one-way throughputs: %u, than OpenPBR: %u\n",
+        nearer_plain, nearer_both, nearer_openpbr);
     REQUIRE(nearer_plain >= NUM_STACKS * 9 / 10);
     REQUIRE(nearer_both >= NUM_STACKS * 3 / 4); /* the same where all slabs are always there */
-    REQUIRE(sum[0] < 0.008 && worst < 0.05);
+    REQUIRE(nearer_openpbr >= NUM_STACKS / 2);  /* which is exact where nothing scatters */
+    REQUIRE(sum[WALK] < 0.008 && worst < 0.05);
 }
 
 /* What white matter reflects: partly there, thin, rough. */
@@ -278,6 +287,50 @@ static void test_furnace(struct run *run)
     measure_furnace(run, 0.9, &least, &most);
     printf("with interfaces: %.4f to %.4f\n", least, most);
     REQUIRE(least > 0.99 && most < 1.005);
+}
+
+/* No stack sends back more light than it gets, whatever its matter is. */
+static void test_energy(struct run *run)
+{
+    double most = 0.0;
+    for (int i = 0; i < 100; ++i) {
+        struct stack stack;
+        stack_make(&stack, i % 5, i % 3 == 0, stack_random());
+        for (int k = 0; k < stack.num_nodes; ++k) {
+            stack.nodes[k].f0 = stack_random();
+            stack.nodes[k].roughness = stack_random();
+        }
+        most = fmax(most, reflected_by(run, &stack, stack_between(0.05, 1.0)).whole);
+    }
+    printf("100 stacks in a furnace: at most %.4f\n", most);
+    REQUIRE(most <= 1.005);
+}
+
+/* Of a sheet that absorbs nothing, all light comes back or shines through. */
+static double worst_sheet(struct run *run, int num_layers)
+{
+    double worst = 0.0;
+    for (int i = 0; i < 40; ++i) {
+        struct stack stack;
+        stack_make_sheet(&stack, num_layers);
+        for (int k = 0; k < stack.num_nodes; ++k) {
+            stack.nodes[k].albedo = 1.0;
+            stack.nodes[k].f0 = i % 2 ? stack_between(0.0, 0.9) : 0.0;
+            stack.nodes[k].roughness = stack_random();
+        }
+        struct reflected got = reflected_by(run, &stack, stack_between(0.05, 1.0));
+        REQUIRE(got.passed > 0.01 && got.whole > 0.01);
+        worst = fmax(worst, fabs(got.whole + got.passed - 1.0));
+    }
+    return worst;
+}
+
+static void test_sheets(struct run *run)
+{
+    double one = worst_sheet(run, 1), two = worst_sheet(run, 2);
+    printf("white sheets, of one slab within %.4f, of two within %.4f\n", one, two);
+    REQUIRE(one < 0.01);
+    REQUIRE(two < 0.01);
 }
 
 /* ---- Light from single directions ---- */
@@ -345,6 +398,8 @@ int main(void)
     test_many_tops(&run);
     test_truth(&run);
     test_furnace(&run);
+    test_energy(&run);
+    test_sheets(&run);
     test_lights(&run);
     mxg_options_destroy(run.options);
     mxg_library_unref(run.library);

@@ -1,0 +1,115 @@
+#version 450
+// layered · surface · mxgen 0.1 · glsl · reduced · 3 closures · 0 textures
+
+struct mx_GgxLobe {
+    vec3 N;
+    float cosine;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+uniform vec3 u_viewPosition = vec3(0.0);
+uniform int u_numActiveLightSources = 0;
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+};
+uniform LightData u_lightData[1];
+in VertexData {
+    vec3 positionWorld;
+    vec3 normalWorld;
+    vec3 tangentWorld;
+} vd;
+out vec4 out1;
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(const mat4 m, const float x)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.05, 0.0025, 0.000125));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+vec2 mx_ggx_albedo_fit(const float u, const float c)
+{
+    float x = clamp(1.0 - c - 0.05 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+{
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), vec2(0.05),
+        sqrt(cosine * cosine + 0.0025 * (1.0 - cosine * cosine)));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    vec3 H = V + L;
+    vec2 slope = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
+{
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
+    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
+}
+
+// |(x + iy - u - iv) / (x + iy + u + iv)|^2
+float mx_fresnel_ratio(const vec2 x, const vec2 u)
+{
+    return dot(x - u, x - u) / dot(x + u, x + u);
+}
+
+// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
+// perpendicular part, the permittivity times the cosine in the parallel part.
+float mx_fresnel_conductor(const float cosine, const float re, const float im)
+{
+    vec2 u = mx_fresnel_refract(cosine, re, im);
+    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * vec2(re, im), u));
+}
+
+// One channel after the other, which needs a third of the registers.
+vec3 mx_fresnel_conductor(const float cosine)
+{
+    return vec3(mx_fresnel_conductor(cosine, -11.690287, 1.253184), mx_fresnel_conductor(cosine, -5.326475, 1.975332),
+        mx_fresnel_conductor(cosine, -1.2477709, 4.86042));
+}
+
+void main()
+{
+    vec3 color = vec3(0.0);
+    // lights
+    vec3 N = normalize(vd.normalWorld);
+    vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    vec3 facing = faceforward(N, -V, N);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
+    vec3 scaled_ggx_compensation = ((1.0 / mx_ggx_albedo_fit(0.05 / (cos_v + 0.05), cos_v).x - 1.0)
+        * vec3(0.94687736, 0.78681135, 0.40318817) + vec3(1.0)) * 0.15;
+    mx_GgxLobe metal_ggx_lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
+    for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
+        // metal, red, blue
+        float intensity = u_lightData[i].intensity;
+        vec3 L = -u_lightData[i].direction;
+        float scaled_cos_l = max(dot(L, facing), 1e-8) / 3.1415927;
+        vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(L, V) * 0.5 + 0.5, 1e-8, 1.0)));
+        vec3 metal_response = scaled_ggx_compensation * (mx_ggx_light(metal_ggx_lobe, V, L) * fresnel);
+        vec3 sum = scaled_cos_l * vec3(0.025, 0.05, 0.3) + (metal_response + scaled_cos_l * vec3(0.21, 0.035, 0.0175));
+        color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * sum;
+    }
+    out1 = vec4(color, 1.0);
+}
