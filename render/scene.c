@@ -247,7 +247,7 @@ static double studio_scale(const struct scene *scene)
 
 unsigned scene_light(const struct scene *scene, uint32_t index, const char *member, float out[3])
 {
-    const struct light *light = &lights[index];
+    const struct light *light = &lights[index % SCENE_NUM_LIGHTS];
     double direction[3], position[3], scale = studio_scale(scene);
     matrix_direction(scene->studio, light->direction, direction);
     vector_normalize(direction);

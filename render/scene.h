@@ -93,8 +93,8 @@ unsigned scene_uniform(const struct scene *scene, const struct scene_object *obj
                        const char *name, float out[16]);
 
 /*
- * Member "direction"… of light `index` below num_lights; returns the number of written components,
- * 0 if a light has none.
+ * Member "direction"… of light `index` below num_lights, of which three differ; returns the number
+ * of written components, 0 if a light has none.
  */
 unsigned scene_light(const struct scene *scene, uint32_t index, const char *member, float out[3]);
 

@@ -114,10 +114,17 @@ static ir_ref shape_of(struct builder *b, const struct build_part *parts, uint32
     return shape;
 }
 
-/* True if a material of one layer is its surface alone. */
-static bool is_plain(const struct build_part *parts, uint32_t num)
+/* True if the surface of a lone layer may be picked or not: it is not opaque. */
+static bool may_miss(struct builder *b, const struct build_part *part)
 {
-    return num == 1 && !parts->mask && !parts->cutout && !parts->normal;
+    ir_ref alpha = part->sides[0] ? alpha_of(b, part->sides[0], has_slabs(b)) : 0;
+    return b->shader->picks && alpha && !ir_const_is(b->graph, alpha, 1.0f);
+}
+
+/* True if a material of one layer is its surface alone. */
+static bool is_plain(struct builder *b, const struct build_part *parts, uint32_t num)
+{
+    return num == 1 && !parts->mask && !parts->cutout && !parts->normal && !may_miss(b, parts);
 }
 
 static bool has_back(const struct build_part *parts, uint32_t num)
@@ -205,7 +212,7 @@ static ir_ref displacement_of(struct builder *b, const struct build_part *parts,
 ir_ref build_compose(struct builder *b, struct build_part *parts, uint32_t num)
 {
     ir_ref args[4] = {0};
-    if (is_plain(parts, num)) {
+    if (is_plain(b, parts, num)) {
         args[0] = parts->sides[0];
         args[1] = parts->sides[1];
         args[2] = parts->displacement;

@@ -8,6 +8,8 @@
 
 #include "render/passes.h"
 
+#include <mxgen/scene.h>
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,6 +22,7 @@ struct bench {
     mxg_context *context;
     mxg_options *options;
     mxg_document *document;
+    mxg_bindings *bindings; /* NULL, or the stack 0 of these takes the place of elements */
 };
 
 /* A material on the sphere. */
@@ -39,14 +42,15 @@ static bool make(struct bench *b, const char *element, const char *pipeline, con
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
-    desc.element = element;
+    desc.element = b->bindings ? NULL : element;
+    desc.bindings = b->bindings;
     desc.options = b->options;
     mxg_options_set(b->options, "pipeline", pipeline);
     mxg_options_set(b->options, "storage", storage);
     mxg_status status = mxg_generate(b->context, b->document, &desc, out);
     mxg_diagnostic first = {sizeof first};
     if (*out && mxg_diagnostics_get(mxg_result_diagnostics(*out), 0, &first) == MXG_OK
-        && first.severity >= MXG_SEVERITY_WARNING)
+        && first.severity <= MXG_SEVERITY_WARNING)
         printf("%s: %s\n", element, first.message);
     return REQUIRE_EQ(status, MXG_OK);
 }
@@ -250,6 +254,88 @@ static void test_views(struct bench *b)
     }
 }
 
+/* ---- Stacks ---- */
+
+enum { NUM_LAYERS = 8 };
+
+/* Eight layers of slabs, each with its colour, roughness and, but for the first, mask. */
+static void write_layers(char *text, size_t size)
+{
+    size_t len =
+        (size_t)snprintf(text, size, "<materialx version='1.39'><normal name='n' type='vector3'/>");
+    for (int i = 0; i < NUM_LAYERS; ++i)
+        len += (size_t)snprintf(
+            text + len, size - len,
+            "<slab name='b%d' type='BSDF'><input name='diffuse_albedo' type='color3' "
+            "value='0.%d, 0.%d, 0.%d'/><input name='roughness' type='float' value='0.%d'/></slab>"
+            "<slab_surface name='s%d' type='surfaceshader'>"
+            "<input name='bsdf' type='BSDF' nodename='b%d'/></slab_surface>"
+            "<dotproduct name='d%d' type='float'><input name='in1' type='vector3' nodename='n'/>"
+            "<input name='in2' type='vector3' value='0.%d, -0.%d, 0.%d'/></dotproduct>"
+            "<smoothstep name='k%d' type='float'><input name='in' type='float' nodename='d%d'/>"
+            "<input name='low' type='float' value='-0.3'/></smoothstep>"
+            "<substance name='m%d' type='material'>"
+            "<input name='surfaceshader' type='surfaceshader' nodename='s%d'/>"
+            "<input name='mask' type='float' %s/></substance>",
+            i, i + 1, 3 * i % 8 + 1, 5 * i % 8 + 1, i + 2, i, i, i, 2 * i % 9, 4 * i % 9, 5 * i % 9,
+            i, i, i, i,
+            i ? (const char[]){'n', 'o', 'd', 'e', 'n', 'a', 'm', 'e', '=', '\'', 'k',
+                               (char)('0' + i), '\'', 0}
+              : "value='1'");
+    len += (size_t)snprintf(text + len, size - len, "<look name='L'>");
+    for (int i = 0; i < NUM_LAYERS; ++i)
+        len += (size_t)snprintf(text + len, size - len,
+                                "<materialassign name='a%d' slot='00%d' material='m%d' geom='/'/>",
+                                i, i, i);
+    snprintf(text + len, size - len, "</look></materialx>");
+}
+
+/* The most closures that a pixel of the middle column stores. */
+static uint32_t most_closures(struct drawing *d)
+{
+    uint32_t words[MAX_WORDS] = {0}, most = 0;
+    for (uint32_t y = 0; y < SIZE; y += 4)
+        if (REQUIRE(stored_read(d->passes.stored, SIZE / 2, y, words, 3)) && words[0]
+            && (words[1] >> 28) + 1 > most)
+            most = (words[1] >> 28) + 1;
+    return most;
+}
+
+/* Each layer is stored where its mask is not 0; a budget makes fewer slabs of them. */
+static void test_stack(struct bench *b)
+{
+    static const char *const path = "/ball";
+    static char text[1 << 14];
+    mxg_scene *scene = NULL;
+    struct drawing d;
+    write_layers(text, sizeof text);
+    mxg_document_destroy(b->document);
+    b->document = NULL;
+    if (!REQUIRE_EQ(mxg_document_parse(b->context, mxg_library_builtin(b->context), "layers.mtlx",
+                                       text, strlen(text), &b->document),
+                    MXG_OK)
+        || !REQUIRE_EQ(mxg_scene_create(b->context, &scene), MXG_OK)
+        || !REQUIRE_EQ(mxg_scene_add(scene, &path, 1), MXG_OK)
+        || !REQUIRE_EQ(mxg_bind(b->context, b->document, scene, NULL, &b->bindings), MXG_OK))
+        return;
+    REQUIRE_EQ(mxg_bindings_num_stacks(b->bindings), 1);
+    test_picture(b, "eight layers");
+    if (draw(b, "eight layers", "round", UINT32_MAX, &d))
+        REQUIRE_EQ(most_closures(&d), NUM_LAYERS);
+    close_drawing(&d);
+    mxg_options_set(b->options, "max-closures", "3");
+    test_picture(b, "three slabs");
+    if (draw(b, "three slabs", "round", UINT32_MAX, &d)) {
+        uint32_t most = most_closures(&d);
+        REQUIRE(most > 0 && most <= 3);
+    }
+    close_drawing(&d);
+    mxg_options_set(b->options, "max-closures", "0");
+    mxg_bindings_destroy(b->bindings);
+    b->bindings = NULL;
+    mxg_scene_destroy(scene);
+}
+
 static bool open_document(struct bench *b, const char *folder, const char *name)
 {
     char path[1024];
@@ -295,6 +381,7 @@ int main(int argc, char **argv)
     if (open_document(&b, argv[2], "materials.mtlx"))
         for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
             test_picture(&b, others[i]);
+    test_stack(&b);
     mxg_document_destroy(b.document);
     mxg_options_destroy(b.options);
     mxg_context_destroy(b.context);
