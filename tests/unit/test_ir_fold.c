@@ -341,8 +341,8 @@ static void test_known(void)
         strpool_init(&strings, &arena, NULL);
         ir_graph_init(&graph, &arena, &strings);
         graph.no_fold = no_fold;
-        ir_ref a = ir_build(&graph, IR_PARAM, IR_TYPE_FLOAT, 0, NULL, 0);
-        ir_ref b = ir_build(&graph, IR_PARAM, IR_TYPE_FLOAT, 1, NULL, 0);
+        ir_ref a = ir_build(&graph, IR_UNIFORM, IR_TYPE_FLOAT, 0, NULL, 0);
+        ir_ref b = ir_build(&graph, IR_UNIFORM, IR_TYPE_FLOAT, 1, NULL, 0);
         ir_ref same = ir_op2(&graph, IR_EQ, a, a), other = ir_op2(&graph, IR_EQ, a, b);
         REQUIRE_EQ(ir_op1(&graph, IR_KNOWN, same), ir_const_bool(&graph, !no_fold));
         REQUIRE_EQ(ir_op1(&graph, IR_KNOWN, other), ir_const_bool(&graph, false));
