@@ -66,9 +66,13 @@ nan, inf = float("nan"), float("inf")
 for name, value in ("nan", nan), ("inf", inf):
     open(f"{name}.pfm", "wb").write(b"PF\n2 1\n-1.0\n" + struct.pack("<6f", value, 0, 0, 1, 1, 1))
 P
-for kilobytes in $(seq 700000 100000 2000000); do
-    check "an image in $kilobytes KB of memory" exits 1 bash -c "ulimit -v $kilobytes && '$mean_ratio' channels.exr channels.exr"
-done
+if [ -n "${SANITIZER:-}" ]; then
+    skip 'a program with a sanitizer maps terabytes: its memory has no limit'
+else
+    for kilobytes in $(seq 700000 100000 2000000); do
+        check "an image in $kilobytes KB of memory" exits 1 bash -c "ulimit -v $kilobytes && '$mean_ratio' channels.exr channels.exr"
+    done
+fi
 
 if ! has_device "$render"; then
     skip 'there is no Vulkan device'
