@@ -114,17 +114,25 @@ static ir_ref shape_of(struct builder *b, const struct build_part *parts, uint32
     return shape;
 }
 
-/* True if the surface of a lone layer may be picked or not: it is not opaque. */
-static bool may_miss(struct builder *b, const struct build_part *part)
+/*
+ * True if the only layer of a stack is not simply its surface: without one it is nothing, and where
+ * it is not opaque it moves vertices less, and may be picked or not. A material that is no layer
+ * keeps what the specification says of it.
+ */
+static bool is_partial(struct builder *b, const struct build_part *part)
 {
-    ir_ref alpha = part->sides[0] ? alpha_of(b, part->sides[0], has_slabs(b)) : 0;
-    return b->shader->picks && alpha && !ir_const_is(b->graph, alpha, 1.0f);
+    if (!*part->slot)
+        return false;
+    if (!part->sides[0])
+        return !part->sides[1];
+    ir_ref alpha = alpha_of(b, part->sides[0], has_slabs(b));
+    return (b->shader->picks || part->displacement) && alpha && !ir_const_is(b->graph, alpha, 1.0f);
 }
 
 /* True if a material of one layer is its surface alone. */
 static bool is_plain(struct builder *b, const struct build_part *parts, uint32_t num)
 {
-    return num == 1 && !parts->mask && !parts->cutout && !parts->normal && !may_miss(b, parts);
+    return num == 1 && !parts->mask && !parts->cutout && !parts->normal && !is_partial(b, parts);
 }
 
 static bool has_back(const struct build_part *parts, uint32_t num)

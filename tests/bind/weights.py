@@ -18,7 +18,8 @@ from shader_python import UP, Vec, mattes_of, run, unit
 
 MXGEN, NUM, SEED = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]), int(sys.argv[3])
 SAMPLES = 4096
-LONE = 20309  # a layer alone, which is not opaque
+# A layer alone: not opaque; without surface; not opaque, with displacement.
+LONE = 20309, 3129, 3325
 MODES = {"blend": [], "stochastic": ["--slots", "stochastic"]}
 
 
@@ -200,6 +201,6 @@ def test(seed, folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for seed in (LONE, *range(SEED, SEED + NUM)):
+    for seed in (*LONE, *range(SEED, SEED + NUM)):
         test(seed, pathlib.Path(name))
 finish("bind-weights")
