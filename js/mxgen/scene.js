@@ -327,20 +327,23 @@ export class Bindings extends Owner {
         return this._native.lib.mxg_bindings_num_resolved(this._pointer);
     }
 
+    /** The structs of a primitive; `source` is the primitive that each comes from. */
+    #records(struct, count, get, primitive) {
+        const number = this.#number(primitive);
+        const found = this._native.records(struct, count(this._pointer, number), (index, out) => get(this._pointer, number, index, out));
+        return found.map(({ from, ...record }) => ({ ...record, source: this.scene._primitive(from) }));
+    }
+
     /** The layers of a primitive, base first; a product, override or vertical layer follows its layer. */
     layers(primitive) {
-        const { lib } = this._native, number = this.#number(primitive);
-        const found = this._native.records("mxg_layer", lib.mxg_bindings_num_layers(this._pointer, number),
-                                           (index, out) => lib.mxg_bindings_layer(this._pointer, number, index, out));
-        return found.map(({ from, ...layer }) => ({ ...layer, source: this.scene._primitive(from) }));
+        const { lib } = this._native;
+        return this.#records("mxg_layer", lib.mxg_bindings_num_layers, lib.mxg_bindings_layer, primitive);
     }
 
     /** Properties, tokens and visibility of a primitive: the strongest of each kind, name and target. */
     facts(primitive) {
-        const { lib } = this._native, number = this.#number(primitive);
-        const found = this._native.records("mxg_fact", lib.mxg_bindings_num_facts(this._pointer, number),
-                                           (index, out) => lib.mxg_bindings_fact(this._pointer, number, index, out));
-        return found.map(({ from, ...fact }) => ({ ...fact, source: this.scene._primitive(from) }));
+        const { lib } = this._native;
+        return this.#records("mxg_fact", lib.mxg_bindings_num_facts, lib.mxg_bindings_fact, primitive);
     }
 
     /** The different stacks of the scene. */

@@ -159,10 +159,17 @@ export class Shader extends Owner {
 
     /** The buffer of a block of uniforms with the default values, ready for upload. */
     pack(block) {
+        return this.#filled(block, () => {});
+    }
+
+    /** The buffer of a block with its defaults, after `change` has written into it. */
+    #filled(block, change) {
         const native = this._native, number = numberOf("mxg_block", block, "block");
         return native.using(() => {
             const size = native.lib.mxg_result_pack(this._pointer, number, 0, 0), data = native.space(size);
             native.lib.mxg_result_pack(this._pointer, number, data, size);
+            if (size)
+                change(number, data, size);
             return native.bytes(data, size).slice();
         });
     }
@@ -172,16 +179,12 @@ export class Shader extends Owner {
      * Throws ArgumentError if an input of the block has no value there, for example because it is connected.
      */
     packFrom(document, block) {
-        const native = this._native, number = numberOf("mxg_block", block, "block");
         expect(document, Document, "document");
-        return native.using(() => {
-            const size = native.lib.mxg_result_pack(this._pointer, number, 0, 0), data = native.space(size);
-            native.lib.mxg_result_pack(this._pointer, number, data, size);
-            const status = size ? native.lib.mxg_document_values(document._pointer, this._pointer, number, data, size) : STATUS.ok;
+        return this.#filled(block, (number, data, size) => {
+            const status = this._native.lib.mxg_document_values(document._pointer, this._pointer, number, data, size);
             if (status === STATUS.errorDocument)
                 throw new ArgumentError("an input of the block has no value in the document");
-            native.check(status, status === STATUS.errorArgument ? "the document has another library" : "");
-            return native.bytes(data, size).slice();
+            this._native.check(status, status === STATUS.errorArgument ? "the document has another library" : "");
         });
     }
 

@@ -510,29 +510,24 @@ class Bindings(Native):
         """The number of primitives whose assignments were found: all, or with `previous` those at or below a difference."""
         return int(lib.mxg_bindings_num_resolved(self._handle.pointer))
 
+    def _records(self, struct: str, count: Any, get: Any, primitive: Primitive | str) -> Iterator[dict[str, Any]]:
+        """The members of each struct of a primitive; `source` is the primitive that it comes from."""
+        number, pointer = self._number(primitive), self._handle.pointer
+        for index in range(count(pointer, number)):
+            values = record(struct, get, pointer, number, index)
+            assert values is not None
+            values["source"] = self.scene._primitive(values.pop("from"))
+            yield values
+
     def layers(self, primitive: Primitive | str) -> tuple[Layer, ...]:
         """The layers of a primitive, base first; a product, override or vertical layer follows its layer."""
-        number = self._number(primitive)
-        pointer = self._handle.pointer
-        found = []
-        for index in range(lib.mxg_bindings_num_layers(pointer, number)):
-            values = record("mxg_layer", lib.mxg_bindings_layer, pointer, number, index)
-            assert values is not None
-            source = self.scene._primitive(values.pop("from"))
-            found.append(Layer(kind=LayerKind(values.pop("kind")), source=source, **values))
-        return tuple(found)
+        found = self._records("mxg_layer", lib.mxg_bindings_num_layers, lib.mxg_bindings_layer, primitive)
+        return tuple(Layer(kind=LayerKind(values.pop("kind")), **values) for values in found)
 
     def facts(self, primitive: Primitive | str) -> tuple[Fact, ...]:
         """Properties, tokens and visibility of a primitive: the strongest of each kind, name and target."""
-        number = self._number(primitive)
-        pointer = self._handle.pointer
-        found = []
-        for index in range(lib.mxg_bindings_num_facts(pointer, number)):
-            values = record("mxg_fact", lib.mxg_bindings_fact, pointer, number, index)
-            assert values is not None
-            source = self.scene._primitive(values.pop("from"))
-            found.append(Fact(kind=FactKind(values.pop("kind")), source=source, **values))
-        return tuple(found)
+        found = self._records("mxg_fact", lib.mxg_bindings_num_facts, lib.mxg_bindings_fact, primitive)
+        return tuple(Fact(kind=FactKind(values.pop("kind")), **values) for values in found)
 
     @property
     def stacks(self) -> tuple[Stack, ...]:
