@@ -14,10 +14,11 @@ near() { awk -v a="$1" -v b="$2" 'BEGIN { print a; exit !(a > b - 0.03 && a < b 
 
 # compare NAME EXPECTED DOCUMENT [OF-WHAT-IS-DRAWN] [OF-WHAT-IS-TRACED] [LIGHTS]
 compare() {
-    local name=$1 expected=$2 document=$3 lights=${6:-none}
+    local name=$1 expected=$2 document=$3 lights=${6:-none} samples='--samples 256'
+    [[ ${4:-} != *'--environment none'* ]] || samples=
     rm -f drawn.exr traced.exr
     # shellcheck disable=SC2086 # arguments, divided by spaces
-    check "$name is drawn" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --size 64 --samples 256 ${4:-} -o drawn.exr
+    check "$name is drawn" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --size 64 $samples ${4:-} -o drawn.exr
     # shellcheck disable=SC2086
     check "$name is traced" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --path-trace --paths 64 --size 64 ${5:-} -o traced.exr
     check "$name agrees" near "$("$mean_ratio" drawn.exr traced.exr)" "$expected"
