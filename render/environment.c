@@ -66,6 +66,15 @@ static bool make_map(struct image *out, uint32_t width, uint32_t height,
     return out->pixels != NULL;
 }
 
+bool environment_make_plain(float value, struct image *out)
+{
+    *out = (struct image){.width = 4, .height = 2, .is_float = true};
+    float *texel = out->pixels = malloc(8 * 4 * sizeof *texel);
+    for (size_t i = 0; texel && i < 8 * 4; ++i)
+        texel[i] = i % 4 == 3 ? 1 : value;
+    return texel != NULL;
+}
+
 bool environment_make(struct image *radiance, struct image *irradiance)
 {
     return make_map(radiance, 256, 128, environment_radiance)

@@ -21,7 +21,8 @@
 #include <strings.h>
 #include <unistd.h>
 
-#define OVERSAMPLING 2 /* samples per pixel and axis */
+#define OVERSAMPLING 2  /* samples per pixel and axis */
+#define MAX_LIGHTS 1024 /* of --max-lights */
 
 /* The studio takes any mesh. The other scenes are fixed, for tests and patterns. */
 enum scene_kind { SCENE_STUDIO, SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
@@ -308,19 +309,57 @@ static void apply_unit(struct job *job)
             mxg_options_set(job->cli.options, "distance-unit", units[i].name);
 }
 
+/* Shaders have the types of the stage's lights alone, and no environment where it has none. */
+static void apply_lights(struct job *job)
+{
+    static const struct {
+        enum light_type type;
+        const char *name;
+    } types[] = {{LIGHT_DIRECTIONAL, "directional_light"},
+                 {LIGHT_SPHERE, "sphere_light"},
+                 {LIGHT_DISK, "disk_light"}};
+    const struct stage *stage = &job->stage;
+    char text[128] = "", number[16];
+    if (!stage->lights_scene)
+        return;
+    for (size_t t = 0; t < sizeof types / sizeof *types; ++t)
+        for (uint32_t i = 0; i < stage->num_lights; ++i)
+            if (stage->lights[i].type == types[t].type) {
+                size_t len = strlen(text);
+                snprintf(text + len, sizeof text - len, "%s%s=%d", len ? "," : "", types[t].name,
+                         types[t].type);
+                break;
+            }
+    if (args_is_given(&job->cli.parser, "lights") && stage->num_lights)
+        report_warning(&job->cli.report, "light-left-out",
+                       "--lights has other types than the lights of the stage, which are dark");
+    else if (!args_is_given(&job->cli.parser, "lights"))
+        mxg_options_set(job->cli.options, "lights", *text ? text : "none");
+    snprintf(number, sizeof number, "%u",
+             stage->num_lights < MAX_LIGHTS ? stage->num_lights : MAX_LIGHTS);
+    if (stage->num_lights > SCENE_NUM_LIGHTS && !args_is_given(&job->cli.parser, "max-lights"))
+        mxg_options_set(job->cli.options, "max-lights", number);
+    if (stage->num_lights > MAX_LIGHTS)
+        report_warning(&job->cli.report, "light-left-out",
+                       "the stage has %u lights; the first %d light the picture", stage->num_lights,
+                       MAX_LIGHTS);
+    if (!stage->has_dome && !job->options.environments.len) {
+        mxg_options_set(job->cli.options, "environment", "none");
+        job->painter.trace.dark = true;
+    }
+}
+
 static bool make_stage(struct job *job)
 {
     struct painter *painter = &job->painter;
-    struct studio_fault fault;
     double aspect = (double)painter->width / painter->height;
     if (!stage_open(&job->stage, job->cli.context, &job->cli.report, job->options.stage,
                     job->options.purpose))
         return false;
     apply_unit(job);
-    if (!studio_open_light(&painter->studio, &painter->scene, &fault)) {
-        report_error(&job->cli.report, fault.id, "%s", fault.text);
+    if (!stage_light(&job->stage, &painter->studio, &painter->scene))
         return false;
-    }
+    apply_lights(job);
     tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
     return stage_aim(&job->stage, &painter->studio, names_camera(job) ? job->options.camera : NULL,
                      job->options.camera && !names_camera(job), aspect, &painter->scene);

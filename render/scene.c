@@ -224,18 +224,10 @@ unsigned scene_uniform(const struct scene *scene, const struct scene_object *obj
 
 /* ---- Lights ---- */
 
-enum light_type { LIGHT_DIRECTIONAL = 1, LIGHT_POINT = 2 };
-
-struct light {
-    enum light_type type;
-    double direction[3]; /* not unit */
-    double position[3], color[3], intensity, decay_rate;
-};
-
-static const struct light lights[SCENE_NUM_LIGHTS] = {
-    {LIGHT_DIRECTIONAL, {-0.6, -0.7, -0.4}, {0, 0, 0}, {1.0, 0.95, 0.9}, 2.0, 0},
-    {LIGHT_DIRECTIONAL, {0.8, -0.2, -0.55}, {0, 0, 0}, {0.4, 0.55, 0.9}, 0.9, 0},
-    {LIGHT_POINT, {-1.4, -1.1, -2.2}, {1.4, 1.1, 2.2}, {1.0, 0.8, 0.6}, 9.0, 2.0},
+static const struct scene_light studio_lights[SCENE_NUM_LIGHTS] = {
+    {LIGHT_DIRECTIONAL, {-0.6, -0.7, -0.4}, {0}, {1.0, 0.95, 0.9}, 2.0, 0, 0, 0, 0},
+    {LIGHT_DIRECTIONAL, {0.8, -0.2, -0.55}, {0}, {0.4, 0.55, 0.9}, 0.9, 0, 0, 0, 0},
+    {LIGHT_POINT, {-1.4, -1.1, -2.2}, {1.4, 1.1, 2.2}, {1.0, 0.8, 0.6}, 9.0, 2.0, 0, 0, 0},
 };
 
 /* How much larger the world is than the studio. */
@@ -245,10 +237,27 @@ static double studio_scale(const struct scene *scene)
     return sqrt(column[0] * column[0] + column[1] * column[1] + column[2] * column[2]);
 }
 
+static const struct scene_light *light_at(const struct scene *scene, uint32_t index)
+{
+    return scene->stage_lights ? &scene->stage_lights[index % scene->num_stage_lights]
+                               : &studio_lights[index % SCENE_NUM_LIGHTS];
+}
+
 unsigned scene_light(const struct scene *scene, uint32_t index, const char *member, float out[3])
 {
-    const struct light *light = &lights[index % SCENE_NUM_LIGHTS];
+    const struct scene_light *light = light_at(scene, index);
     double direction[3], position[3], scale = studio_scale(scene);
+    bool has_size = light->type == LIGHT_SPHERE || light->type == LIGHT_DISK;
+    const struct {
+        const char *name;
+        double value;
+        bool is_given;
+    } numbers[] = {{"type", light->type, true},
+                   {"intensity", light->intensity * pow(scale, light->decay_rate), true},
+                   {"decay_rate", light->decay_rate, true},
+                   {"radius", light->radius, has_size},
+                   {"inner_angle", light->inner, has_size},
+                   {"outer_angle", light->outer, has_size}};
     matrix_direction(scene->studio, light->direction, direction);
     vector_normalize(direction);
     matrix_point(scene->studio, light->position, position);
@@ -258,15 +267,12 @@ unsigned scene_light(const struct scene *scene, uint32_t index, const char *memb
         return store_vector(position, out);
     if (strcmp(member, "color") == 0)
         return store_vector(light->color, out);
-    if (strcmp(member, "type") == 0)
-        out[0] = (float)light->type;
-    else if (strcmp(member, "intensity") == 0)
-        out[0] = (float)(light->intensity * pow(scale, light->decay_rate));
-    else if (strcmp(member, "decay_rate") == 0)
-        out[0] = (float)light->decay_rate;
-    else
-        return 0;
-    return 1;
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i)
+        if (numbers[i].is_given && strcmp(member, numbers[i].name) == 0) {
+            out[0] = (float)numbers[i].value;
+            return 1;
+        }
+    return 0;
 }
 
 const struct image *scene_image(const struct scene *scene, const char *name)

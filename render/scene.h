@@ -37,13 +37,27 @@ struct scene_object {
     const char *path;
 };
 
+/* The types of lights, as numbers of --lights. */
+enum light_type { LIGHT_DIRECTIONAL = 1, LIGHT_POINT, LIGHT_SPHERE = 4, LIGHT_DISK };
+
+/* A light; each type uses some of the members. */
+struct scene_light {
+    enum light_type type;
+    double direction[3]; /* not unit */
+    double position[3], color[3], intensity, decay_rate;
+    double radius, inner, outer; /* cosines of the angles of a cone; NO_CONE: none */
+};
+#define NO_CONE (-2.0)
+
 struct scene {
     struct scene_object object;
     struct matrix view, projection;
     double eye[3], target[3];
-    struct matrix studio; /* from the studio, where lights are, to the world */
+    struct matrix studio; /* from the space of the lights to the world */
     double near;          /* a distance that nothing has */
     uint32_t num_lights;
+    const struct scene_light *stage_lights; /* NULL: the studio's */
+    uint32_t num_stage_lights;
     uint32_t environment_samples;
     int32_t frame;
     double layer_sample; /* picks a layer of each stack; below 0: another number at each point */
@@ -93,8 +107,8 @@ unsigned scene_uniform(const struct scene *scene, const struct scene_object *obj
                        const char *name, float out[16]);
 
 /*
- * Member "direction"… of light `index` below num_lights, of which three differ; returns the number
- * of written components, 0 if a light has none.
+ * Member "direction"… of a light of any index; the studio's three, or those of a stage, repeat.
+ * Returns the number of written components, 0 if the light has none.
  */
 unsigned scene_light(const struct scene *scene, uint32_t index, const char *member, float out[3]);
 
@@ -106,6 +120,8 @@ void scene_backdrop(const struct scene *scene, double x, double y, double out[3]
 
 /* environment.c: maps of a clear sky. False: out of memory. */
 bool environment_make(struct image *radiance, struct image *irradiance);
+/* A map of one value all around. */
+bool environment_make_plain(float value, struct image *out);
 /* The radiance from direction d (unit). */
 void environment_radiance(const double d[3], float out[3]);
 /* The direction of a texel's centre. */

@@ -34,23 +34,51 @@ struct scene_object *stage_add(struct stage *stage, uint32_t primitive, struct m
     return &added->object;
 }
 
+/* What a message is about: "'/a.points' (a.usda:3:5)", or the path alone. The caller frees it. */
+static char *subject_of(const struct stage *stage, uint32_t primitive, const char *property)
+{
+    mxg_property at = {sizeof at};
+    char *path = stage_path(stage->scene, primitive), *subject;
+    if (property && mxg_scene_find_property(stage->scene, primitive, property, &at))
+        subject = cli_format("'%s.%s' (%s:%u:%u)", path, property, at.file, at.line, at.column);
+    else if (mxg_scene_property(stage->scene, primitive, 0, &at) == MXG_OK)
+        subject = cli_format("'%s' (%s:%u)", path, at.file, at.line);
+    else
+        subject = cli_format("'%s'", path);
+    free(path);
+    return subject;
+}
+
 void stage_fail(struct stage *stage, uint32_t primitive, const char *property, const char *format,
                 ...)
 {
-    char reason[256];
+    char reason[256], *subject = subject_of(stage, primitive, property);
     va_list args;
     va_start(args, format);
     vsnprintf(reason, sizeof reason, format, args);
     va_end(args);
-    mxg_property at = {sizeof at};
-    char *path = stage_path(stage->scene, primitive);
-    if (property && mxg_scene_find_property(stage->scene, primitive, property, &at))
-        report_error(&*stage->report, "bad-geometry", "'%s.%s' (%s:%u:%u) %s", path, property,
-                     at.file, at.line, at.column, reason);
-    else
-        report_error(stage->report, "bad-geometry", "'%s' %s", path, reason);
-    free(path);
+    report_error(stage->report, "bad-geometry", "%s %s", subject, reason);
+    free(subject);
     stage->has_fault = true;
+}
+
+void stage_warn(struct stage *stage, const char *id, uint32_t primitive, const char *property,
+                const char *format, ...)
+{
+    char reason[256], *subject = subject_of(stage, primitive, property);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(reason, sizeof reason, format, args);
+    va_end(args);
+    report_warning(stage->report, id, "%s %s", subject, reason);
+    free(subject);
+}
+
+void stage_add_light(struct stage *stage, struct scene_light light)
+{
+    stage->is_lit = true;
+    stage->lights = memory_resize(stage->lights, (stage->num_lights + 1) * sizeof *stage->lights);
+    stage->lights[stage->num_lights++] = light;
 }
 
 /* ---- Files ---- */
@@ -72,7 +100,7 @@ static bool open_usd(struct stage *stage, mxg_context *context, const char *path
 bool stage_open(struct stage *stage, mxg_context *context, struct report *report, const char *path,
                 const char *purpose)
 {
-    *stage = (struct stage){.report = report};
+    *stage = (struct stage){.report = report, .file = path};
     if (!(stage_kind(path) == STAGE_USD ? open_usd(stage, context, path, purpose)
                                         : stage_import(stage, context, path)))
         return false;
@@ -100,6 +128,8 @@ void stage_close(struct stage *stage)
     for (uint32_t i = 0; i < stage->num_cameras; ++i)
         free(stage->cameras[i].path);
     free(stage->cameras);
+    free(stage->lights);
+    image_finish(&stage->dome);
     free(stage->objects);
     mxg_scene_destroy(stage->scene);
 }
@@ -137,8 +167,7 @@ static struct matrix upright(const struct stage *stage)
     return stage->is_z_up ? matrix_rotation((const double[3]){1, 0, 0}, -90) : matrix_identity();
 }
 
-/* Rotation and place without scale, which a camera may inherit. */
-static struct matrix rigid(struct matrix m)
+struct matrix stage_rigid(struct matrix m)
 {
     double x[3], y[3], z[3];
     memcpy(y, m.m[1], sizeof y);
@@ -156,7 +185,7 @@ static struct matrix rigid(struct matrix m)
 static void use_camera(const struct stage_camera *camera, double aspect, double radius,
                        const double centre[3], struct scene *scene)
 {
-    struct matrix world = rigid(camera->world);
+    struct matrix world = stage_rigid(camera->world);
     double distance = 0;
     /* all of its frame is in the picture */
     double half = fmax(camera->height, camera->width / aspect);
@@ -200,6 +229,33 @@ static const struct stage_camera *find_camera(const struct stage *stage, const c
     return NULL;
 }
 
+bool stage_light(struct stage *stage, const struct studio *studio, struct scene *scene)
+{
+    struct studio_fault fault;
+    struct image map = {0};
+    stage->lights_scene = stage->is_lit && !studio->environment;
+    if (stage->lights_scene && stage->has_dome) {
+        map = stage->dome;
+        stage->dome = (struct image){0};
+    } else if (stage->lights_scene && !environment_make_plain(0, &map)) {
+        return report_status(stage->report, MXG_ERROR_MEMORY);
+    }
+    if (!studio_open_light(studio, map, scene, &fault)) {
+        report_error(stage->report, fault.id, "%s", fault.text);
+        return false;
+    }
+    if (!stage->lights_scene)
+        return true;
+    scene->num_lights = stage->num_lights;
+    scene->stage_lights = stage->lights;
+    scene->num_stage_lights = stage->num_lights;
+    /* the middle of a map is at +z in USD, and at -z in MaterialX */
+    if (stage->has_dome)
+        scene->environment =
+            matrix_multiply(matrix_scale(-1, 1, -1), matrix_inverse(stage->dome_world));
+    return true;
+}
+
 bool stage_aim(const struct stage *stage, const struct studio *studio, const char *camera,
                bool is_orbit, double aspect, struct scene *scene)
 {
@@ -219,6 +275,8 @@ bool stage_aim(const struct stage *stage, const struct studio *studio, const cha
     else
         use_orbit(studio, aspect, up, radius, centre, scene);
     scene->near = SCENE_NEAR * radius;
+    if (stage->lights_scene)
+        return true;
     scene->environment = up;
     scene->studio =
         matrix_multiply(matrix_translation(centre[0], centre[1], centre[2]),

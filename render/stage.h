@@ -22,12 +22,19 @@ struct stage_camera {
 
 struct stage {
     struct report *report;
+    const char *file;
     mxg_scene *scene;
     struct stage_object *objects;
     uint32_t num_objects, capacity;
     struct stage_camera *cameras;
     uint32_t num_cameras;
-    double meters_per_unit; /* 0: unknown */
+    struct scene_light *lights;
+    uint32_t num_lights;
+    struct image dome;        /* the environment; no pixels: none */
+    struct matrix dome_world; /* from USD's map to the world: a rotation */
+    bool has_dome, is_lit;    /* is_lit: it has lights, also such as are left out */
+    bool lights_scene;        /* they are the light of the picture */
+    double meters_per_unit;   /* 0: unknown */
     bool is_z_up;
     bool has_fault; /* an error was reported */
 };
@@ -43,7 +50,13 @@ void stage_close(struct stage *stage);
 void stage_list(const struct stage *stage);
 
 /*
- * Places the camera, light and environment of the studio around the stage. `camera` is the path of
+ * Lights the scene: by the stage where it has lights, unless `studio` has a map; by the studio
+ * otherwise. false after reporting an error.
+ */
+bool stage_light(struct stage *stage, const struct studio *studio, struct scene *scene);
+
+/*
+ * Places the camera around the stage, and the light of the studio. `camera` is the path of
  * a camera; NULL: the first, or the studio's, which also stands in where the stage has none;
  * `is_orbit` takes the studio's. false after reporting an error.
  */
@@ -63,7 +76,17 @@ __attribute__((format(printf, 4, 5)))
 void stage_fail(struct stage *stage, uint32_t primitive, const char *property, const char *format,
                 ...);
 
-/* stage_usd.c: adds the objects and cameras of a scene of USD. */
+/* The same as a warning, of its own id. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 5, 6)))
+#endif
+void stage_warn(struct stage *stage, const char *id, uint32_t primitive, const char *property,
+                const char *format, ...);
+void stage_add_light(struct stage *stage, struct scene_light light);
+/* Rotation and place without scale. */
+struct matrix stage_rigid(struct matrix m);
+
+/* stage_usd.c: adds the objects, cameras and lights of a scene of USD. */
 void stage_read_usd(struct stage *stage);
 /* stage_import.c: reads a file through Assimp, with its hierarchy as paths. */
 bool stage_import(struct stage *stage, mxg_context *context, const char *path);
@@ -83,6 +106,9 @@ struct matrix usd_transform(struct stage *stage, uint32_t primitive, bool *out_r
 
 /* usd_mesh.c: adds the objects of a Mesh: its own, and those of its subsets. */
 void usd_add_mesh(struct stage *stage, uint32_t primitive, struct matrix world);
+
+/* usd_light.c: adds a light, or says why not; ignores other types. */
+void usd_add_light(struct stage *stage, uint32_t primitive, const char *type, struct matrix world);
 
 /* usd_shapes.c: adds Sphere, Cube, Cylinder, Cone, Capsule or Plane; false: another type. */
 bool usd_add_shape(struct stage *stage, uint32_t primitive, const char *type, struct matrix world);

@@ -149,6 +149,49 @@ static void add_camera(struct importer *in, const struct aiNode *node, const cha
     }
 }
 
+/* ---- Lights ---- */
+
+/*
+ * Lights of glTF (KHR_lights_punctual): a directional one has its illuminance, the others their
+ * intensity, which a small sphere has if its radiance is I / (π r²).
+ */
+static void add_light(struct importer *in, const struct aiNode *node, const char *path,
+                      struct matrix world)
+{
+    const double radius = 1e-4, area = 3.14159265358979323846 * radius * radius;
+    struct stage *stage = in->stage;
+    for (unsigned i = 0; i < in->scene->mNumLights; ++i) {
+        const struct aiLight *light = in->scene->mLights[i];
+        if (strcmp(light->mName.data, node->mName.data) != 0)
+            continue;
+        bool is_far = light->mType == aiLightSource_DIRECTIONAL,
+             is_spot = light->mType == aiLightSource_SPOT;
+        if (!is_far && !is_spot && light->mType != aiLightSource_POINT) {
+            stage->is_lit = true;
+            report_warning(stage->report, "light-left-out",
+                           "'%s' is a light without a direction and a place, which mxgen does not "
+                           "draw",
+                           path);
+            continue;
+        }
+        struct scene_light added = {
+            .type = is_far ? LIGHT_DIRECTIONAL : LIGHT_SPHERE,
+            .color = {(double)light->mColorDiffuse.r, (double)light->mColorDiffuse.g,
+                      (double)light->mColorDiffuse.b},
+            .intensity = is_far ? 1 : 1 / area,
+            .radius = radius,
+            .inner = is_spot ? cos((double)light->mAngleInnerCone) : NO_CONE,
+            .outer = is_spot ? cos((double)light->mAngleOuterCone) : NO_CONE};
+        const double along[3] = {(double)light->mDirection.x, (double)light->mDirection.y,
+                                 is_far || is_spot ? (double)light->mDirection.z : -1},
+                     at[3] = {(double)light->mPosition.x, (double)light->mPosition.y,
+                              (double)light->mPosition.z};
+        matrix_direction(world, along, added.direction);
+        matrix_point(world, at, added.position);
+        stage_add_light(stage, added);
+    }
+}
+
 /* ---- The walk ---- */
 
 /*
@@ -174,6 +217,7 @@ static void walk(struct importer *in)
             is_root ? cli_format("%s", "") : add_primitive(in, at.parent, at.node->mName.data);
         add_node(in, at.node, path, world);
         add_camera(in, at.node, path, world);
+        add_light(in, at.node, path, world);
         if (num + at.node->mNumChildren > capacity) {
             capacity = 2 * (num + at.node->mNumChildren);
             visits = memory_resize(visits, capacity * sizeof *visits);

@@ -198,6 +198,8 @@ static void visit(struct walk *walk, struct visit at)
         usd_add_mesh(stage, at.primitive, world);
     else if (is_regular(world))
         usd_add_shape(stage, at.primitive, type, world);
+    if (is_regular(world))
+        usd_add_light(stage, at.primitive, type, world);
     /* prototypes below an instancer are drawn as its instances only */
     if (strcmp(type, "PointInstancer") != 0)
         push_children(walk, primitive.first_child, (struct visit){0, world, at.depth});

@@ -81,14 +81,18 @@ bool studio_read_map(const struct studio *studio, struct image *out, struct stud
     return good || fail(fault, "render-failed", "cannot make the", "sky", "out of memory");
 }
 
-/* Provides the maps for the shader: baked before, baked now, or with box-averaged mip levels. */
+/*
+ * Provides the maps for the shader: baked before, baked now, or with box-averaged mip levels. The
+ * scene may have the map.
+ */
 static bool open_environment(const struct studio *studio, struct scene *scene,
                              struct studio_fault *fault)
 {
     char reason[256] = "out of memory";
     struct baked baked = {0};
     bool is_baked = studio->environment && files_is_folder(studio->environment);
-    bool good = is_baked || studio_read_map(studio, &scene->radiance, fault);
+    bool good =
+        is_baked || scene->radiance.pixels || studio_read_map(studio, &scene->radiance, fault);
     uint64_t num_bad = scene->radiance.num_bad;
     if (good && is_baked)
         good = baked_read(studio->environment, &baked, reason, sizeof reason);
@@ -114,12 +118,14 @@ static bool open_environment(const struct studio *studio, struct scene *scene,
     return true;
 }
 
-bool studio_open_light(const struct studio *studio, struct scene *scene, struct studio_fault *fault)
+bool studio_open_light(const struct studio *studio, struct image map, struct scene *scene,
+                       struct studio_fault *fault)
 {
     *scene = (struct scene){.num_lights = studio->environment ? 0 : SCENE_NUM_LIGHTS,
                             .object.world = matrix_identity(),
                             .studio = matrix_identity(),
                             .near = SCENE_NEAR,
+                            .radiance = map,
                             .environment = matrix_identity()};
     return open_environment(studio, scene, fault);
 }
@@ -131,7 +137,7 @@ bool studio_open(const struct studio *studio, double aspect, struct scene *scene
     *scene = (struct scene){0};
     *out_made = 0;
     bool good = open_mesh(studio, &mesh, out_made, fault);
-    good = good && studio_open_light(studio, scene, fault);
+    good = good && studio_open_light(studio, (struct image){0}, scene, fault);
     scene->object.mesh = mesh;
     if (good)
         studio_aim(studio, aspect, 0, scene);

@@ -33,8 +33,11 @@ bool studio_parse_camera(struct studio *studio, const char *text);
 bool studio_open(const struct studio *studio, double aspect, struct scene *scene,
                  unsigned *out_made, struct studio_fault *fault);
 
-/* The same without a mesh: light, and the environment of the studio. */
-bool studio_open_light(const struct studio *studio, struct scene *scene,
+/*
+ * The same without a mesh: light, and the environment. `map` is the environment, which the scene
+ * takes; without pixels: that of the studio.
+ */
+bool studio_open_light(const struct studio *studio, struct image map, struct scene *scene,
                        struct studio_fault *fault);
 
 /* Places the camera as `studio` describes, rotated by `turn` degrees. */
