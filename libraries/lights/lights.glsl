@@ -31,7 +31,8 @@ void mx_spot_light(vec3 position, vec3 direction, vec3 color, float intensity, f
 {
     vec3 d = position - P;
     to_light = normalize(d);
-    radiance = color * (mx_falloff(d, intensity, decay_rate) * mx_cone(to_light, direction, inner_angle, outer_angle));
+    float cone = mx_cone(to_light, direction, inner_angle, outer_angle);
+    radiance = color * (mx_falloff(d, intensity, decay_rate) * cone);
 }
 
 // The irradiance of a surface that faces a sphere of radiance 1, pi r^2 / d^2; within the sphere that of its surface.

@@ -5,6 +5,7 @@
  * of the nodegraph.
  */
 #include "bind/materials.h"
+#include "bind/shade_type.h"
 
 #include <assert.h>
 
@@ -115,21 +116,30 @@ static str_id value_text(struct maker *m, const struct usda_property *property)
     return str_intern(m->doc->strings, text.data, text.len);
 }
 
-/* The type of MaterialX; 0: it has none. */
-static const char *type_of(struct text_word type)
+/* ---- Types ---- */
+
+static struct diag_place place_of(const struct maker *m, const struct usda_property *property)
 {
-    static const char *const types[][2] = {
-        {"color3f", "color3"},     {"color4f", "color4"},  {"float", "float"},
-        {"double", "float"},       {"half", "float"},      {"float2", "vector2"},
-        {"texCoord2f", "vector2"}, {"float3", "vector3"},  {"vector3f", "vector3"},
-        {"normal3f", "vector3"},   {"point3f", "vector3"}, {"float4", "vector4"},
-        {"int", "integer"},        {"bool", "boolean"},    {"string", "string"},
-        {"token", "string"},       {"asset", "filename"},  {"matrix3d", "matrix33"},
-        {"matrix4d", "matrix44"}};
-    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
-        if (usda_is(type, types[i][0]))
-            return types[i][1];
-    return NULL;
+    return (struct diag_place){m->layer->file, property->line, property->column, 0};
+}
+
+static const char *text_of(struct maker *m, struct text_word word)
+{
+    return arena_strndup(m->diags->arena, word.bytes, word.len);
+}
+
+/*
+ * Reports a property whose type is another than the wanted one, or whose value is none of its type.
+ * Each place is reported once, however many inputs read it.
+ */
+static void check_type(struct maker *m, const struct usda_property *property, const char *wanted)
+{
+    const char *name = text_of(m, property->name), *type = text_of(m, property->type);
+    if (!shade_type_agrees(property->type, wanted))
+        diag_add(m->diags, DIAG_ID_usda_type, place_of(m, property), name, type, wanted);
+    else if (property->value.len && *property->value.bytes != '<' && !shade_value_fits(property))
+        diag_add(m->diags, DIAG_ID_usda_value, place_of(m, property), name,
+                 text_of(m, usda_value(property)), type);
 }
 
 /* ---- Nodes ---- */
@@ -232,7 +242,9 @@ static const struct usda_property *connection_of(struct maker *m, usda_prim_id p
     return usda_find_property(m->layer, &m->layer->prims.items[prim], text_cstr(&text));
 }
 
-/* The port of a definition that USD names: UsdPreviewSurface has "surface" in the place of "out".
+/*
+ * The port of a definition that USD names; 0: there is none. The only one may have another name:
+ * UsdPreviewSurface has "surface" in the place of "out".
  */
 static str_id port_of(struct maker *m, uint32_t nodedef, struct text_word name)
 {
@@ -242,7 +254,25 @@ static str_id port_of(struct maker *m, uint32_t nodedef, struct text_word name)
     for (uint32_t i = 0; i < num; i++)
         if (outputs[i].name == port)
             return port;
-    return outputs[0].name;
+    return num == 1 ? outputs[0].name : 0;
+}
+
+/* The end of a connection at an output of a Shader prim. A shader without definition was told. */
+static struct source end_at(struct maker *m, usda_prim_id prim, struct text_word name,
+                            const struct usda_property *connection, struct text_word path)
+{
+    const size_t prefix = strlen("outputs:");
+    struct source out = {.node = node_of(m, prim)};
+    if (!out.node)
+        return out;
+    if (name.len > prefix)
+        out.port = port_of(m, m->nodes.items[out.node - 1].nodedef,
+                           (struct text_word){name.bytes + prefix, name.len - prefix});
+    if (out.port)
+        return out;
+    diag_add(m->diags, DIAG_ID_usda_connection, place_of(m, connection),
+             text_of(m, connection->name), text_of(m, path));
+    return (struct source){0};
 }
 
 /* Follows "/M/NG.outputs:x" through the ports of graphs to a shader, or to a value. */
@@ -252,26 +282,22 @@ static struct source follow(struct maker *m, const struct usda_property *connect
     struct source out = {0};
     for (unsigned hop = 0; connection && hop < MAX_HOPS; hop++) {
         struct text_word rest = connection->value, path;
-        if (!usda_next_item(&rest, &path))
+        if (!usda_next_item(&rest, &path) || usda_is(path, "None"))
             return out;
         const char *dot = memchr(path.bytes, '.', path.len);
         size_t len = dot ? (size_t)(dot - path.bytes) : path.len;
         usda_prim_id prim = usda_find(m->layer, path.bytes, len);
-        if (!prim || !dot)
-            return out;
-        struct text_word name = {dot + 1, path.len - len - 1};
-        if (usda_is(m->layer->prims.items[prim].type, "Shader")) {
-            out.node = node_of(m, prim);
-            const size_t prefix = strlen("outputs:");
-            if (out.node && name.len > prefix)
-                out.port = port_of(m, m->nodes.items[out.node - 1].nodedef,
-                                   (struct text_word){name.bytes + prefix, name.len - prefix});
-            return out;
-        }
+        struct text_word name = {dot ? dot + 1 : path.bytes, dot ? path.len - len - 1 : 0};
+        const struct usda_property *before = connection;
+        if (prim && dot && usda_is(m->layer->prims.items[prim].type, "Shader"))
+            return end_at(m, prim, name, connection, path);
         connection = connection_of(m, prim, name);
         const char *text = arena_strndup(m->scratch, name.bytes, name.len);
         out.value = usda_find_attribute(m->layer, &m->layer->prims.items[prim], text);
         out.is_interface = prim == m->material;
+        if (!prim || (!connection && !out.value))
+            diag_add(m->diags, DIAG_ID_usda_connection, place_of(m, before),
+                     text_of(m, before->name), text_of(m, path));
     }
     return out;
 }
@@ -351,14 +377,17 @@ static void set_value(struct maker *m, elem_id input, elem_id user, const struct
         set(m, input, "colorspace", intern(m, property->color_space));
 }
 
-/* The type of an input: that of the definition, or USD's. */
+/* The type of an input: that of the definition, or USD's; 0 after a diagnostic. */
 static str_id input_type(struct maker *m, const struct made_node *node, str_id name,
                          const struct usda_property *property)
 {
     int found = library_find_input(m->lib, node->nodedef, name);
     if (found >= 0)
         return library_type_name(m->lib, library_ports(m->lib, node->nodedef, NULL)[found].type);
-    const char *type = type_of(property->type);
+    const char *type = shade_type(property->type);
+    if (!type)
+        diag_add(m->diags, DIAG_ID_usda_type, place_of(m, property), text_of(m, property->name),
+                 text_of(m, property->type), "a type of MaterialX");
     return type ? str_intern_z(m->doc->strings, type) : 0;
 }
 
@@ -380,7 +409,12 @@ static void read_input(struct maker *m, const struct made_node *node,
     name.len -= strlen(prefix) + (is_connection ? strlen(connect_end) : 0);
     str_id input_name = intern(m, name), type = input_type(m, node, input_name, property);
     struct source from = is_connection ? follow(m, property) : (struct source){.value = property};
-    if (!type || (!from.node && !from.value))
+    if (!type)
+        return;
+    check_type(m, property, str_text(m->doc->strings, type));
+    if (from.value && from.value != property)
+        check_type(m, from.value, str_text(m->doc->strings, type));
+    if (!from.node && !from.value)
         return;
     elem_id input = add(m, node->element, "input", input_name, property->line, property->column);
     set(m, input, "type", type);
@@ -512,12 +546,17 @@ static str_id add_constant(struct maker *m, struct text_word output, str_id type
 static void add_override_output(struct maker *m, const struct usda_property *property)
 {
     struct text_word name = override_name(property);
-    const char *type_name = type_of(property->type);
+    const char *type_name = shade_type(property->type);
+    if (name.len && !type_name)
+        diag_add(m->diags, DIAG_ID_usda_type, place_of(m, property), text_of(m, property->name),
+                 text_of(m, property->type), "a type of MaterialX");
     if (!name.len || !type_name || doc_child(m->doc, m->graph, intern(m, name)))
         return;
     struct text_word own = {property->name.bytes, strlen("outputs:") + name.len};
     const struct usda_property *connection = connection_of(m, m->material, own);
     struct source from = connection ? follow(m, connection) : (struct source){.value = property};
+    if (from.value)
+        check_type(m, from.value, type_name);
     if (!from.node && (!from.value || !usda_value(from.value).len))
         return;
     str_id type = str_intern_z(m->doc->strings, type_name);

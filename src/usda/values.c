@@ -97,9 +97,10 @@ static struct text_word first_sample(struct text_word samples)
         token = usda_next_token(&lexer);
     while (token.kind != USDA_END && token.kind != USDA_BAD
            && !(token.kind == USDA_MARK && *token.begin == ':'));
-    const char *begin = lexer.at;
+    const char *begin = NULL;
     for (;;) {
         token = usda_next_token(&lexer);
+        begin = begin ? begin : token.begin;
         bool is_mark = token.kind == USDA_MARK;
         if (token.kind == USDA_END || token.kind == USDA_BAD
             || (!depth && is_mark && strchr(",}", *token.begin)))

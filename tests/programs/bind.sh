@@ -302,6 +302,22 @@ XML
 check 'a look assigns them' exits 0 "$mxgen" bind like.mtlx --stage network.usda
 check 'an input of the document wins' eval 'sed "s|<look|<standard_surface name=\"x\" type=\"surfaceshader\"/><surfacematerial name=\"Net\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"x\"/></surfacematerial>&|" like.mtlx >own.mtlx; exits 0 "$mxgen" bind own.mtlx --stage network.usda'
 check 'a shader without a definition' eval 'sed s/ND_mix_color3/ND_mxi_color3/ network.usda >odd.usda; "$mxgen" bind --stage odd.usda 2>err; grep -q "^odd.usda:.*\[usda-shader\]" err'
+# odd SED ID LINE:COLUMN: the network has a fault at its place.
+odd() { sed "$1" network.usda >odd.usda && ! cmp -s network.usda odd.usda && fails "$2" --stage odd.usda && grep -q "^odd.usda:$3: error" err; }
+check 'a type that the definition has not' odd 's/float inputs:base = 0.5/color3f inputs:base = (1, 1, 1)/' usda-type 14:17
+check 'a role is a type of its shape' odd 's/color3f inputs:bg = (1, 0, 0)/float3 inputs:bg = (1, 0)/' usda-value 22:20
+check 'and is no fault' eval 'sed "s/color3f inputs:bg/vector3f inputs:bg/; s/float inputs:base = 0.5/double inputs:base = 0.5/" network.usda >roles.usda; exits 0 "$mxgen" bind --stage roles.usda; test ! -s err'
+check 'an integer for a number' odd 's/float inputs:base = 0.5/int inputs:base = 1/' usda-type 14:13
+check 'a type of USD alone' odd 's/float inputs:base = 0.5/quatf inputs:base = (1, 0, 0, 0)/' usda-type 14:15
+check 'an input of the material of another type' odd 's/float inputs:amount = 0.25/color3f inputs:amount = (1, 1, 1)/' usda-type 8:13
+check 'a number for a colour' odd 's/inputs:fg = (0, 0, 1)/inputs:fg = 0.5/' usda-value 23:21
+check 'a number too many' odd 's/inputs:fg = (0, 0, 1)/inputs:fg = (0, 0, 1, 0)/' usda-value 23:21
+check 'a text for a colour' odd 's/inputs:fg = (0, 0, 1)/inputs:fg = "blue"/' usda-value 23:21
+check 'a list for a number' odd 's/inputs:base = 0.5/inputs:base = [0.5]/' usda-value 14:15
+check 'a connection to an input that is missing' odd 's/<\/Net.inputs:amount>/<\/Net.inputs:amuont>/' usda-connection 24:19
+check 'to a prim that is missing' odd 's/<\/Net\/Graph\/Mix.outputs:out>/<\/Net\/Graph\/Mxi.outputs:out>/' usda-connection 18:17
+check 'to no port' odd 's/<\/Net.inputs:amount>/<\/Net>/' usda-connection 24:19
+check 'a value that is blocked' eval 'sed "s/inputs:base = 0.5/inputs:base = None/" network.usda >blocked.usda; exits 0 "$mxgen" bind --stage blocked.usda; test ! -s err'
 check 'a document without a stage' exits 2 "$mxgen" bind like.mtlx
 
 # Overrides of the stage: a Material without terminals, and a NodeGraph.
