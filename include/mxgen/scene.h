@@ -62,7 +62,16 @@ MXG_API mxg_status mxg_scene_add_each(mxg_scene *scene,
                                       bool (*next_primitive)(void *user_data, uint32_t last,
                                                              mxg_primitive *out),
                                       void *user_data);
-/* Primitives have numbers from 0 on; a parent has a lower one than its children. */
+/*
+ * Removes primitives, all below them, and their bindings. MXG_ERROR_ARGUMENT if a number is none of
+ * a primitive: all stay.
+ */
+MXG_API mxg_status mxg_scene_remove(mxg_scene *scene, const uint32_t *primitives,
+                                    size_t num_primitives);
+/*
+ * Primitives have numbers from 0 on, below this one; a parent has a lower one than its children.
+ * The others keep theirs when some are removed, whose numbers say MXG_ERROR_ARGUMENT from then on.
+ */
 MXG_API uint32_t mxg_scene_num_primitives(const mxg_scene *scene);
 MXG_API mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primitive *out);
 /* The number of a primitive; UINT32_MAX: there is none of this path. */

@@ -398,6 +398,8 @@ export class Scene extends Owner implements Iterable<Primitive> {
     add(...paths: string[]): void;
     /** Adds primitives with parents and types, and gives them; null for a faulty one. */
     addEach(primitives: Iterable<NewPrimitive>): (Primitive | null)[];
+    /** Removes primitives, all below them, and their bindings. */
+    remove(...primitives: (Primitive | string)[]): void;
     /** Binds a material to a slot of a primitive (null: the whole scene); "" removes what it would inherit. */
     bind(primitive: Primitive | string | null, slot: string, material: string): void;
     unbind(primitive: Primitive | string | null, slot: string): void;

@@ -199,6 +199,12 @@ export class Native {
         return array;
     }
 
+    newNumbers(values) {
+        const array = this.space(4 * values.length);
+        values.forEach((number, index) => this.view.setUint32(array + index * 4, number, true));
+        return array;
+    }
+
     newFloats(values) {
         const array = this.space(values.length * 4);
         values.forEach((value, index) => this.view.setFloat32(array + index * 4, value, true));

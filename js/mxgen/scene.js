@@ -235,6 +235,12 @@ export class Scene extends Owner {
         return adding.numbers.map(number => this._primitive(number));
     }
 
+    /** Removes primitives, all below them, and their bindings. The numbers of the others stay. Throws if one is removed already: all stay then. */
+    remove(...primitives) {
+        const native = this._native, numbers = primitives.map(primitive => this.#place(primitive));
+        native.using(() => this.#check(native.lib.mxg_scene_remove(this._pointer, native.newNumbers(numbers), numbers.length)));
+    }
+
     // ---- Bindings of the scene itself ----
 
     #place(primitive) {
@@ -276,13 +282,15 @@ export class Scene extends Owner {
 
     /** The number of primitives. */
     get length() {
-        return this._native.lib.mxg_scene_num_primitives(this._pointer);
+        return [...this].length;
     }
 
     /** All primitives, each after its parent. */
     *[Symbol.iterator]() {
-        for (let number = 0; number < this.length; number++)
-            yield new Primitive(this, number);
+        const { lib } = this._native, num = lib.mxg_scene_num_primitives(this._pointer);
+        for (let number = 0; number < num; number++)
+            if (lib.mxg_scene_path(this._pointer, number, 0, 0))
+                yield new Primitive(this, number);
     }
 
     /** "Y" or "Z". */

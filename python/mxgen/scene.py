@@ -297,6 +297,12 @@ class Scene(Native):
             raise error_of(status)
         return tuple(self._primitive(number) for number in adding.numbers)
 
+    def remove(self, *primitives: Primitive | str) -> None:
+        """Removes primitives, all below them, and their bindings. The numbers of the others stay. Raises ArgumentError if one is removed
+        already, and KeyError for an unknown path: all stay then."""
+        numbers = [self._place(primitive) for primitive in primitives]
+        self._change(lib.mxg_scene_remove(self._handle.pointer, ffi.new("uint32_t[]", numbers), len(numbers)))
+
     # ---- Bindings of the scene itself ----
 
     def _place(self, primitive: Primitive | str | None) -> int:
@@ -348,11 +354,14 @@ class Scene(Native):
 
     def __len__(self) -> int:
         """The number of primitives."""
-        return int(lib.mxg_scene_num_primitives(self._handle.pointer))
+        return sum(1 for _ in self)
 
     def __iter__(self) -> Iterator[Primitive]:
         """All primitives, each after its parent."""
-        return (Primitive(self, number) for number in range(len(self)))
+        pointer = self._handle.pointer
+        out = ffi.new("mxg_primitive *", {"size": ffi.sizeof("mxg_primitive")})
+        return (Primitive(self, number) for number in range(lib.mxg_scene_num_primitives(pointer))
+                if lib.mxg_scene_primitive(pointer, number, out) == lib.MXG_OK)
 
     @property
     def up_axis(self) -> str:

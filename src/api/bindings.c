@@ -101,7 +101,7 @@ static bool is_valid(const mxg_bindings *bindings)
 /* The state of a primitive by its number in the interface; NULL: there is none. */
 static const struct bind_state *state_of(const mxg_bindings *bindings, uint32_t primitive)
 {
-    if (!is_valid(bindings) || primitive >= mxg_scene_num_primitives(bindings->scene))
+    if (!is_valid(bindings) || !has_primitive(bindings->scene, primitive))
         return NULL;
     return bind_state_of(&bindings->bindings, primitive + 1);
 }

@@ -185,7 +185,7 @@ static prim_id add_given(mxg_scene *scene, const mxg_primitive *given)
     struct diag_list *diags = &scene->object.diagnostics.list;
     struct text_word name = {given->name ? given->name : "", given->name_len},
                      type = {given->type ? given->type : "", given->type_len};
-    bool is_known = given->parent == UINT32_MAX || given->parent < mxg_scene_num_primitives(scene);
+    bool is_known = given->parent == UINT32_MAX || has_primitive(scene, given->parent);
     if (!is_known)
         diag_add(diags, DIAG_ID_bad_path, (struct diag_place){0},
                  arena_strndup(diags->arena, name.bytes, name.len),
@@ -221,6 +221,36 @@ mxg_status mxg_scene_add_each(mxg_scene *scene,
     return run_addition(&addition, add_each);
 }
 
+struct removal {
+    mxg_scene *scene;
+    const uint32_t *primitives;
+    size_t num;
+};
+
+static void remove_primitives(void *arg)
+{
+    struct removal *r = arg;
+    prim_id *prims = ARENA_ARRAY(&r->scene->object.arena, prim_id, r->num);
+    for (size_t i = 0; i < r->num; i++)
+        prims[i] = r->primitives[i] + 1;
+    scene_remove(&r->scene->scene, prims, r->num);
+    arena_release(&r->scene->object.arena, prims, r->num * sizeof *prims);
+}
+
+mxg_status mxg_scene_remove(mxg_scene *scene, const uint32_t *primitives, size_t num_primitives)
+{
+    if (!scene || (!primitives && num_primitives))
+        return MXG_ERROR_ARGUMENT;
+    for (size_t i = 0; i < num_primitives; i++)
+        if (!has_primitive(scene, primitives[i]))
+            return MXG_ERROR_ARGUMENT;
+    if (!num_primitives)
+        return MXG_OK;
+    struct removal removal = {scene, primitives, num_primitives};
+    scene->version++;
+    return object_run(&scene->object, remove_primitives, &removal);
+}
+
 uint32_t mxg_scene_num_primitives(const mxg_scene *scene)
 {
     return scene ? scene->scene.prims.len - 1 : 0;
@@ -228,7 +258,7 @@ uint32_t mxg_scene_num_primitives(const mxg_scene *scene)
 
 mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primitive *out)
 {
-    if (index >= mxg_scene_num_primitives(scene))
+    if (!has_primitive(scene, index))
         return MXG_ERROR_ARGUMENT;
     const struct scene_prim *prim = &scene->scene.prims.items[index + 1];
     mxg_primitive full = {.parent = number_of(prim->parent),
@@ -257,7 +287,7 @@ uint32_t mxg_scene_find(const mxg_scene *scene, const char *path)
 
 size_t mxg_scene_path(const mxg_scene *scene, uint32_t index, char *buffer, size_t capacity)
 {
-    if (index >= mxg_scene_num_primitives(scene))
+    if (!has_primitive(scene, index))
         return 0;
     const struct scene_prim *prims = scene->scene.prims.items;
     size_t len = 0;

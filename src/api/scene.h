@@ -12,6 +12,12 @@ struct mxg_scene {
     uint32_t version; /* counts the changes; bindings of an earlier one say nothing any more */
 };
 
+/* True for the number of a primitive that is not removed. */
+static inline bool has_primitive(const mxg_scene *scene, uint32_t primitive)
+{
+    return primitive < mxg_scene_num_primitives(scene) && scene_has(&scene->scene, primitive + 1);
+}
+
 struct mxg_bindings {
     struct object object; /* keeps the document alive */
     mxg_scene *scene;

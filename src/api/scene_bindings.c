@@ -26,7 +26,7 @@ static void change_binding(void *arg)
 /* UINT32_MAX is the whole scene, the root inside. */
 static bool is_place(const mxg_scene *scene, uint32_t primitive)
 {
-    return primitive == UINT32_MAX || primitive < mxg_scene_num_primitives(scene);
+    return primitive == UINT32_MAX || has_primitive(scene, primitive);
 }
 
 static mxg_status run_change(struct binding_change change, uint32_t primitive)

@@ -4,11 +4,6 @@
 
 #include "base/num.h"
 
-static bool has_primitive(const mxg_scene *scene, uint32_t primitive)
-{
-    return primitive < mxg_scene_num_primitives(scene);
-}
-
 static const struct usda_prim *prim_of(const struct scene *scene, uint32_t source)
 {
     return &scene->layer.prims.items[scene->sources.items[source - 1].prim];

@@ -172,6 +172,15 @@ static void mark_new(struct again *a)
     }
 }
 
+/* Primitives that are leaves now. */
+static void mark_emptied(struct again *a)
+{
+    const struct scene *scene = a->w->b->scene;
+    for (uint32_t i = a->before->num_emptied; i < scene->emptied.len; i++)
+        if (a->w->b->look.patterns.has_leaf_patterns && scene_has(scene, scene->emptied.items[i]))
+            mark(a, scene->emptied.items[i]);
+}
+
 static int compare_entries(const void *x, const void *y)
 {
     const struct bind_entry *a = x, *b = y;
@@ -208,9 +217,10 @@ void walk_take_states(struct state_walk *w, const struct bindings *before)
     if (a.has_added)
         mark_patterns(&a);
     mark_new(&a);
+    mark_emptied(&a);
     a.states = ARENA_ARRAY(w->scratch, uint32_t, before->states.len);
     memset(a.states, 0xff, before->states.len * sizeof *a.states);
     for (prim_id prim = 0; prim < before->num_prims; prim++)
-        if (b->state_of[prim] != STATE_UNKNOWN)
+        if (b->state_of[prim] != STATE_UNKNOWN && scene_has(b->scene, prim))
             b->state_of[prim] = take_state(&a, before->state_of[prim]);
 }

@@ -59,6 +59,7 @@ struct bindings {
     uint32_t *state_of;       /* by primitive */
     struct pattern_set added; /* again.c: the patterns that `before` did not have */
     uint32_t num_prims;       /* of the scene when it was resolved, with the root */
+    uint32_t num_emptied;     /* of the scene, too */
     uint32_t num_resolved;    /* primitives whose matches were found, not taken from before */
 };
 

@@ -146,6 +146,8 @@ static void make_layers(struct resolver *r)
     r->notes.has_layer = ARENA_ARRAY(r->scratch, bool, b->look.names.len);
     for (prim_id prim = 1; prim < b->num_prims; prim++) {
         uint32_t number = b->state_of[prim];
+        if (!scene_has(b->scene, prim))
+            continue;
         if (!b->states.items[number].first_prim) {
             b->states.items[number].first_prim = prim;
             bind_layers(b, number, &stands, &r->notes);

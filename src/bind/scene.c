@@ -124,6 +124,62 @@ void scene_set_type(struct scene *scene, prim_id prim, struct text_word type)
     scene->types.items[prim] = kept;
 }
 
+/* ---- Removal ---- */
+
+/* Takes the children without a name out of a list, and makes their parent PRIM_REMOVED. */
+static void sweep_children(struct scene *scene, prim_id parent)
+{
+    struct scene_prim *prims = scene->prims.items, *above = &prims[parent];
+    prim_id child = above->first_child;
+    above->first_child = above->last_child = 0;
+    for (prim_id next; child; child = next) {
+        next = prims[child].next;
+        prims[child].next = 0;
+        if (!prims[child].name) {
+            prims[child].parent = PRIM_REMOVED;
+            continue;
+        }
+        if (above->last_child)
+            prims[above->last_child].next = child;
+        else
+            above->first_child = child;
+        above->last_child = child;
+    }
+    if (parent && !above->first_child)
+        vec_push(scene->arena, &scene->emptied, parent);
+}
+
+/* What a removed primitive had. */
+static void forget(struct scene *scene, prim_id prim)
+{
+    scene->prims.items[prim] = (struct scene_prim){.name = "", .parent = PRIM_REMOVED};
+    scene_unbind_all(scene, prim);
+    if (prim < scene->first_source.len)
+        scene->first_source.items[prim] = 0;
+    if (prim < scene->types.len)
+        scene->types.items[prim] = NULL;
+}
+
+void scene_remove(struct scene *scene, const prim_id *prims, size_t num)
+{
+    struct scene_prim *items = scene->prims.items;
+    prim_id first = PRIM_REMOVED;
+    vec_reserve(scene->arena, &scene->emptied, (uint32_t)num);
+    scene->last.len = 0;
+    for (size_t i = 0; i < num; i++) {
+        assert(prims[i] && scene_has(scene, prims[i]));
+        items[prims[i]].name = NULL;
+        first = prims[i] < first ? prims[i] : first;
+    }
+    for (size_t i = 0; i < num; i++)
+        if (items[prims[i]].parent != PRIM_REMOVED)
+            sweep_children(scene, items[prims[i]].parent);
+    /* a parent stands before its children */
+    for (prim_id prim = first; prim < scene->prims.len; prim++)
+        if (!scene_has(scene, prim) || !scene_has(scene, items[prim].parent))
+            forget(scene, prim);
+}
+
 uint32_t scene_depth(const struct scene *scene, prim_id prim)
 {
     uint32_t depth = 0;

@@ -17,6 +17,7 @@ struct scene_prim {
     uint32_t name_len;
     prim_id parent, first_child, last_child, next; /* 0: none */
 };
+#define PRIM_REMOVED UINT32_MAX /* as a parent: the primitive is gone; its number stays unused */
 
 /* A binding that the scene brings itself; it is weaker than those of a look at the same path. */
 struct scene_binding {
@@ -58,6 +59,7 @@ struct scene {
     VEC(uint32_t) first_binding; /* by primitive, like first_source */
     uint32_t removed_binding;    /* the first one; 1 + index; 0: none */
     uint32_t num_bindings;       /* without those that are removed */
+    VEC(prim_id) emptied;        /* whose last child was removed, in this order */
     VEC(struct scene_member) members;
     struct usda_layer layer; /* of a stage of USD; otherwise without prims */
     VEC(struct scene_source) sources;
@@ -83,6 +85,16 @@ prim_id scene_add_below(struct scene *scene, prim_id prim, const char *path, siz
 bool scene_check_name(struct text_word name, struct diag_place place, struct diag_list *diags);
 /* The same text with a NUL, once for all equal ones. */
 const char *scene_keep_word(struct scene *scene, struct text_word word);
+/* True if a number is that of a primitive, or of the root. */
+static inline bool scene_has(const struct scene *scene, prim_id prim)
+{
+    return prim < scene->prims.len && scene->prims.items[prim].parent != PRIM_REMOVED;
+}
+/*
+ * Removes primitives of the scene, with all below them and their bindings. A number may come twice,
+ * and one below another. All stay if memory runs out.
+ */
+void scene_remove(struct scene *scene, const prim_id *prims, size_t num);
 /* Sets the type that a host gives a primitive. Copies it. */
 void scene_set_type(struct scene *scene, prim_id prim, struct text_word type);
 prim_id scene_find_child(const struct scene *scene, prim_id parent, const char *name, size_t len);
@@ -125,6 +137,8 @@ uint32_t scene_add_binding(struct scene *scene, struct scene_binding binding);
  */
 void scene_bind(struct scene *scene, prim_id prim, const struct slot_name *slot,
                 const char *material);
+/* Removes all bindings of a primitive. */
+void scene_unbind_all(struct scene *scene, prim_id prim);
 /* Removes the direct bindings of a slot from a primitive. */
 void scene_unbind(struct scene *scene, prim_id prim, const struct slot_name *slot);
 /* The first binding of a primitive, 1 + index; 0: none. */

@@ -56,6 +56,18 @@ static void remove_bindings(struct scene *scene, prim_id prim, struct text_word 
     }
 }
 
+void scene_unbind_all(struct scene *scene, prim_id prim)
+{
+    struct scene_binding *items = scene->bindings.items;
+    for (uint32_t at = scene_first_binding(scene, prim), next; at; at = next) {
+        next = items[at - 1].next;
+        items[at - 1] = (struct scene_binding){.is_removed = true, .next = scene->removed_binding};
+        scene->removed_binding = at;
+        scene->num_bindings--;
+        scene->first_binding.items[prim] = next;
+    }
+}
+
 /* The whole name of a slot; valid until the next call. */
 static struct text_word write_name(struct scene *scene, const struct slot_name *slot)
 {

@@ -364,8 +364,10 @@ prim_id scene_target(const struct scene *scene, uint32_t source, struct text_wor
     bool is_inside = false;
     for (usda_prim_id prim = target; prim && at->from && !is_inside; prim = prims[prim].parent)
         is_inside = prim == at->from;
-    return is_inside ? scene_find_below(scene, at->to, path.bytes + below, path.len - below)
-                     : scene_find(scene, path.bytes, path.len);
+    prim_id found = is_inside
+                        ? scene_find_below(scene, at->to, path.bytes + below, path.len - below)
+                        : scene_find(scene, path.bytes, path.len);
+    return scene_has(scene, found) ? found : 0;
 }
 
 /* ---- Collections ---- */

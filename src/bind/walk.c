@@ -155,6 +155,7 @@ void bind_find_states(struct bindings *b, const struct bindings *before, struct 
 {
     struct state_walk w = {.b = b, .scratch = scratch};
     b->num_prims = b->scene->prims.len;
+    b->num_emptied = b->scene->emptied.len;
     b->state_of = ARENA_ARRAY(b->arena, uint32_t, b->num_prims);
     vec_push(scratch, &w.steps, (struct state_step){0});
     pattern_walk_init(&w.patterns, &b->look.patterns, scratch);
@@ -164,6 +165,6 @@ void bind_find_states(struct bindings *b, const struct bindings *before, struct 
         find_below(&w, 0);
     /* a primitive stands behind the one above it, whose walk finds both */
     for (prim_id prim = 0; prim < b->num_prims; prim++)
-        if (b->state_of[prim] == STATE_UNKNOWN)
+        if (b->state_of[prim] == STATE_UNKNOWN && scene_has(b->scene, prim))
             find_below(&w, prim);
 }

@@ -86,6 +86,30 @@ static void add_facts(const mxg_bindings *bindings, const mxg_scene *scene, char
         }
 }
 
+/* Those that were not removed. */
+static uint32_t count_primitives(const mxg_scene *scene)
+{
+    uint32_t num = 0;
+    mxg_primitive primitive = {sizeof primitive};
+    for (uint32_t i = 0; i < mxg_scene_num_primitives(scene); i++)
+        num += mxg_scene_primitive(scene, i, &primitive) == MXG_OK;
+    return num;
+}
+
+/* A scene with the same paths in the same order, which never had others. */
+static mxg_scene *copy_scene(mxg_context *context, const mxg_scene *scene)
+{
+    mxg_scene *copy = NULL;
+    REQUIRE_EQ(mxg_scene_create(context, &copy), MXG_OK);
+    for (uint32_t i = 0; i < mxg_scene_num_primitives(scene); i++) {
+        char buffer[64];
+        const char *path = buffer;
+        if (mxg_scene_path(scene, i, buffer, sizeof buffer))
+            REQUIRE_EQ(mxg_scene_add(copy, &path, 1), MXG_OK);
+    }
+    return copy;
+}
+
 /* Binds with and without `*previous`, which the result then replaces. Gives the resolved ones. */
 static uint32_t bind_again(mxg_context *context, const mxg_document *document, mxg_scene *scene,
                            mxg_bindings **previous)
@@ -95,7 +119,7 @@ static uint32_t bind_again(mxg_context *context, const mxg_document *document, m
     REQUIRE_EQ(mxg_bind(context, document, scene, &desc, &anew), MXG_OK);
     desc.previous = *previous;
     REQUIRE_EQ(mxg_bind(context, document, scene, &desc, &again), MXG_OK);
-    REQUIRE_EQ(mxg_bindings_num_resolved(anew), mxg_scene_num_primitives(scene));
+    REQUIRE_EQ(mxg_bindings_num_resolved(anew), count_primitives(scene));
     char *expected = text_of(anew), *given = text_of(again);
     add_facts(anew, scene, &expected);
     add_facts(again, scene, &given);
@@ -361,6 +385,70 @@ static void test_plain_names(mxg_context *context)
     mxg_document_destroy(document);
 }
 
+/* Primitives go: what is below them goes, too, and only a parent that is a leaf now is new. */
+static void test_removals(mxg_context *context, bool with_leaves)
+{
+    struct look look = {.includes = {"", "", ""}};
+    mxg_scene *scene = make_scene(context);
+    mxg_bindings *bindings = NULL;
+    mxg_primitive primitive = {sizeof primitive};
+    char path[64];
+    set_line(&look, 0, with_leaves ? ASSIGN("050", "B", "//*") : ASSIGN("050", "B", "/p0"));
+    mxg_document *document = parse_look(context, &look);
+    const char *extra[] = {"/p3/p4/a/b", "/p3/p4/c"};
+    REQUIRE_EQ(mxg_scene_add(scene, extra, 2), MXG_OK);
+    uint32_t above = mxg_scene_find(scene, "/p3/p4"), a = mxg_scene_find(scene, "/p3/p4/a"),
+             b = mxg_scene_find(scene, "/p3/p4/a/b"), c = mxg_scene_find(scene, "/p3/p4/c");
+    REQUIRE_EQ(mxg_scene_bind(scene, b, "000", "A"), MXG_OK);
+    REQUIRE_EQ(bind_again(context, document, scene, &bindings), NUM_ALL + 3);
+    REQUIRE_EQ(mxg_bindings_num_layers(bindings, above), 0);
+    REQUIRE_EQ(mxg_scene_remove(scene, &a, 1), MXG_OK);
+    REQUIRE_EQ(mxg_bindings_num_layers(bindings, 0), 0);
+    REQUIRE_EQ(bind_again(context, document, scene, &bindings), 0);
+    REQUIRE_EQ(mxg_scene_find(scene, "/p3/p4/a"), UINT32_MAX);
+    REQUIRE_EQ(mxg_scene_find(scene, "/p3/p4/a/b"), UINT32_MAX);
+    REQUIRE_EQ(mxg_scene_primitive(scene, b, &primitive), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_path(scene, a, path, sizeof path), 0);
+    REQUIRE_EQ(mxg_scene_num_bindings(scene, b), 0);
+    REQUIRE_EQ(mxg_scene_bind(scene, b, "000", "A"), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_remove(scene, &b, 1), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_remove(scene, NULL, 1), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_remove(scene, NULL, 0), MXG_OK);
+    REQUIRE_EQ(add_one(scene, a, "x"), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_bindings_stack(bindings, b), UINT32_MAX);
+    REQUIRE_EQ(mxg_scene_primitive(scene, above, &primitive), MXG_OK);
+    REQUIRE_EQ(primitive.first_child, c);
+    /* the last one below: the parent is a leaf */
+    uint32_t both[] = {c, above, c};
+    REQUIRE_EQ(mxg_scene_remove(scene, both, 1), MXG_OK);
+    REQUIRE_EQ(bind_again(context, document, scene, &bindings), with_leaves ? 1 : 0);
+    REQUIRE_EQ(mxg_bindings_num_layers(bindings, above), with_leaves ? 1 : 0);
+    /* a path that comes again has another number, and no bindings */
+    REQUIRE_EQ(mxg_scene_add(scene, extra, 2), MXG_OK);
+    REQUIRE(mxg_scene_find(scene, "/p3/p4/a/b") > c);
+    REQUIRE_EQ(bind_again(context, document, scene, &bindings), with_leaves ? 4 : 3);
+    REQUIRE_EQ(mxg_bindings_num_layers(bindings, mxg_scene_find(scene, "/p3/p4/a/b")),
+               with_leaves ? 1 : 0);
+    /* several at once, one of them twice, and one below another */
+    both[0] = both[2] = mxg_scene_find(scene, "/p3/p4/c");
+    REQUIRE_EQ(mxg_scene_remove(scene, both, 3), MXG_OK);
+    REQUIRE_EQ(bind_again(context, document, scene, &bindings), 0);
+    REQUIRE_EQ(mxg_scene_find(scene, "/p3/p4"), UINT32_MAX);
+    REQUIRE(mxg_scene_find(scene, "/p3/p3") != UINT32_MAX);
+    mxg_scene *copy = copy_scene(context, scene);
+    mxg_bindings *of_copy = NULL;
+    bind_again(context, document, copy, &of_copy);
+    char *expected = text_of(of_copy), *given = text_of(bindings);
+    REQUIRE_STR(given, expected);
+    free(expected);
+    free(given);
+    mxg_bindings_destroy(of_copy);
+    mxg_scene_destroy(copy);
+    mxg_bindings_destroy(bindings);
+    mxg_scene_destroy(scene);
+    mxg_document_destroy(document);
+}
+
 /* What bindings of a scene say after it changed: nothing. */
 static void test_stale(mxg_context *context)
 {
@@ -446,7 +534,14 @@ static void change_scene(mxg_scene *scene)
     uint32_t num = mxg_scene_num_primitives(scene), at = num ? pick(num + 1) : 0;
     uint32_t prim = at == num ? UINT32_MAX : at;
     char name[16];
-    switch (pick(4)) {
+    mxg_primitive info = {sizeof info};
+    if (prim != UINT32_MAX && mxg_scene_primitive(scene, prim, &info) != MXG_OK)
+        return; /* it was removed */
+    switch (pick(5)) {
+    case 4:
+        REQUIRE_EQ(mxg_scene_remove(scene, &prim, 1),
+                   prim == UINT32_MAX ? MXG_ERROR_ARGUMENT : MXG_OK);
+        break;
     case 0: mxg_scene_unbind(scene, prim, slots[pick(NUM_SLOTS)]); break;
     case 1: mxg_scene_bind(scene, prim, slots[pick(2)], pick(3) ? "A" : ""); break;
     default:
@@ -480,7 +575,7 @@ static void test_random(mxg_context *context, uint32_t seed)
                 change_scene(scene);
         }
         resolved += bind_again(context, document, scene, &bindings);
-        all += mxg_scene_num_primitives(scene);
+        all += count_primitives(scene);
     }
     REQUIRE(resolved < all);
     mxg_bindings_destroy(bindings);
@@ -516,6 +611,8 @@ static void test_memory(void)
         if (status == MXG_OK)
             status = add_one(scene, 3, "new");
         if (status == MXG_OK)
+            status = mxg_scene_remove(scene, &(uint32_t){mxg_scene_find(scene, "/p1/p1")}, 1);
+        if (status == MXG_OK)
             status = mxg_bind(context, after, scene, &bind, &again);
         heap.fail_at = 0;
         REQUIRE((status == MXG_OK) == (again != NULL));
@@ -543,6 +640,8 @@ int main(void)
     test_changes(context);
     test_scene_changes(context, false);
     test_scene_changes(context, true);
+    test_removals(context, false);
+    test_removals(context, true);
     test_stale(context);
     for (uint32_t seed = 1; seed <= 60; seed++)
         test_random(context, seed);

@@ -413,6 +413,16 @@ test("a scene that changes", () => {
     assert.equal(after.text("json"), document.bind(scene).text("json"));
     assert.deepEqual(after.layers(foot).map(({ slot, source }) => [slot, source?.path]), [["000", undefined], ["050", "/set/table"]]);
     assert.throws(() => document.bind(other, null, { previous: before }), ArgumentError);
+    const length = scene.length;
+    scene.remove("/set/table/leg", lamp);
+    assert.equal(scene.length, length - 3);
+    assert.equal(scene.find("/lamp"), null);
+    assert.deepEqual([...scene].map(primitive => primitive.path).filter(path => path.startsWith("/set/")), ["/set/table"]);
+    assert.throws(() => scene.remove(foot), ArgumentError);
+    assert.throws(() => scene.remove("/lamp"), /no primitive/);
+    const last = document.bind(scene, null, { previous: after });
+    assert.equal(last.numResolved, 0);
+    assert.equal(last.text("json"), document.bind(scene).text("json"));
     assert.throws(() => document.bind(scene, null, { previous: 5 }), TypeError);
 });
 

@@ -124,6 +124,17 @@ class Scenes(unittest.TestCase):
         self.assertEqual([(layer.slot, layer.source) for layer in after.layers(foot)], [("000", None), ("050", made)])
         with self.assertRaises(mxgen.ArgumentError):
             document.bind(other, previous=before)
+        length = len(scene)
+        scene.remove("/set/table/leg", lamp)
+        self.assertEqual(len(scene), length - 3)
+        self.assertIsNone(scene.find("/lamp"))
+        self.assertEqual([primitive.path for primitive in scene if primitive.path.startswith("/set/")], ["/set/table"])
+        for gone, error in (foot, mxgen.ArgumentError), ("/lamp", KeyError), (5, TypeError):
+            with self.assertRaises(error):
+                scene.remove(gone)
+        last = document.bind(scene, previous=after)
+        self.assertEqual(last.num_resolved, 0)
+        self.assertEqual(last.text(formats.JSON), document.bind(scene).text(formats.JSON))
         with self.assertRaises(TypeError):
             document.bind(scene, previous=5)
 
