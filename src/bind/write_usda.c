@@ -70,18 +70,38 @@ static void note_material(struct usda_writer *u, uint32_t target)
     table_add(&u->seen, u->w->scratch, target, u->materials.len);
 }
 
-/* `material:slotBinding:_050 = </Looks/Dust>`; target 0: None. */
+/* Slot 000, which a tool without slots knows as the plain binding. */
+static bool is_base(const struct usda_writer *u, uint32_t name)
+{
+    return strcmp(u->w->b->look.names.items[name].text, "000") == 0;
+}
+
+/*
+ * `material:slotBinding:_050 = </Looks/Dust>`, or of slot 000 `material:binding`; target 0: None.
+ */
 static void put_binding(struct usda_writer *u, uint32_t depth, uint32_t name, uint32_t target)
 {
     struct text *out = u->w->out;
+    bool is_plain = target && is_base(u, name);
     indent(out, depth);
-    text_str(out, "rel material:slotBinding:");
-    slot_encode(&u->w->b->look.names.items[name].name, out);
+    text_str(out, is_plain ? "rel material:binding" : "rel material:slotBinding:");
+    if (!is_plain)
+        slot_encode(&u->w->b->look.names.items[name].name, out);
     if (target) {
         text_fmt(out, " = </Looks/%s>\n", target_name(u, target));
         note_material(u, target);
     } else {
         text_str(out, " = None\n");
+    }
+}
+
+/* The bindings of slot 000, or all others, that differ from those above. */
+static void put_changes(struct usda_writer *u, uint32_t depth, bool of_base)
+{
+    for (uint32_t i = 0; i < u->own.len; i++) {
+        const struct said *said = &u->own.items[i], *inherited = find_said(&u->above, said->name);
+        if (is_base(u, said->name) == of_base && (!inherited || inherited->target != said->target))
+            put_binding(u, depth, said->name, said->target);
     }
 }
 
@@ -97,14 +117,12 @@ static void put_bindings(struct usda_writer *u, prim_id prim, uint32_t depth)
     if (above)
         collect(u, above, &u->above);
     collect(u, own, &u->own);
-    for (uint32_t i = 0; i < u->own.len; i++) {
-        const struct said *inherited = find_said(&u->above, u->own.items[i].name);
-        if (!inherited || inherited->target != u->own.items[i].target)
-            put_binding(u, depth, u->own.items[i].name, u->own.items[i].target);
-    }
+    put_changes(u, depth, false);
     for (uint32_t i = 0; i < u->above.len; i++)
         if (!find_said(&u->own, u->above.items[i].name))
             put_binding(u, depth, u->above.items[i].name, 0);
+    /* tools without slots let the last one win */
+    put_changes(u, depth, true);
 }
 
 /* The slotorder of the look, or of the scene itself. */

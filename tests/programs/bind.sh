@@ -193,6 +193,12 @@ check 'and what a stronger binding has beaten' row '/set/shelf/board (000 Clay) 
 check 'but deeper wins' row '/set/stool/leg [000 Clay] (dust Dust) (base Clay)'
 check 'reasons name it' exits 0 usd --geom /set/shelf/board
 check 'as stronger' grep -q 'loses to /set/shelf.material:binding, which is stronger than bindings of the scene below it' out
+cat >leaves.mtlx <<'XML'
+<materialx version="1.39"><xi:include xmlns:xi="http://www.w3.org/2001/XInclude" href="materials.mtlx"/>
+  <look name="l"><materialassign slot="leaf" material="Clay" geom="//*"/></look></materialx>
+XML
+check 'a mesh with subsets is no leaf' exits 0 "$mxgen" bind leaves.mtlx --stage stage.usda --look l
+check 'its subset is one' eval 'grep -E "^/set/cup/rim .*\[leaf Clay\]" out && ! grep -E "^/set/cup .*leaf" out && grep -E "^/set/shelf/board .*leaf" out'
 check 'an unknown slot of the stage' fails unknown-slot materials.mtlx --stage stage.usda --solo dsut
 check 'is compared' grep -qF "did you mean 'dust'" err
 # broken SCRIPT ID [LINE]: the stage, edited by sed.
@@ -419,6 +425,9 @@ check 'the bindings of a stage as USD' round_trip materials.mtlx stage.usda
 check 'a look as USD' round_trip "$looks" "$receiver" --look finished
 check 'without a warning' test ! -s err
 check 'says on a primitive only what is new' eval '! grep -A4 "def \"bar_1\"" round.usda | grep -q _050'
+check 'slot 000 as the plain binding, which tools without slots know' grep -q 'rel material:binding = </Looks/ribbed_steel>' round.usda
+check 'behind all others of its prim' eval '! grep -A1 "rel material:binding = " round.usda | grep -q slotBinding'
+check 'and not a second time' eval '! grep -q "slotBinding:_000 = <" round.usda'
 check 'removes' grep -q 'material:slotBinding:_050 = None' round.usda
 check 'names overrides' grep -q 'rel material:slotBinding:_000:_:_020 = </Looks/red_color>' round.usda
 check 'names vertical layers' grep -q 'rel material:slotBinding:_000:over:_010 = </Looks/varnish>' round.usda
