@@ -833,6 +833,15 @@ static bool is_cut(struct emitter *e, ir_ref alpha)
                && closure_alpha(e->shader, alpha) == ALPHA_MASK);
 }
 
+static void store_surface(struct emitter *e, const struct closure_surface *s, bool is_whole)
+{
+    struct closure_list list;
+    e->shader->alpha = draws_all(e, s->alpha) ? ALPHA_OPAQUE : is_whole ? ALPHA_MASK : ALPHA_BLEND;
+    flatten_surface(e, s, &list);
+    const struct closure_stored stored = {s->bsdf, &list, e->lit.base, s->alpha, s->premultiplied};
+    e->host->store(e->shader, e->host, &stored);
+}
+
 static void emit_surface(struct emitter *e, ir_ref root)
 {
     bool is_stack = root && ir_get(e->graph, root)->op == IR_SLOTS;
@@ -859,11 +868,8 @@ static void emit_surface(struct emitter *e, ir_ref root)
         return;
     }
     bool is_whole = draws_all(e, s.alpha) || is_cut(e, s.alpha);
-    if (e->host->store && is_whole && !has_aov_outputs(e)) {
-        struct closure_list list;
-        e->shader->alpha = draws_all(e, s.alpha) ? ALPHA_OPAQUE : ALPHA_MASK;
-        flatten_surface(e, &s, &list);
-        e->host->store(e->shader, e->host, s.bsdf, &list, e->lit.base);
+    if (e->host->store && (e->host->stores_all || (is_whole && !has_aov_outputs(e)))) {
+        store_surface(e, &s, is_whole);
         return;
     }
     light_surface(e, &s);
@@ -916,7 +922,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
                         .host = host,
                         .lighting = lighting,
                         .lit = {.color = UINT32_MAX}};
-    if (root && shader->scatters)
+    if (root && shader->has_rays)
         root = closure_differentials(shader, root);
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
         root = ir_arg(e.graph, root, 3) ? ir_arg(e.graph, root, 3)
