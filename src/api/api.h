@@ -282,6 +282,9 @@ mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t
 
 /* ---- Documents: document.c ---- */
 
+/* Gives the layer of a document the trust and the targets of its context. */
+void document_follow_context(struct mxg_document *document);
+
 /*
  * Indexes a document whose tree is complete, and finds its renderables. The document takes the
  * names of `files`.

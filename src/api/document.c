@@ -25,6 +25,14 @@ void document_finish(struct mxg_document *document, struct file_source *files)
     document->files.len = files->names.len;
 }
 
+void document_follow_context(mxg_document *document)
+{
+    struct mxg_context *context = document->object.context;
+    document->layer.trust = context->trust;
+    document->layer.knows_target = target_exists;
+    document->layer.target_user_data = context;
+}
+
 static void read_layer(void *arg)
 {
     struct load *load = arg;
@@ -37,7 +45,7 @@ static void read_layer(void *arg)
     library_init(layer, &document->object.arena, (struct library *)(uintptr_t)&load->base->layer);
     for (uint32_t i = 0; i < load->base->folders.len; i++)
         vec_push(&document->object.arena, &load->files.folders, load->base->folders.items[i]);
-    layer->trust = document->object.context->trust;
+    document_follow_context(document);
     layer->doc.keeps_comments = true;
     if (load->data) {
         vec_push(&document->object.arena, &load->files.names,

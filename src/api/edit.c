@@ -73,7 +73,7 @@ static void begin_document(void *arg)
         begin_empty(&layer->doc, name);
         vec_push(arena, &document->files, arena_strndup(arena, name, strlen(name)));
     }
-    layer->trust = document->object.context->trust;
+    document_follow_context(document);
     layer->doc.max_elements = document->object.context->xml_limits.max_elements;
 }
 
@@ -642,7 +642,7 @@ static void stand_alone(mxg_document *document)
     document->layer.doc = own.doc;
     document->layer.strings = own.strings;
     document->layer.doc.strings = &document->layer.strings;
-    document->layer.trust = own.trust;
+    document_follow_context(document);
     document->origin = NULL;
     document->has_own_renderables = false;
 }

@@ -302,7 +302,8 @@ static bool serves(const struct library *lib, const struct implementation *impl,
                    const struct target *target)
 {
     return impl->kind != IMPL_BROKEN
-           && (!target || !impl->target || target_is_a(target, text_of(lib, impl->target)));
+           && (!target || library_is_portable(lib, impl)
+               || target_is_a(target, text_of(lib, impl->target)));
 }
 
 static bool has_implementation(const struct mxg_context *context, const struct library *lib,

@@ -4,16 +4,16 @@
 
 /*
  * 0: not for this target. Higher is better: the target itself, then inherited targets, then
- * portable.
+ * portable, then for another target but portable.
  */
 static unsigned fitness(const struct builder *b, const struct implementation *impl)
 {
     if (!impl->target)
-        return 1;
+        return 2;
     for (unsigned i = 0; i < b->options->num_targets; i++)
         if (b->options->targets[i] == impl->target)
-            return 2 + b->options->num_targets - i;
-    return 0;
+            return 3 + b->options->num_targets - i;
+    return library_is_portable(b->lib, impl) ? 1 : 0;
 }
 
 static void consider(const struct builder *b, const struct implementation *impl,

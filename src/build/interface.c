@@ -55,12 +55,13 @@ static bool any_glob(const char *const *globs, unsigned n, const char *path)
 }
 
 /*
- * True for inputs of the shader nodes and of the document's graphs: the interface mode applies to
+ * True for inputs of the document, its graphs and the shader nodes: the interface mode applies to
  * them.
  */
 static bool is_public(const struct builder *b, elem_id node)
 {
-    if (doc_element(build_doc(b), node)->kind == KIND_NODEGRAPH)
+    enum element_kind kind = doc_element(build_doc(b), node)->kind;
+    if (kind == KIND_MATERIALX || kind == KIND_NODEGRAPH)
         return true;
     for (uint32_t i = 0; i < b->public_nodes.len; i++)
         if (b->public_nodes.items[i] == node)
@@ -114,10 +115,12 @@ static str_id variable_name(struct builder *b, elem_id node, str_id input)
         return input;
     struct text *name = &b->scratch;
     name->len = 0;
-    if (b->slot) /* layers may share nodes */
+    str_id owner = doc_element(build_doc(b), node)->name; /* 0: the document */
+    if (b->slot)                                          /* layers may share nodes */
         text_fmt(name, "%s_", build_text(b, b->slot));
-    text_fmt(name, "%s_%s", build_text(b, doc_element(build_doc(b), node)->name),
-             build_text(b, input));
+    if (owner)
+        text_fmt(name, "%s_", build_text(b, owner));
+    text_str(name, build_text(b, input));
     return str_intern(b->shader->strings, name->data, name->len);
 }
 

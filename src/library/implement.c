@@ -261,23 +261,25 @@ void index_break(struct library *lib, struct implementation *impl, const struct 
         vec_push(lib->doc.arena, &lib->deferred->items, faults->items.items[i]);
 }
 
-/* Source for a target that does not parse stays verbatim; a portable implementation must parse. */
+/*
+ * Source for a target that is not portable stays verbatim, if it is trusted; an implementation
+ * without a target must be portable.
+ */
 static void parse_implementation(struct indexer *ix, struct implementation *impl)
 {
-    struct diag_list faults;
+    struct diag_list faults, unfit;
     diag_list_init(&faults, ix->arena);
-    if (ix->lib->trust == LIBRARY_TRUST_GRAPHS)
-        refuse_source(ix, impl, "a sandbox allows no source", &faults);
-    else if (impl->target && ix->lib->trust == LIBRARY_TRUST_PORTABLE)
-        refuse_source(ix, impl, "it is for one target only", &faults);
-    else if (parse_source(ix, impl, &faults))
-        return;
-    struct diag_list unfit;
     diag_list_init(&unfit, ix->arena);
-    bool is_trusted = impl->target && ix->lib->trust == LIBRARY_TRUST_ALL;
-    if (is_trusted && index_verbatim(ix, impl, &faults, &unfit))
+    enum library_trust trust = ix->lib->trust;
+    if (trust != LIBRARY_TRUST_GRAPHS && parse_source(ix, impl, &faults))
         return;
-    index_break(ix->lib, impl, is_trusted ? &unfit : &faults);
+    if (trust == LIBRARY_TRUST_ALL && impl->target && index_verbatim(ix, impl, &faults, &unfit))
+        return;
+    if (trust == LIBRARY_TRUST_GRAPHS)
+        refuse_source(ix, impl, "a sandbox allows no source", &unfit);
+    else if (trust == LIBRARY_TRUST_PORTABLE && impl->target)
+        refuse_source(ix, impl, "it is for one target, and not portable", &unfit);
+    index_break(ix->lib, impl, impl->target || unfit.items.len ? &unfit : &faults);
 }
 
 static bool are_in_one_file(const struct indexer *ix, elem_id a, elem_id b)

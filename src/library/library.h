@@ -270,6 +270,12 @@ uint32_t library_first_of_node(const struct library *layer, str_id node);
  */
 uint32_t library_first_override(const struct library *layer, uint32_t nodedef);
 
+/*
+ * True if an implementation serves every target: it names none, or its source for MaterialX's GLSL
+ * is portable.
+ */
+bool library_is_portable(const struct library *lib, const struct implementation *impl);
+
 /* Reports how many implementations of a layer are for targets that mxgen does not have. */
 void library_report_foreign(const struct library *lib, struct arena *scratch,
                             struct diag_list *diags);

@@ -10,6 +10,9 @@
 
 static const char prelude_name[] = "mxgen/prelude.glsl";
 
+/* The target whose source is close to the portable language. */
+static const char portable_target[] = "genglsl";
+
 static const char prelude[] =
 #define PRELUDE(text) text
 #include "library/prelude.def"
@@ -79,7 +82,14 @@ static bool read_portable(void *user_data, const char *from, const char *ref, co
 
 bool index_has_prelude(const struct indexer *ix, const struct implementation *impl)
 {
-    return ix->reader && impl->target && strcmp(index_text(ix, impl->target), "genglsl") == 0;
+    return ix->reader && impl->target && strcmp(index_text(ix, impl->target), portable_target) == 0;
+}
+
+bool library_is_portable(const struct library *lib, const struct implementation *impl)
+{
+    bool is_read = impl->kind == IMPL_EXPRESSION || impl->kind == IMPL_FUNCTION;
+    return !impl->target
+           || (is_read && strcmp(str_text(&lib->strings, impl->target), portable_target) == 0);
 }
 
 uint32_t index_parse_with_prelude(struct indexer *ix, const char *from, const char *ref,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Inputs that take a shader: a shader comes from a node, and a material needs at least one. */
+/* Inputs that take a shader: a shader comes from a node; materials and dots need at least one. */
 #include "library/library.h"
 
 #include <assert.h>
@@ -26,8 +26,8 @@ static void report_value(const struct library *lib, const struct port *port, ele
              text_cstr(&advice));
 }
 
-/* The name of the only node of a type beside `node`; 0: there are none or several. */
-static str_id only_node(const struct library *lib, elem_id node, str_id type,
+/* The name of the only node of a type beside `owner` but `node`; 0: there are none or several. */
+static str_id only_node(const struct library *lib, elem_id owner, elem_id node, str_id type,
                         struct diag_list *diags)
 {
     enum { MAX_SEARCHED = 4096 };
@@ -36,10 +36,10 @@ static str_id only_node(const struct library *lib, elem_id node, str_id type,
         return 0;
     diags->num_guesses++;
     str_id found = 0;
-    elem_id e = doc_element(doc, doc_element(doc, node)->parent)->first_child;
+    elem_id e = doc_element(doc, doc_element(doc, owner)->parent)->first_child;
     for (unsigned searched = 0; e; e = doc_element(doc, e)->next, searched++) {
-        bool fits =
-            doc_element(doc, e)->kind == KIND_NODE && doc_attr_value(doc, e, STR_type) == type;
+        bool fits = e != node && doc_element(doc, e)->kind == KIND_NODE
+                    && doc_attr_value(doc, e, STR_type) == type;
         if ((fits && found) || searched == MAX_SEARCHED)
             return 0;
         found = fits ? doc_element(doc, e)->name : found;
@@ -47,25 +47,25 @@ static str_id only_node(const struct library *lib, elem_id node, str_id type,
     return found;
 }
 
-/* `owner` has the input that needs a node: the material, or a graph around it. */
-static void report_missing(const struct library *lib, elem_id material, elem_id owner, str_id input,
+/* `owner` has the input that needs a node: the node that asks, or a graph around it. */
+static void report_missing(const struct library *lib, elem_id node, elem_id owner, str_id input,
                            str_id type, struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
-    const char *material_name = text_of(lib, doc_element(doc, material)->name);
+    bool is_dot = doc_element(doc, node)->category == STR_dot;
     const char *input_name = text_of(lib, input);
-    str_id shader = only_node(lib, owner, type, diags);
+    str_id shader = only_node(lib, owner, node, type, diags);
     struct text source, target;
     text_init(&source, diags->arena);
     text_fmt(&source, shader ? "'%s'" : "a node", text_of(lib, shader));
     text_init(&target, diags->arena);
-    if (owner == material)
+    if (owner == node)
         text_fmt(&target, "its input '%s'", input_name);
     else
         text_fmt(&target, "the input '%s' of '%s'", input_name,
                  text_of(lib, doc_element(doc, owner)->name));
-    diag_add(diags, DIAG_ID_no_shader, doc_name_place(doc, material), material_name,
-             text_cstr(&source), text_cstr(&target));
+    diag_add(diags, DIAG_ID_no_shader, doc_name_place(doc, node), is_dot ? "dot" : "material",
+             text_of(lib, doc_element(doc, node)->name), text_cstr(&source), text_cstr(&target));
 }
 
 /* The input of a graph around the node that should have its shader; 0: it is not a graph's. */
@@ -106,7 +106,8 @@ void library_check_shaders(const struct library *lib, elem_id node, uint32_t nod
         bool is_connected = binding->kind != BIND_DEFAULT && binding->kind != BIND_VALUE;
         is_any_given |= is_value || is_connected;
     }
-    bool needs_one = def->node == STR_surfacematerial || def->node == STR_volumematerial;
+    bool needs_one =
+        def->node == STR_surfacematerial || def->node == STR_volumematerial || def->node == STR_dot;
     if (needs_one && input && !is_any_given)
         report_missing(lib, node, owner, input, type, diags);
 }

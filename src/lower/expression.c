@@ -3,11 +3,6 @@
 
 #include <assert.h>
 
-static ir_ref value_of(struct lower *lo, ir_ref leaf, ir_type_id type)
-{
-    return leaf ? leaf : ir_poison(lo->graph, type);
-}
-
 static inline void copy_leaves(const ir_ref *from, uint32_t count, ir_ref *out)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -37,7 +32,7 @@ ir_ref lower_single(struct lower *lo, const struct lang_node *node)
         result = ir_const_words(lo->graph, node->type, ast_words(lo->frame->layer, node));
     else
         lower_other(lo, node, &result);
-    return result || lo->failed ? result : ir_poison(lo->graph, node->type);
+    return lo->failed ? result : lower_defined(lo, result, node->type);
 }
 
 /* Globals */
@@ -303,7 +298,7 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
     } else if (ast_is_user_type(lower_node(lo, node->a)->type))
         assign_part(lo, node, leaves);
     else
-        assign_element(lo, node, value_of(lo, leaves[0], node->type));
+        assign_element(lo, node, lower_defined(lo, leaves[0], node->type));
 }
 
 /* Calls */

@@ -63,8 +63,7 @@ static const ir_ref *join_user_type(struct lower *lo, ir_type_id type, const ir_
     for (uint32_t i = 0; i < count; i++) {
         ir_type_id part = part_type(lo, type, i, &count);
         leaves = join(lo, part, leaves, &parts[i]);
-        if (!parts[i])
-            parts[i] = ir_poison(lo->graph, graph_type(lo, part));
+        parts[i] = lower_defined(lo, parts[i], graph_type(lo, part));
     }
     *out = ir_construct(lo->graph, graph_type(lo, type), parts, count);
     return leaves;
@@ -404,8 +403,7 @@ static const ir_ref *join_result(struct lower *lo, ir_type_id type, const ir_ref
                                  ir_ref *out)
 {
     leaves = join(lo, type, leaves, out);
-    if (!*out)
-        *out = ir_poison(lo->graph, graph_type(lo, type));
+    *out = lower_defined(lo, *out, graph_type(lo, type));
     return leaves;
 }
 

@@ -53,6 +53,13 @@ static inline const struct lang_node *lower_node(const struct lower *lo, lang_re
     return ast_node(lo->frame->layer, ref);
 }
 
+/* The value; poison if it is undefined. Closures and shaders may be absent. */
+static inline ir_ref lower_defined(struct lower *lo, ir_ref value, ir_type_id type)
+{
+    bool may_be_absent = ir_type_is_closure(type) || ir_type_is_shader(type);
+    return value || may_be_absent ? value : ir_poison(lo->graph, type);
+}
+
 static inline uint32_t lower_leaves(const struct lower *lo, ir_type_id type)
 {
     return ast_type_leaves(lo->unit, type);

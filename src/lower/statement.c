@@ -30,7 +30,7 @@ static void lower_assignment(struct lower *lo, const struct lang_node *node)
         ir_ref old = lower_single(lo, lower_node(lo, node->a));
         if (lo->failed)
             return;
-        ir_ref value = leaves[0] ? leaves[0] : ir_poison(lo->graph, lower_node(lo, node->b)->type);
+        ir_ref value = lower_defined(lo, leaves[0], lower_node(lo, node->b)->type);
         leaves[0] = ir_build(lo->graph, node->op, lower_node(lo, node->a)->type, 0,
                              (ir_ref[]){old, value}, 2);
     }

@@ -4,7 +4,7 @@
 uniform float SR_unlit_emission = 1.0;
 uniform float SR_unlit_transmission = 0.25;
 uniform vec3 SR_unlit_transmission_color = vec3(1.0);
-uniform float SR_unlit_opacity = 0.5;
+uniform float fade = 0.5;
 uniform float u_alphaThreshold = 0.001;
 in VertexData {
     vec2 texcoord_0;
@@ -14,9 +14,8 @@ out vec4 out1;
 void main()
 {
     // opacity
-    float opacity = SR_unlit_opacity * (1.0
-        - dot(SR_unlit_transmission * SR_unlit_transmission_color, vec3(0.33333334)));
+    float opacity = fade * (1.0 - dot(SR_unlit_transmission * SR_unlit_transmission_color, vec3(0.33333334)));
     if (opacity < u_alphaThreshold)
         discard;
-    out1 = vec4(vec3(vd.texcoord_0, 0.0) * (SR_unlit_emission * SR_unlit_opacity), opacity);
+    out1 = vec4(vec3(vd.texcoord_0, 0.0) * (SR_unlit_emission * fade), opacity);
 }

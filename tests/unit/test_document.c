@@ -271,7 +271,9 @@ static void test_validation(void)
                   "uimax=\"1\"/><output name=\"o\" type=\"float\"/></nodedef>",
                   "2:65 bad-value");
     require_valid("<nodedef name=\"N\" node=\"n\"/>", "2:1 no-output");
-    require_valid("<input name=\"i\" type=\"float\"/>", "2:1 misplaced-element");
+    require_valid("<input name=\"i\" type=\"float\"/>", ""); /* of the document */
+    require_valid("<look name=\"L\"><input name=\"i\" type=\"float\"/></look>",
+                  "2:16 misplaced-element");
     require_valid("<nodedef name=\"N\" node=\"n\"><add name=\"a\" type=\"float\"/><output "
                   "name=\"o\" type=\"float\"/></nodedef>",
                   "2:28 misplaced-element");
