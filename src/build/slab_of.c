@@ -94,6 +94,8 @@ static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, i
     for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
         in[i] = input_of(b, id, results, names[i]);
     in[SLAB_coverage] = ir_const_float(b->graph, 1.0f);
+    in[SLAB_specular_lut] = 0;
+    in[SLAB_specular_lut_weight] = ir_const_float(b->graph, 0.0f);
     if (albedo) {
         in[SLAB_diffuse_albedo] = albedo;
         in[SLAB_f0] = ir_const_splat(b->graph, IR_TYPE_VEC3, 0.0f);

@@ -33,8 +33,13 @@ check 'is an error' says "expected a number of 0..100"
 check 'a part that does not exist' exits 1 "$mxgen" "$slabs" --features -glimmer -o made
 check 'is named' says "-glints, -lut, -fuzz"
 sed 's/<slab name="dust" type="BSDF">/&<input name="glint_density" type="float" value="3"\/>/' "$slabs" >glints.mtlx
-check 'glints have no code' exits 1 "$mxgen" glints.mtlx -e DustyFibre -o made
-check 'but may be left out' compiles glints.mtlx --features -glints
+check 'glints have code' compiles glints.mtlx
+check 'but may be left out' exits 0 "$mxgen" glints.mtlx -e DustyFibre --features -glints --stdout
+check 'then there is none' eval '! grep -q mx_glints out'
+check 'OSL has no glints' exits 0 "$mxgen" glints.mtlx -e DustyFibre --target osl -o made
+check 'and tells it' says '[slab-part-missing]'
+check 'they are drawn forward' exits 0 "$mxgen" glints.mtlx -e DustyFibre --pipeline deferred --target vulkan -o made
+check 'which is told' says "its slab 'dust' has glints or a tint [drawn-forward]"
 check 'without fuzz' exits 0 "$mxgen" inspect --closures "$slabs" -e DustyFibre --features -fuzz
 check 'there is none' eval '! grep -q mx_sheen out'
 
