@@ -18,6 +18,8 @@
  */
 #include "slabs/blend.h"
 
+#include "slabs/spread.h"
+
 #include <assert.h>
 
 /* A part of the slab. */
@@ -511,6 +513,8 @@ static void blend_over(const struct slab_blend *blend, struct part *a, struct pa
                        ir_ref thickness, const struct slab_spot *spot, ir_ref *out)
 {
     struct ir_graph *g = blend->shader->graph;
+    if (blend->host->tracks_roughness)
+        slab_widen(g, slab_spread(g, a->in), b->in);
     struct top top = look_along_normal(blend, a, b, thickness);
     ir_ref coverage = a->in[SLAB_coverage], of_b = b->in[SLAB_coverage];
     ir_ref missing = closure_one_minus(g, coverage);
