@@ -3,6 +3,7 @@
 
 #include "../pbrlib/shaders/diffuse.glsl"
 #include "../pbrlib/shaders/ggx_sampling.glsl"
+#include "glint.glsl"
 
 // ---- diffuse reflection of an opaque medium --------------------------------------------------------------------------
 // Chan 2018, "Material Advances in Call of Duty: WWII", divided by its directional albedo, which is 0.31 to 1.12.
@@ -265,34 +266,70 @@ float mx_slab_medium_bsdf_way(vec3 color, float roughness, vec3 mean_free_path, 
 
 // ---- slab_reflection_bsdf --------------------------------------------------------------------------------------------
 // GGX with Schlick's curve, as generalized_schlick_bsdf. What it does not reflect goes through channel by channel, so that nothing is gained.
+// Glints change what a direction gets, not the mean, so albedo, environment of rasters, samples and their densities are those of countless
+// facets. What a tint takes is lost.
 
-vec3 mx_slab_reflection_bsdf_eval(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L)
+// Without a footprint nobody knows which facets a pixel sees.
+float mx_slab_glints(float glint_density, vec2 glint_uv, vec4 glint_footprint, vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L)
 {
-    return mx_ggx_eval(roughness, N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+    if (glint_density <= 0.0 || dot(glint_footprint, glint_footprint) <= 0.0)
+        return 1.0;
+    vec3 Nf = mx_facing(N, V);
+    vec3 H = V + L;
+    vec3 x = mx_tangent(Nf, X);
+    vec2 slope = vec2(dot(H, x), dot(H, cross(Nf, x))) / (max(dot(H, Nf), MX_EPSILON) * mx_ggx_alpha(roughness));
+    return mx_glints(clamp(slope, -1e4, 1e4), glint_density, glint_uv, glint_footprint);
 }
 
-vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V, int sample_index, vec2 sample_turn)
+// The tint of light from L: the table's colour at the cosines of view and light.
+vec3 mx_slab_tint(sampler2D specular_lut, float specular_lut_weight, float cos_v, float cos_l)
 {
-    return mx_ggx_environment(roughness, N, X, V, sample_index, sample_turn, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+    if (specular_lut_weight <= 0.0)
+        return vec3(1.0);
+    vec2 edge = 0.5 / vec2(textureSize(specular_lut, 0)); // 0 and 1 are the centres of the outer texels, which do not repeat
+    vec2 at = mix(edge, 1.0 - edge, clamp(vec2(cos_v, cos_l), 0.0, 1.0));
+    return mix(vec3(1.0), clamp(textureLod(specular_lut, at, 0.0).xyz, 0.0, 1.0), specular_lut_weight);
 }
 
-vec3 mx_slab_reflection_bsdf_albedo(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V)
+vec3 mx_slab_reflection_bsdf_eval(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
+                                  float specular_lut_weight, vec3 N, vec3 X, vec3 V, vec3 L)
 {
-    return mx_ggx_reflectance(roughness, N, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+    return mx_ggx_eval(roughness, N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+         * mx_slab_tint(specular_lut, specular_lut_weight, mx_view_cosine(N, V), abs(dot(N, L)))
+         * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
 
-vec3 mx_slab_reflection_bsdf_throughput(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V)
+// A raster tints all of its environment as at the mirror of the view.
+vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
+                                         float specular_lut_weight, vec3 N, vec3 X, vec3 V, int sample_index, vec2 sample_turn)
 {
-    return max(1.0 - mx_slab_reflection_bsdf_albedo(f0, f90, roughness, N, X, V), 0.0);
+    return mx_ggx_environment(roughness, N, X, V, sample_index, sample_turn, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+         * mx_slab_tint(specular_lut, specular_lut_weight, mx_view_cosine(N, V), mx_view_cosine(N, V));
 }
 
-void mx_slab_reflection_bsdf_sample(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
-                                    out float pdf)
+vec3 mx_slab_reflection_bsdf_albedo(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
+                                    float specular_lut_weight, vec3 N, vec3 X, vec3 V)
+{
+    return mx_ggx_reflectance(roughness, N, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+         * mx_slab_tint(specular_lut, specular_lut_weight, mx_view_cosine(N, V), mx_view_cosine(N, V));
+}
+
+vec3 mx_slab_reflection_bsdf_throughput(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
+                                        float specular_lut_weight, vec3 N, vec3 X, vec3 V)
+{
+    return max(1.0 - mx_ggx_reflectance(roughness, N, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5), 0.0);
+}
+
+void mx_slab_reflection_bsdf_sample(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
+                                    float specular_lut_weight, vec3 N, vec3 X, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
     mx_ggx_scatter(roughness, N, X, V, xi, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
+    weight *= mx_slab_tint(specular_lut, specular_lut_weight, mx_view_cosine(N, V), abs(dot(N, L)))
+            * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
 
-float mx_slab_reflection_bsdf_pdf(vec3 f0, vec3 f90, vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L)
+float mx_slab_reflection_bsdf_pdf(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
+                                  float specular_lut_weight, vec3 N, vec3 X, vec3 V, vec3 L)
 {
     return mx_ggx_pdf(roughness, N, X, V, L, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
 }

@@ -74,7 +74,8 @@ static void draw_forward(struct generation *g, ir_ref misfit)
 bool generation_can_store(struct generation *g)
 {
     ir_ref misfit = generation_stores(g) ? deferred_misfit(&g->result->shader, g->root) : 0;
-    if (misfit && !generation_packs(g) && g->options[OPTION_slabs].number)
+    bool is_slab = misfit && ir_get(g->result->shader.graph, misfit)->op == IR_SLAB;
+    if (misfit && !generation_packs(g) && (is_slab || g->options[OPTION_slabs].number))
         draw_forward(g, misfit);
     else if (misfit)
         report_misfit(g, misfit);
@@ -92,8 +93,9 @@ static const char *why_forward(struct generation *g)
         return shader->alpha == ALPHA_BLEND ? "its opacity may be between 0 and 1" : "it has AOVs";
     struct text why;
     text_init(&why, &g->scratch);
+    bool is_slab = ir_get(graph, g->misfit)->op == IR_SLAB;
     text_fmt(
-        &why, "its part '%s' is no slab",
+        &why, is_slab ? "its slab '%s' has glints or a tint" : "its part '%s' is no slab",
         str_text(shader->strings, graph->origins.items[ir_get(graph, g->misfit)->origin].name));
     return text_cstr(&why);
 }

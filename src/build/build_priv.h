@@ -358,7 +358,7 @@ ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely);
 /* True if a slab stands for all parts of a leaf. */
 bool build_fits_slab(struct builder *b, ir_ref leaf);
 /* slabs_host.slab_like */
-ir_ref build_slab_like(struct builder *b, ir_ref albedo);
+ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo);
 /* The definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
 uint32_t build_slab_definition(const struct builder *b);
 

@@ -39,9 +39,9 @@ static ir_ref slab_of(void *user_data, ir_ref leaf, bool is_top, bool loosely)
     return build_slab_of(user_data, leaf, is_top, loosely);
 }
 
-static ir_ref slab_like(void *user_data, ir_ref albedo)
+static ir_ref slab_like(void *user_data, ir_ref leaf, ir_ref albedo)
 {
-    return build_slab_like(user_data, albedo);
+    return build_slab_like(user_data, leaf, albedo);
 }
 
 static struct slabs_host slabs_host(struct builder *b, const struct closure_host *closures)
@@ -50,7 +50,9 @@ static struct slabs_host slabs_host(struct builder *b, const struct closure_host
                                .lobes = slab_lobes,
                                .slab_of = slab_of,
                                .slab_like = slab_like,
-                               .closures = closures};
+                               .closures = closures,
+                               .tracks_roughness =
+                                   !(b->options->slab_features_off & 1u << SLAB_ROUGHNESS)};
 }
 
 ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, ir_ref root)

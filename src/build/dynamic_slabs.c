@@ -29,17 +29,31 @@ static bool is_off(const mxg_build *build, str_id input)
     return build_initial(b, ref, &value) && value.w[0].u == 0;
 }
 
-/* Parts of slabs that have no code yet are an error, so that none is lost in silence. */
-static bool is_missing(const mxg_build *build, str_id input, enum slab_feature feature,
-                       const char *part)
+/*
+ * False for a part that the document does not have, also behind a uniform, because its code is
+ * long. Closures of a renderer have no such part.
+ */
+static bool has_part(const mxg_build *build, str_id input, enum slab_feature feature)
 {
     struct builder *b = build->b;
     if (b->options->slab_features_off & 1u << feature || is_off(build, input))
         return false;
-    diag_add(b->diags, DIAG_ID_slab_part_missing,
-             doc_place(&b->lib->doc, build->frame->node.element), build_text(b, input),
-             build_text(b, build->def->node), part);
-    return true;
+    if (b->options->closures)
+        diag_add(b->diags, DIAG_ID_slab_part_missing,
+                 doc_place(&b->lib->doc, build->frame->node.element), build_text(b, input),
+                 build_text(b, build->def->node));
+    return !b->options->closures;
+}
+
+static void leave_out(const mxg_build *build, ir_ref *args)
+{
+    ir_ref nothing = ir_const_float(build->b->graph, 0.0f);
+    if (!has_part(build, STR_glint_density, SLAB_GLINTS))
+        args[SLAB_glint_density] = nothing;
+    if (has_part(build, STR_specular_lut, SLAB_LUT))
+        return;
+    args[SLAB_specular_lut] = 0;
+    args[SLAB_specular_lut_weight] = nothing;
 }
 
 /* ---- Values that matter cannot have ---- */
@@ -94,6 +108,7 @@ static void check_slab(const mxg_build *build, const str_id *names, const ir_ref
         {SLAB_fuzz_amount, SHARE},       {SLAB_fuzz_color, SHARE},
         {SLAB_fuzz_roughness, SIGNED},   {SLAB_mean_free_path, LENGTH},
         {SLAB_phase_anisotropy, SIGNED}, {SLAB_emission, LENGTH},
+        {SLAB_glint_density, LENGTH},    {SLAB_specular_lut_weight, SHARE},
     };
     for (size_t i = 0; i < sizeof checked / sizeof *checked; i++)
         check_bounds(build, names[checked[i].input], args[checked[i].input], checked[i].in);
@@ -122,9 +137,6 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
 #undef SLAB_INPUT
     };
     (void)user_data;
-    if (is_missing(build, STR_glint_density, SLAB_GLINTS, "glints")
-        || is_missing(build, STR_specular_lut, SLAB_LUT, "tints by view and light"))
-        return false;
     if (build_slab_definition(build->b) == LIBRARY_NONE)
         return dynamic_misfit(build, "the library lacks the definition 'ND_slab_lobes'");
     if (is_in_network(build))
@@ -133,6 +145,7 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
         args[i] = dynamic_arg(build, names[i]);
     args[SLAB_coverage] = ir_const_float(build->b->graph, 1.0f);
+    leave_out(build, args);
     check_slab(build, names, args);
     return finish(build, IR_SLAB, 0, args, NUM_SLAB_OPERANDS, results);
 }

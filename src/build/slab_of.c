@@ -94,6 +94,8 @@ static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, i
     for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
         in[i] = input_of(b, id, results, names[i]);
     in[SLAB_coverage] = ir_const_float(b->graph, 1.0f);
+    in[SLAB_specular_lut] = 0;
+    in[SLAB_specular_lut_weight] = ir_const_float(b->graph, 0.0f);
     if (albedo) {
         in[SLAB_diffuse_albedo] = albedo;
         in[SLAB_f0] = ir_const_splat(b->graph, IR_TYPE_VEC3, 0.0f);
@@ -120,7 +122,25 @@ ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely)
     return slab_with(b, id, results, 0);
 }
 
-ir_ref build_slab_like(struct builder *b, ir_ref albedo)
+/* The roughness of a slab for that of a leaf, which may be the widths of a lobe; 0: it has none. */
+static ir_ref mean_roughness(struct builder *b, ir_ref leaf)
 {
-    return slab_with(b, definition(b, "ND_slab"), NULL, albedo);
+    struct ir_graph *g = b->graph;
+    ir_ref roughness = operand_of(b, leaf, "roughness");
+    if (!roughness || ir_type_of(g, roughness) != IR_TYPE_VEC2)
+        return roughness && ir_type_of(g, roughness) == IR_TYPE_FLOAT ? roughness : 0;
+    ir_ref x = ir_component(g, roughness, 0), y = ir_component(g, roughness, 1);
+    ir_ref area = ir_op2(g, IR_MAX, ir_op2(g, IR_MUL, x, y), ir_const_float(g, 0.0f));
+    return ir_op1(g, IR_SQRT, ir_op1(g, IR_SQRT, area));
+}
+
+ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo)
+{
+    ir_ref slab = slab_with(b, definition(b, "ND_slab"), NULL, albedo);
+    ir_ref roughness = mean_roughness(b, leaf), in[NUM_SLAB_OPERANDS];
+    if (!roughness)
+        return slab;
+    memcpy(in, ir_args(b->graph, slab), sizeof in);
+    in[SLAB_roughness] = roughness;
+    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
 }

@@ -27,13 +27,23 @@ static bool is_mark(const struct shader *shader, ir_ref leaf)
     return strcmp(str_text(shader->strings, name), mark_family) == 0;
 }
 
+/* Glints need the footprint of a pixel, and tints a texture: passes have neither. */
+static bool has_unstored_part(const struct ir_graph *g, ir_ref slab)
+{
+    return !ir_const_is(g, ir_arg(g, slab, SLAB_glint_density), 0.0f)
+           || !ir_const_is(g, ir_arg(g, slab, SLAB_specular_lut_weight), 0.0f);
+}
+
 ir_ref deferred_misfit(const struct shader *shader, ir_ref root)
 {
     const struct ir_graph *g = shader->graph;
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    for (ir_ref ref = 1; ref <= root; ref++)
-        if (needed[ref] && ir_get(g, ref)->op == IR_LEAF && ir_type_of(g, ref) == IR_TYPE_BSDF)
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        uint8_t op = ir_get(g, ref)->op;
+        bool is_other = op == IR_LEAF && ir_type_of(g, ref) == IR_TYPE_BSDF;
+        if (needed[ref] && (is_other || (op == IR_SLAB && has_unstored_part(g, ref))))
             return ref;
+    }
     return 0;
 }
 

@@ -18,6 +18,8 @@
  */
 #include "slabs/blend.h"
 
+#include "slabs/spread.h"
+
 #include <assert.h>
 
 /* A part of the slab. */
@@ -291,6 +293,30 @@ static void blend_normal(struct ir_graph *g, const struct part *a, const struct 
     out[SLAB_normal] = ir_op1(g, IR_NORMALIZE, normal);
 }
 
+/* The glints of the part that has some: those of a, where both have. */
+static void blend_glints(struct ir_graph *g, const struct part *a, const struct part *b,
+                         ir_ref *out)
+{
+    bool are_of_b = is_dark(g, a) || ir_const_is(g, a->in[SLAB_glint_density], 0.0f);
+    const ir_ref *in = are_of_b && !is_dark(g, b) ? b->in : a->in;
+    out[SLAB_glint_density] = in[SLAB_glint_density];
+    out[SLAB_glint_uv] = in[SLAB_glint_uv];
+}
+
+/* One tint, of a where both have one, by the share of its part in what interfaces reflect. */
+static void blend_tint(struct ir_graph *g, const struct part *a, const struct part *b, ir_ref share,
+                       ir_ref *out)
+{
+    bool is_of_b = ir_const_is(g, a->in[SLAB_specular_lut_weight], 0.0f);
+    const ir_ref *in = is_of_b ? b->in : a->in;
+    ir_ref part = is_of_b ? share : closure_one_minus(g, share);
+    bool is_same = a->in[SLAB_specular_lut] == b->in[SLAB_specular_lut];
+    out[SLAB_specular_lut] = in[SLAB_specular_lut];
+    out[SLAB_specular_lut_weight] =
+        is_same ? mixed(g, a->in[SLAB_specular_lut_weight], b->in[SLAB_specular_lut_weight], share)
+                : mul(g, in[SLAB_specular_lut_weight], part);
+}
+
 /* All but the medium's depth, which differs by operator. */
 static void blend_parts(const struct slab_blend *blend, const struct part *a, const struct part *b,
                         ir_ref *out)
@@ -301,6 +327,8 @@ static void blend_parts(const struct slab_blend *blend, const struct part *a, co
     blend_normal(g, a, b, out);
     blend_anisotropy(g, a, b, share, out);
     blend_fuzz(g, a, b, out);
+    blend_glints(g, a, b, out);
+    blend_tint(g, a, b, share, out);
     out[SLAB_f90] = mixed(g, a->in[SLAB_f90], b->in[SLAB_f90], share);
     ir_ref light_a = mean(g, a->diffuse), light_b = mean(g, b->diffuse);
     ir_ref of_media = share_of(g, light_a, light_b);
@@ -485,6 +513,8 @@ static void blend_over(const struct slab_blend *blend, struct part *a, struct pa
                        ir_ref thickness, const struct slab_spot *spot, ir_ref *out)
 {
     struct ir_graph *g = blend->shader->graph;
+    if (blend->host->tracks_roughness)
+        slab_widen(g, slab_spread(g, a->in), b->in);
     struct top top = look_along_normal(blend, a, b, thickness);
     ir_ref coverage = a->in[SLAB_coverage], of_b = b->in[SLAB_coverage];
     ir_ref missing = closure_one_minus(g, coverage);
@@ -610,6 +640,12 @@ ir_ref slab_without(struct ir_graph *g, const struct slab_spot *spot, uint32_t f
         in[SLAB_roughness] = mixed(g, in[SLAB_roughness], in[SLAB_second_roughness],
                                    in[SLAB_second_roughness_weight]);
         in[SLAB_second_roughness_weight] = num(g, 0.0f);
+    }
+    if (gone & 1u << SLAB_GLINTS)
+        in[SLAB_glint_density] = num(g, 0.0f);
+    if (gone & 1u << SLAB_LUT) {
+        in[SLAB_specular_lut] = 0;
+        in[SLAB_specular_lut_weight] = num(g, 0.0f);
     }
     if (gone & 1u << SLAB_FUZZ)
         in[SLAB_fuzz_amount] = num(g, 0.0f);

@@ -29,6 +29,8 @@ struct stored_slab slab_stored(const struct ir_graph *g, ir_ref closure, bool is
         .fuzz_amount = in[SLAB_fuzz_amount],
         .free_path = in[SLAB_mean_free_path],
         .normal = in[SLAB_normal],
+        .has_tint = !ir_const_is(g, in[SLAB_specular_lut_weight], 0.0f),
+        .has_glints = !ir_const_is(g, in[SLAB_glint_density], 0.0f),
         .is_whole = is_whole && ir_const_is(g, in[SLAB_coverage], 1.0f),
     };
 }
@@ -75,8 +77,8 @@ static uint32_t parts_of(const struct ir_graph *g, const struct stored_slab *sla
     bool is_clear = !slab->is_other && is_zero(g, slab->diffuse_albedo);
     bool has[NUM_STORED_PARTS] = {
         [STORED_ALBEDO] = !is_clear || !is_over, /* the word of the top has its roughness */
-        [STORED_WEIGHTS] = !slab->is_whole,
-        [STORED_NORMAL] = has_normal,
+        [STORED_WEIGHTS] = !slab->is_whole,      [STORED_TINT] = slab->has_tint,
+        [STORED_GLINTS] = slab->has_glints,      [STORED_NORMAL] = has_normal,
     };
     has[STORED_MEDIUM] = slab->is_other || (!is_clear && !is_zero(g, slab->free_path));
     has[STORED_LOBES] =

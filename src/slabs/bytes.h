@@ -13,6 +13,7 @@ enum { SLAB_WORD_BYTES = 4 };
 /* What decides about the parts of a slab. */
 struct stored_slab {
     ir_ref diffuse_albedo, f90, anisotropy, second_roughness_weight, fuzz_amount, free_path, normal;
+    bool has_tint, has_glints;
     bool is_whole; /* all light reaches it: its weight is 1 */
     bool is_other; /* a closure that is no slab yet: it has all parts, and no values */
 };

@@ -176,7 +176,7 @@ static ir_ref recognised_leaf(const struct recogniser *r, ir_ref leaf)
     ir_ref albedo = closure_call(r->shader, r->host->closures, leaf, LEAF_ALBEDO, NULL);
     albedo = albedo ? ir_convert(g, IR_TYPE_VEC3, albedo) : ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
     albedo = ir_op2(g, IR_MUL, albedo, ir_arg(g, leaf, 0));
-    return r->host->slab_like(r->host->user_data, albedo);
+    return r->host->slab_like(r->host->user_data, leaf, albedo);
 }
 
 static ir_ref recognise_node(const struct recogniser *r, ir_ref ref)

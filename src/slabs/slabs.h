@@ -43,9 +43,10 @@ struct slabs_host {
      * no slab does.
      */
     ir_ref (*slab_of)(void *user_data, ir_ref leaf, bool is_top, bool loosely);
-    /* An opaque SLAB without an interface. */
-    ir_ref (*slab_like)(void *user_data, ir_ref albedo);
+    /* An opaque SLAB without an interface, with the mean roughness of a leaf. */
+    ir_ref (*slab_like)(void *user_data, ir_ref leaf, ir_ref albedo);
     const struct closure_host *closures;
+    bool tracks_roughness; /* matter below a rough interface looks rougher */
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };
 

@@ -84,6 +84,8 @@ uint32_t slab_features(const struct ir_graph *g, const struct slab_spot *spot)
         enum slab_operand input;
         float off; /* its value without the feature */
     } features[] = {
+        {SLAB_GLINTS, SLAB_glint_density, 0.0f},
+        {SLAB_LUT, SLAB_specular_lut_weight, 0.0f},
         {SLAB_SECOND_LOBE, SLAB_second_roughness_weight, 0.0f},
         {SLAB_FUZZ, SLAB_fuzz_amount, 0.0f},
         {SLAB_F90, SLAB_f90, 1.0f},

@@ -13,6 +13,7 @@
  * both.
  */
 #include "slabs/slabs.h"
+#include "slabs/spread.h"
 
 #include "base/hash.h"
 #include "base/table.h"
@@ -22,6 +23,7 @@
 struct where {
     ir_ref thickness; /* float, centimetres */
     ir_ref below;     /* closure: the lobes of everything below; 0: nothing */
+    ir_ref spread;    /* float: of the interfaces above; 0: there are none */
     uint32_t is_body;
 };
 
@@ -42,6 +44,7 @@ struct walk {
     struct table known; /* visits by hash */
     VEC(uint32_t) open;
     VEC(ir_ref) albedos; /* in pairs: lobes, their albedo */
+    ir_ref *spreads;     /* per node below the root: of a closure, a float; 0: none */
 };
 
 static bool is_closure(const struct walk *w, ir_ref ref)
@@ -58,14 +61,15 @@ static bool has_slabs(const struct walk *w, ir_ref ref)
 
 static uint32_t hash_of(ir_ref node, const struct where *where)
 {
-    uint32_t words[] = {node, where->thickness, where->below, where->is_body};
+    uint32_t words[] = {node, where->thickness, where->below, where->spread, where->is_body};
     return hash_bytes(words, sizeof words);
 }
 
 static bool is_visit(const struct visit *visit, ir_ref node, const struct where *where)
 {
     return visit->node == node && visit->where.thickness == where->thickness
-           && visit->where.below == where->below && visit->where.is_body == where->is_body;
+           && visit->where.below == where->below && visit->where.spread == where->spread
+           && visit->where.is_body == where->is_body;
 }
 
 /* The number of a visit + 1; 0: there is none yet. */
@@ -199,6 +203,7 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
     ir_ref inputs[NUM_SLAB_OPERANDS];
     assert(ir_get(g, slab)->num_args == NUM_SLAB_OPERANDS);
     memcpy(inputs, ir_args(g, slab), sizeof inputs);
+    slab_widen(g, where->spread, inputs);
     struct slab_place place = {.thickness = where->thickness,
                                .below = ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
                                .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f)};
@@ -219,17 +224,25 @@ static ir_ref layered(struct walk *w, ir_ref top, ir_ref base)
     return top && base ? ir_build(w->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2) : top ? top : base;
 }
 
+static ir_ref sum_of(struct ir_graph *g, ir_ref a, ir_ref b)
+{
+    return a && b ? ir_op2(g, IR_ADD, a, b) : a ? a : b;
+}
+
 /* A layer. False: an operand is open. */
 static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *out_result)
 {
     struct ir_graph *g = w->graph;
     const struct ir_node node = *ir_get(g, ref);
     ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
-    if (!visited(w, base, where, &base))
+    struct where below = where;
+    below.spread = sum_of(g, where.spread, top ? w->spreads[top] : 0);
+    if (!visited(w, base, below, &base))
         return false;
     struct where above = {.thickness = node.op == IR_SLAB_LAYER
                                            ? ir_arg(g, ref, 2)
-                                           : ir_const_float(g, SLABS_LAYER_THICKNESS)};
+                                           : ir_const_float(g, SLABS_LAYER_THICKNESS),
+                          .spread = where.spread};
     bool is_surface = base && ir_type_of(g, base) == IR_TYPE_BSDF;
     above.below = is_surface ? layered(w, base, where.below) : where.below;
     if (!visited(w, top, above, &top))
@@ -360,6 +373,39 @@ static uint8_t *find_slabs(const struct shader *shader, ir_ref root)
     return has;
 }
 
+/* What an operator spreads: both of a layer, the mean of a mix. */
+static ir_ref spread_of_operator(struct walk *w, ir_ref ref)
+{
+    struct ir_graph *g = w->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref a = ir_arg(g, ref, 0) ? w->spreads[ir_arg(g, ref, 0)] : 0;
+    if (node.op == IR_CLOSURE_SCALE)
+        return a;
+    ir_ref b = ir_arg(g, ref, 1) ? w->spreads[ir_arg(g, ref, 1)] : 0;
+    if (node.op != IR_CLOSURE_MIX || (!a && !b))
+        return sum_of(g, a, b);
+    ir_ref nothing = ir_const_float(g, 0.0f);
+    return ir_op3(g, IR_MIX, a ? a : nothing, b ? b : nothing, ir_arg(g, ref, 2));
+}
+
+static void find_spreads(struct walk *w)
+{
+    w->spreads = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
+    for (ir_ref ref = 1; w->host->tracks_roughness && ref < w->num_nodes; ref++) {
+        if (!w->has_slabs[ref])
+            continue;
+        const struct ir_node node = *ir_get(w->graph, ref);
+        bool is_layer = node.op == IR_SLAB_LAYER || node.op == IR_LAYER;
+        if (node.op == IR_SLAB) {
+            ir_ref in[NUM_SLAB_OPERANDS];
+            memcpy(in, ir_args(w->graph, ref), sizeof in);
+            w->spreads[ref] = slab_spread(w->graph, in);
+        } else if (node.type == IR_TYPE_BSDF && (is_layer || is_operator(&node))) {
+            w->spreads[ref] = spread_of_operator(w, ref);
+        }
+    }
+}
+
 bool slabs_has(const struct shader *shader, ir_ref ref)
 {
     return ref && find_slabs(shader, ref)[ref];
@@ -372,6 +418,7 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
     w.has_slabs = find_slabs(shader, root);
     if (!root || !w.has_slabs[root])
         return root;
+    find_spreads(&w);
     if (ir_type_is_closure(ir_type_of(g, root)))
         return walk_closure(&w, root, body(&w));
     ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.num_nodes);

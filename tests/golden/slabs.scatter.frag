@@ -71,6 +71,22 @@ vec3 mx_medium_layer(const float way, out vec3 transmitted)
     return s * ways / below;
 }
 
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(const vec3 N, const vec3 X)
+{
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+vec3 mx_medium_reflected(const float way)
+{
+    vec3 ignored;
+    return mx_medium_layer(way, ignored);
+}
+
 // Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
@@ -107,16 +123,6 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
     return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
-}
-
 // What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is
 // smooth.
 void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V, const vec3 xi, const vec3 n,
@@ -148,12 +154,6 @@ void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3
         pdf = (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h);
     }
     pdf *= density * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y);
-}
-
-vec3 mx_medium_reflected(const float way)
-{
-    vec3 ignored;
-    return mx_medium_layer(way, ignored);
 }
 
 float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, const vec3 L)
@@ -192,60 +192,45 @@ void scatter()
     vec3 N = normalize(vd.normalWorld);
     // metal
     float c = dot(N, vd.viewWorld);
-    float c_2 = max(abs(c), 1e-8);
+    float greater = max(abs(c), 1e-8);
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (greater + 0.29886922), greater);
+    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
+    vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
+        * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
+    vec3 slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(metal_reflection_albedo.y, 0.2), 1e-8),
+        metal_constant) * metal_reflection_albedo.x * metal_reflection_ggx_compensation;
+    vec3 metal_reflection_throughput = max(vec3(1.0) - slab_reflection_bsdf_albedo, 0.0);
+    // milk
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (greater + 0.25071993), greater);
+    vec3 milk_reflection_f = mx_fresnel_schlick(max(1.0 - pow(milk_reflection_albedo.y, 0.2), 1e-8), vec3(0.04));
+    float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
+    float milk_reflection_product = milk_reflection_albedo.x * milk_reflection_ggx_compensation;
+    vec3 milk_reflection_throughput = max(vec3(1.0) - milk_reflection_f * milk_reflection_product, 0.0);
+    float way = inversesqrt(c * c + 1.25) * 1.5;
+    vec3 milk_medium_transmitted;
+    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
+    const vec3 milk_medium_constant = vec3(0.10193972, 0.102937125, 0.103155464);
+    vec3 milk_medium_throughput = milk_medium_transmitted
+        / (vec3(1.0) - min(slab_reflection_bsdf_albedo * milk_medium_constant, 0.999));
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (c_2 + 0.01), c_2);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (greater + 0.01), greater);
     vec3 coat_reflection_f = mx_fresnel_schlick(max(1.0 - pow(coat_reflection_albedo.y, 0.2), 1e-8), vec3(0.04));
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_product = coat_reflection_albedo.x * coat_reflection_ggx_compensation;
     vec3 coat_reflection_greater = max(vec3(1.0) - coat_reflection_f * coat_reflection_product, 0.0);
-    // milk
-    float way = inversesqrt(c * c + 1.25) * 1.5;
     vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
     vec3 blended_coat_bare_throughput = mix(vec3(1.0), coat_reflection_greater * coat_medium_throughput, 0.5);
-    vec2 albedo = mx_ggx_albedo_fit(0.25, 0.25 / (c_2 + 0.25), c_2);
-    float cosine = max(1.0 - pow(albedo.y, 0.2), 1e-8);
-    vec3 milk_second_reflection_f = mx_fresnel_schlick(cosine, vec3(0.04));
-    float difference = 1.0 / albedo.x - 1.0;
-    float milk_second_reflection_ggx_compensation = difference * 0.08571428 + 1.0;
-    float milk_second_reflection_product = albedo.x * milk_second_reflection_ggx_compensation;
-    vec3 milk_second_reflection_throughput = max(vec3(1.0) - milk_second_reflection_f * milk_second_reflection_product,
-        0.0);
-    vec3 milk_medium_transmitted;
-    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
-    vec3 metal_second_reflection_ggx_compensation = difference * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
-    vec3 slab_reflection_bsdf_albedo = mx_fresnel_schlick(cosine, metal_constant) * albedo.x
-        * metal_second_reflection_ggx_compensation;
-    const vec3 milk_medium_constant = vec3(0.10193972, 0.102937125, 0.103155464);
-    vec3 milk_medium_throughput = milk_medium_transmitted
-        / (vec3(1.0) - min(slab_reflection_bsdf_albedo * milk_medium_constant, 0.999));
-    vec3 milk_bare_product = milk_second_reflection_throughput
-        * (milk_medium_throughput * vec3(0.895498, 0.89649165, 0.8967095));
+    vec3 metal_bare_metal_medium_weight = metal_reflection_throughput
+        * (milk_reflection_throughput * milk_medium_throughput * blended_coat_bare_throughput);
+    vec3 milk_medium_throughput_2 = milk_medium_throughput * vec3(0.9081714, 0.9090508, 0.9092436);
     vec3 coat_medium_throughput_2 = coat_medium_throughput * vec3(0.9512294, 0.967216, 0.9753099);
     vec3 blended_coat_bare_throughput_2 = mix(vec3(1.0), coat_reflection_greater * coat_medium_throughput_2, 0.5);
-    vec3 metal_second_reflection_difference = blended_coat_bare_throughput * milk_bare_product
-        - blended_coat_bare_throughput_2 * milk_bare_product;
+    vec3 metal_bare_metal_medium_weight_2 = metal_reflection_throughput
+        * (milk_reflection_throughput * milk_medium_throughput_2 * blended_coat_bare_throughput_2);
     vec3 blended_coat_bare_throughput_3 = mix(vec3(1.0), coat_reflection_greater
         * (coat_medium_throughput_2 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
-    vec3 metal_second_reflection_decay = clamp((blended_coat_bare_throughput_2 * milk_bare_product
-        - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_second_reflection_difference, 1e-6), 0.0,
-        0.999);
-    vec3 metal_second_reflection_ratio = metal_second_reflection_difference
-        / (vec3(1.0) - metal_second_reflection_decay);
-    vec3 metal_second_reflection_steady = blended_coat_bare_throughput * milk_bare_product
-        - metal_second_reflection_ratio;
-    float greater = max(dot((metal_second_reflection_steady + metal_second_reflection_ratio
-        * pow(metal_second_reflection_decay, vec3(1.145898))) * (slab_reflection_bsdf_albedo * 0.9 + vec3(0.1)),
-        vec3(0.33333334)), 0.0);
-    vec3 metal_second_reflection_throughput = max(vec3(1.0) - slab_reflection_bsdf_albedo, 0.0);
-    vec3 metal_bare_metal_medium_weight = metal_second_reflection_throughput
-        * (milk_second_reflection_throughput * milk_medium_throughput * blended_coat_bare_throughput);
-    vec3 milk_medium_throughput_2 = milk_medium_throughput * vec3(0.9081714, 0.9090508, 0.9092436);
-    vec3 metal_bare_metal_medium_weight_2 = metal_second_reflection_throughput
-        * (milk_second_reflection_throughput * milk_medium_throughput_2 * blended_coat_bare_throughput_2);
-    vec3 metal_medium_difference = metal_bare_metal_medium_weight_2 - metal_second_reflection_throughput
-        * (milk_second_reflection_throughput * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436))
+    vec3 metal_medium_difference = metal_bare_metal_medium_weight_2 - metal_reflection_throughput
+        * (milk_reflection_throughput * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436))
         * blended_coat_bare_throughput_3);
     vec3 metal_medium_decay = clamp(metal_medium_difference
         / max(metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2, 1e-6), 0.0, 0.999);
@@ -253,47 +238,42 @@ void scatter()
         / (vec3(1.0) - metal_medium_decay);
     float greater_2 = max(dot((metal_bare_metal_medium_weight - metal_medium_ratio + metal_medium_ratio
         * pow(metal_medium_decay, vec3(1.145898))) * 0.1, vec3(0.33333334)), 0.0);
+    vec3 milk_medium_difference = milk_reflection_throughput * blended_coat_bare_throughput - milk_reflection_throughput
+        * blended_coat_bare_throughput_2;
+    vec3 milk_medium_decay = clamp((milk_reflection_throughput * blended_coat_bare_throughput_2
+        - milk_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
+    vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
+    vec3 milk_medium_steady = milk_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
+    float greater_3 = max(dot((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
+        * (milk_medium * 0.9 + vec3(0.1)), vec3(0.33333334)), 0.0);
+    float greater_4 = max(dot(coat_reflection_greater * 0.05, vec3(0.33333334)), 0.0);
+    vec3 milk_bare_product = milk_reflection_throughput
+        * (milk_medium_throughput * vec3(0.895498, 0.89649165, 0.8967095));
+    vec3 metal_reflection_difference = blended_coat_bare_throughput * milk_bare_product - blended_coat_bare_throughput_2
+        * milk_bare_product;
+    vec3 metal_reflection_decay = clamp((blended_coat_bare_throughput_2 * milk_bare_product
+        - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
+    vec3 metal_reflection_ratio = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
+    vec3 metal_reflection_steady = blended_coat_bare_throughput * milk_bare_product - metal_reflection_ratio;
+    float greater_5 = max(dot((metal_reflection_steady + metal_reflection_ratio
+        * pow(metal_reflection_decay, vec3(1.145898))) * (slab_reflection_bsdf_albedo * 0.9 + vec3(0.1)),
+        vec3(0.33333334)), 0.0);
     vec3 clamped = clamp((blended_coat_bare_throughput_2 - blended_coat_bare_throughput_3)
         / max(blended_coat_bare_throughput - blended_coat_bare_throughput_2, 1e-6), 0.0, 0.999);
     vec3 ratio = (blended_coat_bare_throughput - blended_coat_bare_throughput_2) / (vec3(1.0) - clamped);
-    vec3 difference_2 = blended_coat_bare_throughput - ratio;
-    vec3 sum = difference_2 + ratio * pow(clamped, vec3(1.145898));
-    float greater_3 = max(dot(sum * (milk_second_reflection_f * (milk_second_reflection_product * 0.9) + vec3(0.1)),
+    vec3 difference = blended_coat_bare_throughput - ratio;
+    vec3 sum = difference + ratio * pow(clamped, vec3(1.145898));
+    float greater_6 = max(dot(sum * (milk_reflection_f * (milk_reflection_product * 0.9) + vec3(0.1)),
         vec3(0.33333334)), 0.0);
-    vec3 milk_medium_difference = milk_second_reflection_throughput * blended_coat_bare_throughput
-        - milk_second_reflection_throughput * blended_coat_bare_throughput_2;
-    vec3 milk_medium_decay = clamp((milk_second_reflection_throughput * blended_coat_bare_throughput_2
-        - milk_second_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0,
-        0.999);
-    vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
-    vec3 milk_medium_steady = milk_second_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
-    float greater_4 = max(dot((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
-        * (milk_medium * 0.9 + vec3(0.1)), vec3(0.33333334)), 0.0);
-    float greater_5 = max(dot((coat_reflection_f * (coat_reflection_product * 0.9) + vec3(0.1)) * 0.5,
+    float greater_7 = max(dot((coat_reflection_f * (coat_reflection_product * 0.9) + vec3(0.1)) * 0.5,
         vec3(0.33333334)), 0.0);
-    float greater_6 = max(dot(coat_reflection_greater * 0.05, vec3(0.33333334)), 0.0);
-    float sum_2 = greater + greater_2 + greater_3 + greater_4 + greater_5 + greater_6;
+    float sum_2 = greater_2 + greater_3 + greater_4 + greater_5 + greater_6 + greater_7;
     float pick = sum_2 * vd.random.w;
     vec3 L = vec3(0.0);
     float inside = 0.0;
     vec3 weight = vec3(0.0);
     float density = 0.0;
     vec3 medium = vec3(1.0);
-    vec3 X = normalize(vd.tangentWorld);
-    if (pick >= 0.0 && pick < greater) {
-        vec3 metal_second_reflection_L, metal_second_reflection_weight;
-        float metal_second_reflection_pdf;
-        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, metal_constant, metal_second_reflection_L,
-            metal_second_reflection_weight, metal_second_reflection_pdf);
-        L = metal_second_reflection_L;
-        float n_dot_l = dot(N, metal_second_reflection_L);
-        weight = metal_second_reflection_weight
-            * (metal_second_reflection_steady + metal_second_reflection_ratio
-            * pow(metal_second_reflection_decay, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5)))
-            * (sum_2 / greater);
-        density = metal_second_reflection_pdf * (greater / sum_2);
-    }
-    pick += -greater;
     vec3 Nf = faceforward(N, -vd.viewWorld, N);
     mat3 any_frame = mx_frame(Nf, abs(Nf.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
     vec2 product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
@@ -306,78 +286,91 @@ void scatter()
     }
     pick += -greater_2;
     if (pick >= 0.0 && pick < greater_3) {
-        vec3 milk_second_reflection_L, milk_second_reflection_weight;
-        float milk_second_reflection_pdf;
-        mx_ggx_scatter(vec2(0.25), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), milk_second_reflection_L,
-            milk_second_reflection_weight, milk_second_reflection_pdf);
-        L = milk_second_reflection_L;
-        float n_dot_l = dot(N, milk_second_reflection_L);
-        weight = milk_second_reflection_weight
-            * (difference_2 + ratio * pow(clamped, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5)))
+        L = L_2;
+        float c_2 = dot(N, L_2);
+        float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
+        vec3 weight_2 = pdf * (mx_medium_reflected(way) * mx_medium_reflected(way_2) / milk_medium_constant)
+            / max(pdf, 1e-8);
+        weight = weight_2 * (milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2)))
             * (sum_2 / greater_3);
-        density = milk_second_reflection_pdf * (greater_3 / sum_2);
+        density = pdf * (greater_3 / sum_2);
     }
     pick += -greater_3;
     if (pick >= 0.0 && pick < greater_4) {
         L = L_2;
-        float c_3 = dot(N, L_2);
-        float way_2 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
-        vec3 weight_2 = pdf * (mx_medium_reflected(way) * mx_medium_reflected(way_2) / milk_medium_constant)
-            / max(pdf, 1e-8);
-        weight = weight_2 * (milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2)))
-            * (sum_2 / greater_4);
+        weight = vec3(0.0);
         density = pdf * (greater_4 / sum_2);
     }
     pick += -greater_4;
+    vec3 X = normalize(vd.tangentWorld);
     if (pick >= 0.0 && pick < greater_5) {
+        vec3 metal_reflection_L, metal_reflection_weight;
+        float metal_reflection_pdf;
+        mx_ggx_scatter(vec2(0.29886922), N, X, vd.viewWorld, vd.random.xyz, metal_constant, metal_reflection_L,
+            metal_reflection_weight, metal_reflection_pdf);
+        L = metal_reflection_L;
+        float n_dot_l = dot(N, metal_reflection_L);
+        weight = metal_reflection_weight
+            * (metal_reflection_steady + metal_reflection_ratio
+            * pow(metal_reflection_decay, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))) * (sum_2 / greater_5);
+        density = metal_reflection_pdf * (greater_5 / sum_2);
+    }
+    pick += -greater_5;
+    if (pick >= 0.0 && pick < greater_6) {
+        vec3 milk_reflection_L, milk_reflection_weight;
+        float milk_reflection_pdf;
+        mx_ggx_scatter(vec2(0.25071993), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), milk_reflection_L,
+            milk_reflection_weight, milk_reflection_pdf);
+        L = milk_reflection_L;
+        float n_dot_l = dot(N, milk_reflection_L);
+        weight = milk_reflection_weight * (difference + ratio
+            * pow(clamped, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))) * (sum_2 / greater_6);
+        density = milk_reflection_pdf * (greater_6 / sum_2);
+    }
+    pick += -greater_6;
+    if (pick >= 0.0 && pick < greater_7) {
         vec3 coat_reflection_L, coat_reflection_weight;
         float coat_reflection_pdf;
         mx_ggx_scatter(vec2(0.01), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), coat_reflection_L,
             coat_reflection_weight, coat_reflection_pdf);
         L = coat_reflection_L;
-        weight = coat_reflection_weight * (sum_2 / greater_5 * 0.5);
-        density = coat_reflection_pdf * (greater_5 / sum_2);
+        weight = coat_reflection_weight * (sum_2 / greater_7 * 0.5);
+        density = coat_reflection_pdf * (greater_7 / sum_2);
     }
-    pick += -greater_5;
-    if (pick >= 0.0 && pick < greater_6) {
-        L = L_2;
-        weight = vec3(0.0);
-        density = pdf * (greater_6 / sum_2);
-    }
-    pick += -greater_6;
-    out1 = vec4((ratio + difference_2) * vec3(0.0, 0.1, 0.0), 1.0);
+    pick += -greater_7;
+    out1 = vec4((ratio + difference) * vec3(0.0, 0.1, 0.0), 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
-    mat3 frame = mx_frame(Nf, X);
-    float ggx_smith_lobe = mx_ggx_smith_lobe(vec2(0.25), frame, vd.viewWorld, vd.lightWorld.xyz);
-    float cosine_2 = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.5, 1e-8, 1.0));
-    vec3 metal_second_reflection_slab_reflection_bsdf_eval = metal_second_reflection_ggx_compensation * ggx_smith_lobe
-        * mx_fresnel_schlick(cosine_2, metal_constant);
-    float c_4 = dot(N, vd.lightWorld.xyz);
-    float way_3 = inversesqrt(c_4 * c_4 + 1.25) * 1.5;
-    vec3 product_2 = metal_second_reflection_slab_reflection_bsdf_eval
-        * (metal_second_reflection_steady + metal_second_reflection_ratio
-        * pow(metal_second_reflection_decay, vec3(way_3)));
-    float slab_reflection_bsdf_pdf = mx_ggx_pdf(vec2(0.25), N, X, vd.viewWorld, vd.lightWorld.xyz);
-    vec3 ratio_2 = product_2 / (vd.lightWorld.w * (greater / sum_2 * slab_reflection_bsdf_pdf) + 1.0);
-    vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
-    vec3 sum_3 = difference_2 + ratio * pow(clamped, vec3(way_3));
-    float sum_4 = vd.lightWorld.w * (greater_3 / sum_2 * slab_reflection_bsdf_pdf) + 1.0;
-    vec3 sum_5 = ratio_2 + milk_second_reflection_ggx_compensation * ggx_smith_lobe * fresnel * sum_3 / sum_4;
     float slab_medium_bsdf_pdf = max(dot(Nf, vd.lightWorld.xyz), 0.0) / 3.1415927;
+    float c_3 = dot(N, vd.lightWorld.xyz);
+    float way_3 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
     vec3 milk_medium_transmitted_2;
     vec3 milk_medium_2 = mx_medium_layer(way_3, milk_medium_transmitted_2);
-    vec3 sum_6 = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_3));
-    vec3 product_3 = slab_medium_bsdf_pdf * (milk_medium * milk_medium_2 / milk_medium_constant) * sum_6;
-    float sum_7 = vd.lightWorld.w * (greater_5 / sum_2 * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz))
+    vec3 sum_3 = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_3));
+    vec3 product_2 = slab_medium_bsdf_pdf * (milk_medium * milk_medium_2 / milk_medium_constant) * sum_3;
+    mat3 frame = mx_frame(Nf, X);
+    vec3 metal_reflection_product = metal_reflection_ggx_compensation
+        * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, vd.lightWorld.xyz);
+    float cosine = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.5, 1e-8, 1.0));
+    vec3 sum_4 = metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way_3));
+    float sum_5 = vd.lightWorld.w * (greater_5 / sum_2
+        * mx_ggx_pdf(vec2(0.29886922), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
+    vec3 ratio_2 = metal_reflection_product * mx_fresnel_schlick(cosine, metal_constant) * sum_4 / sum_5;
+    vec3 sum_6 = product_2 / (vd.lightWorld.w * (greater_3 / sum_2 * slab_medium_bsdf_pdf) + 1.0) + ratio_2;
+    vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
+    vec3 milk_reflection_slab_reflection_bsdf_eval = milk_reflection_ggx_compensation
+        * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, vd.lightWorld.xyz) * fresnel;
+    float sum_7 = vd.lightWorld.w * (greater_6 / sum_2
+        * mx_ggx_pdf(vec2(0.25071993), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
+    float sum_8 = vd.lightWorld.w * (greater_7 / sum_2 * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz))
         + 1.0;
     vec3 ratio_3 = fresnel * (coat_reflection_ggx_compensation
-        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz) * 0.5) / sum_7;
-    out5 = vec4(sum_5 + product_3 / (vd.lightWorld.w * (greater_4 / sum_2 * slab_medium_bsdf_pdf) + 1.0) + ratio_3,
-        0.0);
+        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz) * 0.5) / sum_8;
+    out5 = vec4(sum_6 + milk_reflection_slab_reflection_bsdf_eval * (difference + ratio * pow(clamped, vec3(way_3)))
+        / sum_7 + ratio_3, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_8 = 0.0;
+    float sum_9 = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
@@ -393,39 +386,38 @@ void scatter()
             * ratio_4 : 0.0;
         float point_light_choice = type == 2 ? ratio_4 : spot_light_choice;
         vec3 directional_light_L = type == 1 ? -u_lightData[i].direction : to_light;
-        float ggx_smith_lobe_2 = mx_ggx_smith_lobe(vec2(0.25), frame, vd.viewWorld, directional_light_L);
-        float cosine_3 = sqrt(clamp(dot(vd.viewWorld, directional_light_L) * 0.5 + 0.5, 1e-8, 1.0));
-        vec3 metal_second_reflection_slab_reflection_bsdf_eval_2 = metal_second_reflection_ggx_compensation
-            * ggx_smith_lobe_2 * mx_fresnel_schlick(cosine_3, metal_constant);
-        float c_5 = dot(N, directional_light_L);
-        float way_4 = inversesqrt(c_5 * c_5 + 1.25) * 1.5;
-        vec3 product_4 = metal_second_reflection_slab_reflection_bsdf_eval_2
-            * (metal_second_reflection_steady + metal_second_reflection_ratio
-            * pow(metal_second_reflection_decay, vec3(way_4)));
-        vec3 fresnel_2 = mx_fresnel_schlick(cosine_3, vec3(0.04));
-        vec3 sum_9 = difference_2 + ratio * pow(clamped, vec3(way_4));
+        float c_4 = dot(N, directional_light_L);
+        float way_4 = inversesqrt(c_4 * c_4 + 1.25) * 1.5;
         vec3 milk_medium_transmitted_3;
         vec3 milk_medium_3 = mx_medium_layer(way_4, milk_medium_transmitted_3);
         vec3 milk_medium_ratio_2 = milk_medium * milk_medium_3 / milk_medium_constant;
         vec3 sum_10 = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_4));
-        vec3 product_5 = milk_medium_ratio_2 * (max(dot(Nf, directional_light_L), 0.0) / 3.1415927) * sum_10;
-        vec3 product_6 = fresnel_2 * (coat_reflection_ggx_compensation
+        vec3 product_3 = milk_medium_ratio_2 * (max(dot(Nf, directional_light_L), 0.0) / 3.1415927) * sum_10;
+        vec3 metal_reflection_product_2 = metal_reflection_ggx_compensation
+            * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, directional_light_L);
+        float cosine_2 = sqrt(clamp(dot(vd.viewWorld, directional_light_L) * 0.5 + 0.5, 1e-8, 1.0));
+        vec3 sum_11 = metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way_4));
+        vec3 sum_12 = product_3 + metal_reflection_product_2 * mx_fresnel_schlick(cosine_2, metal_constant) * sum_11;
+        vec3 fresnel_2 = mx_fresnel_schlick(cosine_2, vec3(0.04));
+        vec3 milk_reflection_slab_reflection_bsdf_eval_2 = milk_reflection_ggx_compensation
+            * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, directional_light_L) * fresnel_2;
+        vec3 product_4 = fresnel_2 * (coat_reflection_ggx_compensation
             * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, directional_light_L) * 0.5);
-        vec3 sum_11 = product_4 + milk_second_reflection_ggx_compensation * ggx_smith_lobe_2 * fresnel_2 * sum_9
-            + product_5 + product_6;
-        vec3 product_7 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_11;
-        float greater_7 = max(dot(product_7, vec3(0.33333334)), 0.0);
-        sum_8 += greater_7;
-        if (sum_8 * chance < greater_7) {
+        vec3 sum_13 = sum_12 + milk_reflection_slab_reflection_bsdf_eval_2
+            * (difference + ratio * pow(clamped, vec3(way_4))) + product_4;
+        vec3 product_5 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_13;
+        float greater_8 = max(dot(product_5, vec3(0.33333334)), 0.0);
+        sum_9 += greater_8;
+        if (sum_9 * chance < greater_8) {
             L_3 = directional_light_L;
             distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
-            light = product_7 / greater_7;
+            light = product_5 / greater_8;
         }
-        if (greater_7 > 0.0) {
-            float ratio_5 = (sum_8 * chance - greater_7) / (sum_8 - greater_7);
-            chance = sum_8 * chance < greater_7 ? sum_8 * chance / greater_7 : ratio_5;
+        if (greater_8 > 0.0) {
+            float ratio_5 = (sum_9 * chance - greater_8) / (sum_9 - greater_8);
+            chance = sum_9 * chance < greater_8 ? sum_9 * chance / greater_8 : ratio_5;
         }
     }
     out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_8 * light, 0.0);
+    out7 = vec4(sum_9 * light, 0.0);
 }

@@ -33,10 +33,50 @@ check 'is an error' says "expected a number of 0..100"
 check 'a part that does not exist' exits 1 "$mxgen" "$slabs" --features -glimmer -o made
 check 'is named' says "-glints, -lut, -fuzz"
 sed 's/<slab name="dust" type="BSDF">/&<input name="glint_density" type="float" value="3"\/>/' "$slabs" >glints.mtlx
-check 'glints have no code' exits 1 "$mxgen" glints.mtlx -e DustyFibre -o made
-check 'but may be left out' compiles glints.mtlx --features -glints
+check 'glints have code' compiles glints.mtlx
+check 'but may be left out' exits 0 "$mxgen" glints.mtlx -e DustyFibre --features -glints --stdout
+check 'then there is none' eval '! grep -q mx_glints out'
+check 'OSL has no glints' exits 0 "$mxgen" glints.mtlx -e DustyFibre --target osl -o made
+check 'and tells it' says '[slab-part-missing]'
+check 'they are drawn forward' exits 0 "$mxgen" glints.mtlx -e DustyFibre --pipeline deferred --target vulkan -o made
+check 'which is told' says "its slab 'dust' has glints or a tint [drawn-forward]"
 check 'without fuzz' exits 0 "$mxgen" inspect --closures "$slabs" -e DustyFibre --features -fuzz
 check 'there is none' eval '! grep -q mx_sheen out'
+
+# Roughness tracking: a mirror lobe of width 0.04 below an interface of width 0.25, by Belcour's formulas
+layered() { # f0 and mean free path of the top
+    cat >layered.mtlx <<END
+<materialx version="1.39">
+  <slab name="metal" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0.9, 0.6, 0.3"/>
+    <input name="roughness" type="float" value="0.2"/></slab>
+  <slab name="coat" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="$1"/>
+    <input name="roughness" type="float" value="0.5"/><input name="mean_free_path" type="vector3" value="$2"/></slab>
+  <slab_coverage name="half" type="BSDF"><input name="in" type="BSDF" nodename="coat"/><input name="weight" type="float" value="0.5"/></slab_coverage>
+  <slab_layer name="coated" type="BSDF"><input name="top" type="BSDF" nodename="${3:-coat}"/><input name="base" type="BSDF" nodename="metal"/></slab_layer>
+  <slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="coated"/></slab_surface>
+</materialx>
+END
+}
+width() { # the share of the spread: the width that the metal has
+    python3 -c 'import sys
+v = lambda alpha: alpha ** 1.1 / (1 - alpha ** 1.1)
+total = v(0.04) + float(sys.argv[1]) * (v(0.25 / 6) + v(0.25 / 4))
+print(f"{(total / (1 + total)) ** (1 / 1.1):.5f}"[:6])' "$1"
+}
+layered '0.04, 0.04, 0.04' '1, 1, 1'
+check 'a coated metal' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
+check 'is wider' grep -qF "mx_ggx_albedo_fit($(width 1)" out
+check 'without tracking' exits 0 "$mxgen" layered.mtlx --interface reduced --features -roughness-tracking --stdout
+check 'it is not' grep -qF 'mx_ggx_albedo_fit(0.04,' out
+layered '0.01, 0.01, 0.01' '1, 1, 1'
+check 'a faint interface' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
+check 'spreads half' grep -qF "mx_ggx_albedo_fit($(width 0.5)" out
+layered '0.04, 0.04, 0.04' '1, 1, 1' half
+check 'half a coat' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
+check 'spreads half, too' grep -qF "mx_ggx_albedo_fit($(width 0.5)" out
+layered '0.04, 0.04, 0.04' '0, 0, 0' half
+check 'an opaque one' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
+check 'spreads nothing' grep -qF 'mx_ggx_albedo_fit(0.04,' out
 
 # The document asks for one slab
 sed 's/<input name="mix" type="float" value="0.6"\/>/&<input name="blend_parameters" type="boolean" value="true"\/>/' "$slabs" >asked.mtlx
@@ -83,6 +123,18 @@ for document in marble gold car_paint; do
 done
 check 'marble as slabs' exits 0 "$mxgen" inspect --closures "$examples/marble.mtlx" --max-closures 1
 check 'is lobes of slabs' eval 'grep -q mx_slab_medium_bsdf out && ! grep -qE "mx_(oren|dielectric|conductor)" out'
+
+cat >glass.mtlx <<'END'
+<materialx version="1.39">
+  <dielectric_bsdf name="glass" type="BSDF"><input name="roughness" type="vector2" value="0.36, 0.36"/>
+    <input name="scatter_mode" type="string" value="RT"/></dielectric_bsdf>
+  <surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="glass"/></surface>
+</materialx>
+END
+check 'glass as one slab' exits 0 "$mxgen" glass.mtlx --max-closures 1 --interface reduced --stdout
+check 'has its roughness' grep -qF "$(python3 -c 'import math
+g = math.log2(2 / 0.6 ** 4 - 1) / 18 # the bump of Chan 2018
+print(f"+ {(34.5 * g - 59) * g + 24.5:.3f}"[:-1])')" out
 
 check 'albedo that varies' exits 0 "$mxgen" "$examples/marble.mtlx" --slabs --interface reduced -o made
 check 'adds the even environment once' eval '! sed -n "/< u_envRadianceSamples/,/^    }/p" made/Marble.frag | grep -E "medium|u_envIrradiance"'

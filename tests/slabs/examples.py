@@ -21,7 +21,8 @@ PAGE = ROOT / "docs/slabs.md"
 # Each example with the most bytes that its slabs may take; the talk's own sizes for three closures, two and the opal.
 EXAMPLES = {"slabs": {"CoatedMetal": 48, "DustyFibre": 72, "WrappedSilk": 72, "CarPaint": 72, "MilkySheet": 20},
             "slab_blends": {"CarbonAndMetal": 72, "SkinIntoGold": 48, "CoatedSkin": 48, "MetalToPlastic": 48, "Opal": 76},
-            "slab_helpers": {"HazyMetal": 20, "DustyLacquer": 48, "FlipFlop": 48, "AmberOnOak": 48, "ScreenInVelvet": 48}}
+            "slab_helpers": {"HazyMetal": 20, "DustyLacquer": 48, "FlipFlop": 48, "AmberOnOak": 48, "ScreenInVelvet": 48},
+            "slab_glints": {"FlakePaint": 44, "PearlPaint": 48}}
 NUMBER = re.compile(r"\d+\.\d+(?:e-?\d+)?")
 SIZE, SWEEP = 48, 64
 # How far a drawn error may be from the page, as another device rounds otherwise.
