@@ -8,10 +8,13 @@
 
 /*
  * Points of the disc that a ball covers, by rings of equal area, and by angles around its centre:
- * threads and brushed metal look different from each. For each a light in the mirror, two beside
- * it, along and across the plane of the view, and one from the side.
+ * threads and brushed metal look different from each. For each two lights beside the mirror, along
+ * and across the plane of the view, and one from the side. In the mirror itself all colours are
+ * white.
  */
-enum { NUM_VIEWS = 6, NUM_LIGHTS = 4, NUM_POINTS = 4 };
+enum { NUM_VIEWS = 6, NUM_LIGHTS = 3, NUM_POINTS = 4 };
+/* How much of a picture such light is; fitted to the drawn errors of the examples. */
+static const float light_weights[NUM_LIGHTS] = {0.1f, 0.1f, 0.3f};
 #define GOLDEN_ANGLE 2.3999632f
 #define TILT 0.2f /* of the half vector of the lights beside the mirror: a tangent */
 
@@ -196,19 +199,13 @@ static struct ir_value view_of(unsigned point)
     return value_of_three(sine * cosf(turn), sine * sinf(turn), cosine);
 }
 
-/* Below the horizon it is as dark as any light there. */
 static struct ir_value light_for(const struct ir_value *view, unsigned point, unsigned which)
 {
-    float turn = GOLDEN_ANGLE * (float)point, tilt[2] = {0.0f, 0.0f}, along = 0.0f;
+    float angle = GOLDEN_ANGLE * (float)point + (which == 0 ? 0.0f : 1.5707963f), along = 0.0f;
+    float scale = 1.0f / sqrtf(1.0f + TILT * TILT);
+    float half[3] = {-TILT * cosf(angle) * scale, -TILT * sinf(angle) * scale, scale};
     if (which == NUM_LIGHTS - 1)
         return value_of_three(0.48f, 0.36f, 0.8f);
-    if (which > 0) {
-        float angle = turn + (which == 1 ? 0.0f : 1.5707963f);
-        tilt[0] = -TILT * cosf(angle);
-        tilt[1] = -TILT * sinf(angle);
-    }
-    float scale = 1.0f / sqrtf(1.0f + tilt[0] * tilt[0] + tilt[1] * tilt[1]);
-    float half[3] = {tilt[0] * scale, tilt[1] * scale, scale};
     for (unsigned c = 0; c < 3; c++)
         along += 2.0f * view->w[c].f * half[c];
     return value_of_three(along * half[0] - view->w[0].f, along * half[1] - view->w[1].f,
@@ -294,8 +291,9 @@ float slabs_difference(const struct slab_look *a, const struct slab_look *b)
     if (!a->is_known || !b->is_known || a->colors.len != b->colors.len || num == 0)
         return -1.0f;
     for (uint32_t i = 0; i < num; i++)
-        sum += color_difference(a->colors.items + i * 3, b->colors.items + i * 3);
-    return (float)(sum / num);
+        sum += light_weights[i % NUM_LIGHTS]
+               * color_difference(a->colors.items + i * 3, b->colors.items + i * 3);
+    return (float)(sum / (num / NUM_LIGHTS));
 }
 
 ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_ref top,
