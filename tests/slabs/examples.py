@@ -110,8 +110,8 @@ def check_drawn(folder):
         check(len(drawn) == 2 and all(abs(a - b) <= NEAR for a, b in zip(drawn, listed)), f"drawn as {form}: {drawn}, listed {listed}")
     alone = folder / "mxgen"
     shutil.copy(MXGEN, alone)
-    result = subprocess.run([alone, "inspect", "--slabs", "--drawn", document, "-e", material], env={"PATH": ""}, capture_output=True, text=True,
-                            check=False)
+    result = subprocess.run([alone, "inspect", "--slabs", "--drawn", document, "-e", material], env={"PATH": ""}, cwd=folder,
+                            capture_output=True, text=True, check=False)
     check(result.returncode == 1 and "estimated error" in result.stdout and "drawn" not in result.stdout and "mxgen-render" in result.stderr,
           f"without a renderer: {result.stdout}{result.stderr}")
 
