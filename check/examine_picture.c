@@ -2,12 +2,14 @@
 /* --render: a picture of an element, which the program mxgen-render draws. */
 #define _POSIX_C_SOURCE 200809L
 #include "check/picture.h"
+#include "cli/drawn.h"
 #include "cli/files.h"
 #include "check/examine.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -38,10 +40,10 @@ static bool make_folder(struct examiner *examiner)
 }
 
 /*
- * Runs the renderer with its output in a file. Returns 0, its exit code, or -1 if it cannot start
- * or dies.
+ * Runs the renderer with its output in a file; full: without options that make slabs cheaper.
+ * Returns 0, its exit code, or -1 if it cannot start or dies.
  */
-static int run(struct examiner *examiner, const char *element)
+static int run(struct examiner *examiner, const char *element, bool full)
 {
     struct arg_list args = {0};
     args_append(&args, cli_program("mxgen-render"));
@@ -52,7 +54,10 @@ static int run(struct examiner *examiner, const char *element)
     args_append(&args, cli_format("--size=" SIZE));
     args_append(&args, cli_format("--frame=%d", FRAME));
     args_append(&args, cli_format("--missing-texture=checker"));
-    cli_forward(examiner->cli, &args);
+    if (full)
+        cli_forward_full(examiner->cli, &args);
+    else
+        cli_forward(examiner->cli, &args);
     args_append(&args, NULL);
 
     posix_spawn_file_actions_t actions;
@@ -123,24 +128,67 @@ void examine_images(struct examiner *examiner, const mxg_result *result)
     }
 }
 
+/* What the renderer made; each NULL where it did not. */
+struct drawn {
+    char *png, *ppm, *log;
+    size_t png_size, ppm_size;
+};
+
+static struct drawn draw(struct examiner *examiner, const char *element, bool full)
+{
+    struct drawn out = {0};
+    bool good = make_folder(examiner) && run(examiner, element, full) == 0;
+    if (!examiner->folder)
+        return out;
+    out.png = read_output(examiner, "picture.png", &out.png_size);
+    out.ppm = read_output(examiner, "picture.ppm", &out.ppm_size);
+    out.log = read_output(examiner, "log", &(size_t){0});
+    if (!good) {
+        free(out.png);
+        free(out.ppm);
+        out.png = out.ppm = NULL;
+    }
+    return out;
+}
+
+static void drop(struct drawn *drawn)
+{
+    free(drawn->png);
+    free(drawn->ppm);
+    free(drawn->log);
+}
+
+/* The material without a budget, and how far the picture is from it. */
+static void add_full(struct examiner *examiner, struct check_element *element,
+                     const struct drawn *cheaper)
+{
+    struct drawn full = draw(examiner, element->path, true);
+    double error = drawn_difference(full.ppm, full.ppm_size, cheaper->ppm, cheaper->ppm_size);
+    if (full.png && error >= 0) {
+        char text[32];
+        snprintf(text, sizeof text, "%.2f", error);
+        element->full = picture_base64(&examiner->store, full.png, full.png_size);
+        element->drawn_error = store_text(&examiner->store, text, strlen(text));
+    } else {
+        fail(examiner, element, full.log);
+    }
+    drop(&full);
+}
+
 void examine_picture(struct examiner *examiner, struct check_element *element)
 {
     double begin = examine_clock();
-    size_t size = 0, pixels_size = 0;
     channel_mark(&examiner->channel, CHECK_RENDER, element->path, "vulkan");
-    bool good = make_folder(examiner) && run(examiner, element->path) == 0;
-    char *picture = examiner->folder ? read_output(examiner, "picture.png", &size) : NULL;
-    char *pixels = examiner->folder ? read_output(examiner, "picture.ppm", &pixels_size) : NULL;
-    char *log = examiner->folder ? read_output(examiner, "log", &(size_t){0}) : NULL;
-    char *signature = good && pixels ? picture_sign(&examiner->store, pixels, pixels_size) : NULL;
-    if (signature && picture) {
+    struct drawn drawn = draw(examiner, element->path, false);
+    char *signature = drawn.ppm ? picture_sign(&examiner->store, drawn.ppm, drawn.ppm_size) : NULL;
+    if (signature && drawn.png) {
         element->signature = signature;
-        element->picture = picture_base64(&examiner->store, picture, size);
+        element->picture = picture_base64(&examiner->store, drawn.png, drawn.png_size);
+        if (cli_has_budget(examiner->cli))
+            add_full(examiner, element, &drawn);
     } else {
-        fail(examiner, element, log);
+        fail(examiner, element, drawn.log);
     }
-    free(picture);
-    free(pixels);
-    free(log);
+    drop(&drawn);
     examiner->document->render_ms += examine_clock() - begin;
 }

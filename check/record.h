@@ -107,6 +107,8 @@ struct check_element {
     size_t num_values, num_textures;
     const char *picture;   /* a PNG in base64; "": none */
     const char *signature; /* signature of the picture, see picture.h */
+    /* where options make slabs cheaper: a PNG without them, and the mean CIEDE2000 between both */
+    const char *full, *drawn_error; /* "": none */
 };
 
 /* Differences from a baseline: kind, name, meaning, whether it fails a run without --fail-on. */

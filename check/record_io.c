@@ -122,6 +122,8 @@ static void element(struct record_io *io, void *item)
     io->coding->settings(io, "textures", &element->textures, &element->num_textures);
     text(io, "signature", &element->signature);
     text(io, "picture", &element->picture);
+    text(io, "fullPicture", &element->full);
+    text(io, "drawnError", &element->drawn_error);
 }
 
 static void change(struct record_io *io, void *item)

@@ -97,6 +97,15 @@ static enum rank rank_of(const struct check_run *run, const struct card *card)
 
 /* ---- Parts of a card ---- */
 
+static void write_picture(FILE *out, const char *png, const char *about)
+{
+    if (*png)
+        fprintf(out,
+                "<img alt=\"%s\" title=\"%s\" loading=\"lazy\" "
+                "src=\"data:image/png;base64,%s\"/>",
+                about, about, png);
+}
+
 static void write_head(FILE *out, const struct check_run *run, const struct card *card)
 {
     enum rank rank = rank_of(run, card);
@@ -113,9 +122,8 @@ static void write_head(FILE *out, const struct check_run *run, const struct card
         fprintf(out, " data-%s=\"%" PRIu64 "\"", measure_infos[i].option + strlen("max-"),
                 largest(card->element, i));
     putc('>', out);
-    if (card->element && *card->element->picture)
-        fprintf(out, "<img alt=\"\" loading=\"lazy\" src=\"data:image/png;base64,%s\"/>",
-                card->element->picture);
+    write_picture(out, card->element ? card->element->picture : "", "");
+    write_picture(out, card->element ? card->element->full : "", "without a budget");
     fputs("<h2>", out);
     markup_text(out, card->element ? card->element->path : "document");
     fprintf(out, " <b>%s</b></h2><p>",
@@ -126,6 +134,8 @@ static void write_head(FILE *out, const struct check_run *run, const struct card
                                     : "passed");
     markup_text(out, card->document->file);
     fputs("</p>", out);
+    if (card->element && *card->element->drawn_error)
+        fprintf(out, "<p>drawn error of the budget: %s</p>", card->element->drawn_error);
 }
 
 /* "The compiler rejects the shader for glsl: 'x' is undeclared": the first failure in words. */

@@ -103,7 +103,7 @@ static struct check_element *plain_elements(struct store *store,
     struct check_element *elements = store_array(store, document->num_elements, sizeof *elements);
     for (size_t i = 0; i < document->num_elements; ++i) {
         elements[i] = document->elements[i];
-        elements[i].picture = "";
+        elements[i].picture = elements[i].full = elements[i].drawn_error = "";
         elements[i].shaders =
             store_array(store, elements[i].num_shaders, sizeof *elements[i].shaders);
         for (size_t k = 0; k < elements[i].num_shaders; ++k) {

@@ -219,17 +219,47 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     return (wants & CLI_LIBRARY_IS_INPUT) || load_library(cli);
 }
 
-void cli_forward(struct cli *cli, struct arg_list *args)
+/* True for options that make slabs cheaper. */
+static bool is_budget(const char *key)
+{
+    static const char *const keys[] = {"slabs",     "max-closures", "max-bytes",
+                                       "max-error", "features",     "profile"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
+        if (strcmp(keys[i], key) == 0)
+            return true;
+    return false;
+}
+
+bool cli_has_budget(const struct cli *cli)
+{
+    bool has = cli->profile != NULL;
+    for (size_t i = 0; i < cli->parser.num_settings; ++i)
+        has |= is_budget(cli->parser.settings[i].key);
+    return has;
+}
+
+static void forward(struct cli *cli, bool with_budgets, struct arg_list *args)
 {
     struct arg table[MAX_ARGS];
     size_t num_args = add_common_args(cli, table);
     for (size_t i = 0; i < num_args; ++i)
-        if (!table[i].is_own)
+        if (!table[i].is_own && (with_budgets || !is_budget(table[i].name)))
             args_forward(&table[i], args);
     args_append(args, cli_format("--quiet"));
     for (size_t i = 0; i < cli->parser.num_settings; ++i)
-        args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key,
-                                     cli->parser.settings[i].value));
+        if (with_budgets || !is_budget(cli->parser.settings[i].key))
+            args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key,
+                                         cli->parser.settings[i].value));
+}
+
+void cli_forward(struct cli *cli, struct arg_list *args)
+{
+    forward(cli, true, args);
+}
+
+void cli_forward_full(struct cli *cli, struct arg_list *args)
+{
+    forward(cli, false, args);
 }
 
 void cli_finish(struct cli *cli)

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen inspect: the state of the compiler after each stage, as text. */
 #include "cli/cli.h"
+#include "cli/drawn.h"
 #include "cli/stage.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 struct inspect {
     bool views[MXG_VIEW_SLABS_SVG + 1];
     const char *target, *element, *format;
+    bool is_drawn;
     struct stage_place place; /* file NULL: an element of the document */
     const mxg_bindings *bindings;
     uint32_t stack;
@@ -91,6 +94,28 @@ static void print_stack(struct cli *cli, const mxg_document *own, struct inspect
     inspect->bindings = NULL;
 }
 
+/* The errors of pictures become an option, which the reports read. Without pictures, true too. */
+static bool add_drawn(struct cli *cli, const char *file, const struct inspect *inspect)
+{
+    char *errors = NULL;
+    bool good = true;
+    if (inspect->is_drawn && drawn_errors(cli, file, inspect->element, &errors) && *errors)
+        good = mxg_options_set(cli->options, "drawn-errors", errors) == MXG_OK;
+    free(errors);
+    return good;
+}
+
+/* False after a message: pictures are of a document, for its slabs. */
+static bool check_drawn(const struct inspect *inspect)
+{
+    bool fits = !inspect->place.file
+                && (inspect->views[MXG_VIEW_SLABS] || inspect->views[MXG_VIEW_SLABS_JSON]
+                    || inspect->views[MXG_VIEW_SLABS_SVG]);
+    if (inspect->is_drawn && !fits)
+        fprintf(stderr, "mxgen: --drawn is for --slabs, without --stage\n");
+    return fits || !inspect->is_drawn;
+}
+
 int command_inspect(const struct command *command, int argc, char **argv)
 {
     struct inspect inspect = {.target = "glsl"};
@@ -108,6 +133,10 @@ int command_inspect(const struct command *command, int argc, char **argv)
          "slabs, their operators, media and features, and what budgets would do",
          &inspect.views[MXG_VIEW_SLABS]},
         {"format", 0, ARG_TEXT, "text|json|svg", "of --slabs (default: text)", &inspect.format},
+        {"drawn", 0, ARG_FLAG, NULL,
+         "of --slabs: draws the material, full and in budgets, and shows the errors beside the "
+         "estimates",
+         &inspect.is_drawn},
         {"element", 'e', ARG_TEXT, "PATH",
          "path of an element (default: the first renderable), or of a primitive of the stage",
          &inspect.element},
@@ -127,12 +156,13 @@ int command_inspect(const struct command *command, int argc, char **argv)
                   argc, argv, &code)) {
         mxg_target target;
         bool good = cli_find_target(inspect.target, strlen(inspect.target), &target)
-                    && cli_options_apply(&cli, &target.name, 1) && choose_format(&inspect);
+                    && cli_options_apply(&cli, &target.name, 1) && choose_format(&inspect)
+                    && check_drawn(&inspect);
         for (size_t i = 0; good && i < cli.parser.inputs.len; ++i) {
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
             if (document && inspect.place.file)
                 print_stack(&cli, document, &inspect);
-            else if (document)
+            else if (document && add_drawn(&cli, cli.parser.inputs.items[i], &inspect))
                 print_views(&cli, document, &inspect);
             mxg_document_destroy(document);
         }

@@ -870,6 +870,11 @@ typedef enum mxg_view {
     MXG_VIEW_MAX_ENUM = 0x7fffffff
 } mxg_view;
 /*
+ * CIEDE2000 (Sharma, Wu and Dalal 2005) between linear colours of Rec. 709, cut to 0 to 1: budgets
+ * of slabs and their pictures are measured by it.
+ */
+MXG_API double mxg_color_difference(const float a[3], const float b[3]);
+/*
  * A text for people. *out_result holds it; mxg_result_text returns it. desc selects the element,
  * target and options if the view needs them.
  */

@@ -11,7 +11,7 @@ docs/python.md is the guide; the C library's header, include/mxgen/mxgen.h, has 
 from .catalogue import Option, OptionType, PassResource, Target, option_applies, options, pass_resources, targets
 from .context import Context, File, ListFolder, Resolver, Rewriting, Rewritten
 from .definition import Library, NodeDef, Port
-from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, diagnostic_kinds, library_version
+from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, color_difference, diagnostic_kinds, library_version
 from .document import Connection, Document, Element, Renderable, Value, equal
 from .edit import Draft, Edit, NewValue
 from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, OutOfMemoryError
@@ -28,5 +28,5 @@ __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "Blo
            "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewPrimitive", "NewValue", "NodeDef", "Option", "OptionType",
            "OptionValue", "OutOfMemoryError", "Part", "PassResource", "Place", "Port", "Primitive", "Property", "Renderable",
            "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding", "Stack",
-           "Stage", "Target", "Tile", "Value", "Variable", "View", "decode_slot", "diagnostic_kinds", "encode_slot",
+           "Stage", "Target", "Tile", "Value", "Variable", "View", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
            "equal", "library_version", "option_applies", "options", "pass_resources", "semantics", "targets"]

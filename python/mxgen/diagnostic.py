@@ -141,6 +141,13 @@ def diagnostic_kinds() -> tuple[DiagnosticKind, ...]:
     return tuple(found)
 
 
+def color_difference(a: Sequence[float], b: Sequence[float]) -> float:
+    """CIEDE2000 between two linear colours of Rec. 709."""
+    if len(a) != 3 or len(b) != 3:
+        raise ValueError("a colour has three numbers")
+    return float(lib.mxg_color_difference(list(a), list(b)))
+
+
 def library_version() -> str:
     """The version of the C library."""
     return py_text(lib.mxg_version_string())

@@ -4,8 +4,14 @@
 
 #include "base/json.h"
 #include "slabs/budget.h"
+#include "slabs/difference.h"
 
 #include <assert.h>
+
+double mxg_color_difference(const float a[3], const float b[3])
+{
+    return a && b ? color_difference(a, b) : -1.0;
+}
 
 static const struct diag_place nowhere = {0};
 

@@ -6,8 +6,17 @@
 
 #include <math.h>
 
-/* Points of the disc that a ball covers, by rings of equal area; two lights for each. */
-enum { NUM_VIEWS = 5, NUM_LIGHTS = 2, NUM_POINTS = 4 };
+/*
+ * Points of the disc that a ball covers, by rings of equal area, and by angles around its centre:
+ * threads and brushed metal look different from each. For each two lights beside the mirror, along
+ * and across the plane of the view, and one from the side. In the mirror itself all colours are
+ * white.
+ */
+enum { NUM_VIEWS = 6, NUM_LIGHTS = 3, NUM_POINTS = 4 };
+/* How much of a picture such light is; fitted to the drawn errors of the examples. */
+static const float light_weights[NUM_LIGHTS] = {0.1f, 0.1f, 0.3f};
+#define GOLDEN_ANGLE 2.3999632f
+#define TILT 0.2f /* of the half vector of the lights beside the mirror: a tangent */
 
 #define AMBIENT 0.5f
 #define RADIANCE 1.5f
@@ -182,10 +191,25 @@ static ir_ref color_of(struct eye *eye, ir_ref lobes)
 
 /* ---- Colours ---- */
 
-/* A mirrored light, and one from the side. */
-static struct ir_value light_for(float sine, float cosine, unsigned which)
+/* The view of a point, turned around the normal. */
+static struct ir_value view_of(unsigned point)
 {
-    return which ? value_of_three(0.48f, 0.36f, 0.8f) : value_of_three(-sine, 0.0f, cosine);
+    float square = ((float)point + 0.5f) / NUM_VIEWS, turn = GOLDEN_ANGLE * (float)point;
+    float sine = sqrtf(square), cosine = sqrtf(1.0f - square);
+    return value_of_three(sine * cosf(turn), sine * sinf(turn), cosine);
+}
+
+static struct ir_value light_for(const struct ir_value *view, unsigned point, unsigned which)
+{
+    float angle = GOLDEN_ANGLE * (float)point + (which == 0 ? 0.0f : 1.5707963f), along = 0.0f;
+    float scale = 1.0f / sqrtf(1.0f + TILT * TILT);
+    float half[3] = {-TILT * cosf(angle) * scale, -TILT * sinf(angle) * scale, scale};
+    if (which == NUM_LIGHTS - 1)
+        return value_of_three(0.48f, 0.36f, 0.8f);
+    for (unsigned c = 0; c < 3; c++)
+        along += 2.0f * view->w[c].f * half[c];
+    return value_of_three(along * half[0] - view->w[0].f, along * half[1] - view->w[1].f,
+                          along * half[2] - view->w[2].f);
 }
 
 static bool evaluate(struct eye *eye, ir_ref color, struct ir_value *out)
@@ -199,11 +223,9 @@ static bool evaluate(struct eye *eye, ir_ref color, struct ir_value *out)
 static bool look_at(struct eye *eye, ir_ref color, struct slab_look *out)
 {
     for (unsigned i = 0; i < NUM_VIEWS * NUM_LIGHTS; i++) {
-        float square = ((float)(i / NUM_LIGHTS) + 0.5f) / NUM_VIEWS;
-        float sine = sqrtf(square), cosine = sqrtf(1.0f - square);
         struct ir_value value;
-        eye->view_value = value_of_three(sine, 0.0f, cosine);
-        eye->light_value = light_for(sine, cosine, i % NUM_LIGHTS);
+        eye->view_value = view_of(i / NUM_LIGHTS);
+        eye->light_value = light_for(&eye->view_value, i / NUM_LIGHTS, i % NUM_LIGHTS);
         if (!evaluate(eye, color, &value))
             return false;
         for (unsigned c = 0; c < 3; c++)
@@ -269,8 +291,9 @@ float slabs_difference(const struct slab_look *a, const struct slab_look *b)
     if (!a->is_known || !b->is_known || a->colors.len != b->colors.len || num == 0)
         return -1.0f;
     for (uint32_t i = 0; i < num; i++)
-        sum += color_difference(a->colors.items + i * 3, b->colors.items + i * 3);
-    return (float)(sum / num);
+        sum += light_weights[i % NUM_LIGHTS]
+               * color_difference(a->colors.items + i * 3, b->colors.items + i * 3);
+    return (float)(sum / (num / NUM_LIGHTS));
 }
 
 ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_ref top,

@@ -269,6 +269,14 @@ static void note_textures(struct slab_sheet *sheet, const uint8_t *needed, ir_re
             vec_push(sheet->shader->arena, &sheet->textures, ref);
 }
 
+float slab_drawn_error(const struct slab_sheet *sheet, const struct slab_step *step)
+{
+    for (uint32_t i = 0; i < sheet->drawn.len; i++)
+        if (sheet->drawn.items[i].closures == step->after.closures)
+            return sheet->drawn.items[i].error;
+    return -1.0f;
+}
+
 void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host, ir_ref root,
                       struct slab_sheet *out)
 {

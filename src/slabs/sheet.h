@@ -40,12 +40,19 @@ struct slab_tree {
     struct slab_cost cost;
 };
 
+/* The error of a picture with so many closures, of the caller. */
+struct slab_drawn {
+    uint32_t closures;
+    float error;
+};
+
 struct slab_sheet {
     const struct shader *shader;
     VEC(struct slab_tree) trees;
     VEC(ir_ref) textures;      /* that the estimate does not read */
     bool is_recognised;        /* the slabs stand for other closures */
     struct slab_report report; /* of a budget of one closure */
+    VEC(struct slab_drawn) drawn;
 };
 
 void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host, ir_ref root,
@@ -63,6 +70,8 @@ extern const char *const slab_feature_names[NUM_SLAB_FEATURES];
 
 /* sheet.c: a number with four digits. */
 void slab_write_number(float value, struct text *out);
+/* sheet.c: the error of the picture after a step; below 0: unknown. */
+float slab_drawn_error(const struct slab_sheet *sheet, const struct slab_step *step);
 /* The name of a node, and a value as text: a number, a colour or what computes it. */
 const char *slab_name(const struct slab_sheet *sheet, ir_ref ref);
 void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *out);

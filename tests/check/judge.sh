@@ -143,6 +143,10 @@ else
     check 'in the gallery' grep -q 'src="data:image/png;base64,iVBOR' red.html
     check 'and signatures in the baseline' says red.json '(len(d[0]["elements"][0]["signature"]), "picture" in d[0]["elements"][0])' '(1024, False)'
     check 'a second run draws the same' eval 'exits 0 "${draw[@]}" --baseline red.json --json red2.json && is "$(changes red2.json)" "[]"'
+    check 'no full picture without a budget' bash -c '! grep -q "without a budget" red.html'
+    check 'a budget of slabs' exits 0 "${draw[@]}" --features -fuzz --slabs --html slabs.html --json slabs.json
+    check 'is beside the full picture' eval '[ "$(grep -o "src=\"data:image/png" slabs.html | wc -l)" = 2 ] && grep -q "drawn error of the budget: 0" slabs.html'
+    check 'with its error' says slabs.json '0 <= float(d[0]["elements"][0]["drawnError"]) < 3' True
     sed -i 's/0.8, 0.1, 0.1/0.1, 0.8, 0.1/' red.mtlx
     check 'another colour' exits 0 "${draw[@]}" --baseline red.json --json green.json
     check 'looks different, though the shader is the same' is "$(changes green.json)" "[('red.mtlx', 'values'), ('red.mtlx', 'picture')]"

@@ -46,7 +46,9 @@ static struct check_document *make_document(void)
                                                .textures = textures,
                                                .num_textures = 1,
                                                .picture = "cGljdHVyZQ==",
-                                               .signature = "1,2"},
+                                               .signature = "1,2",
+                                               .full = "ZnVsbA==",
+                                               .drawn_error = "1.35"},
                                               {.path = "N"}};
     static const char *files[] = {"a.mtlx", "b.mtlx"}, *folders[] = {"./"}, *images[] = {"c.png"};
     static struct check_document document = {.file = "../a.mtlx",

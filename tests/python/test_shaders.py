@@ -271,6 +271,14 @@ class Catalogues(unittest.TestCase):
         self.assertEqual(kinds["file-missing"].severity, mxgen.Severity.ERROR)
         self.assertEqual(mxgen.library_version(), mxgen.__version__)
 
+    def test_color_difference(self) -> None:
+        grey, lighter = (0.2, 0.2, 0.2), (0.21, 0.21, 0.21)
+        self.assertEqual(mxgen.color_difference(grey, grey), 0)
+        self.assertAlmostEqual(mxgen.color_difference((0, 0, 0), (1, 1, 1)), 100, delta=0.01)
+        self.assertTrue(0.5 < mxgen.color_difference(grey, lighter) < 2)
+        with self.assertRaises(ValueError):
+            mxgen.color_difference(grey, (1.0, 1.0))
+
     def test_records_have_every_member(self):
         omitted = {"mxg_part": {"source_size"}, "mxg_light_type": {"num_members"}}
         for cls, ctype in ((mxgen.Target, "mxg_target"), (mxgen.Option, "mxg_option"), (mxgen.DiagnosticKind, "mxg_diagnostic_kind"),

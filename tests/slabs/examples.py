@@ -6,6 +6,7 @@ errors of their budgets as they are drawn, and what the examples show is in the 
 Arguments: mxgen, mxgen-render ('' to draw nothing), the root of the project; --update rewrites the reports and prints the table."""
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -98,6 +99,24 @@ def check_row(row):
     check(len(drawn) == len(listed) and all(abs(a - b) <= NEAR for a, b in zip(drawn, listed)), f"docs/slabs.md has not the row {row}")
 
 
+def check_drawn(folder):
+    """`inspect --slabs --drawn` shows the errors of pictures beside the estimates, in each format; without a renderer it says so."""
+    document, material = document_of("WrappedSilk"), "WrappedSilk"
+    kept = next(line for line in PAGE.read_text().splitlines() if line.startswith(f"| `{material}` |"))
+    listed = [float(cell.split(", ")[1]) for cell in kept.split(" | ")[1:3] for cell in [cell.rstrip(" |")]]
+    patterns = {"text": r", drawn ([\d.]+)", "json": r'"drawnError": ([\d.]+)', "svg": r", drawn ([\d.]+)<"}
+    for form, pattern in patterns.items():
+        result = run(MXGEN, "inspect", "--slabs", "--drawn", "--format", form, document, "-e", material)
+        drawn = [float(number) for number in re.findall(pattern, result.stdout)]
+        check(len(drawn) == 2 and all(abs(a - b) <= NEAR for a, b in zip(drawn, listed)), f"drawn as {form}: {drawn}, listed {listed}")
+    alone = folder / "mxgen"
+    shutil.copy(MXGEN, alone)
+    result = subprocess.run([alone, "inspect", "--slabs", "--drawn", document, "-e", material], env={"PATH": ""}, cwd=folder,
+                            capture_output=True, text=True, check=False)
+    check(result.returncode == 1 and "estimated error" in result.stdout and "drawn" not in result.stdout and "mxgen-render" in result.stderr,
+          f"without a renderer: {result.stdout}{result.stderr}")
+
+
 # ---- What pictures show ----
 
 def columns_of(picture):
@@ -160,6 +179,7 @@ def main():
             if UPDATE:
                 print(row)
             check_row(row)
+        check_drawn(folder)
         check_halo(folder)
         check_sweeps(folder)
     finish("slab-examples")

@@ -188,6 +188,7 @@ static const char *const examples[] = {"CoatedMetal", "DustyFibre", "WrappedSilk
 
 static void test_closures(struct run *run, mxg_document *document)
 {
+    stack_seed(0);
     for (size_t i = 0; i < sizeof examples / sizeof *examples; i++)
         with_document(run, document, examples[i], save_closures);
     for (int i = 0; i < NUM_STACKS; i++) {
@@ -332,6 +333,7 @@ static void test_bytes(const struct run *run, const char *const *paths)
                 {"CoatedMetal", 0}, {"DustyFibre", 0}, {"WrappedSilk", 0}, {"CarPaint", 0}};
     enum { NUM_ROWS = sizeof rows / sizeof *rows };
     unsigned stored = 0;
+    stack_seed(1);
     for (size_t i = 0; i < NUM_ROWS; i++) {
         mxg_document *document = NULL;
         REQUIRE(mxg_document_load(run->context, run->library, paths[rows[i].path], &document)
