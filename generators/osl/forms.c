@@ -461,20 +461,44 @@ static bool touches_struct(const struct lang_use *use)
     return any;
 }
 
+/*
+ * The operand of a sum or product whose kind the result has in OSL: the first of three components;
+ * 0: other ops.
+ */
+static ir_ref leading_operand(const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    ir_ref leading = 0;
+    if (node->op < IR_ADD || node->op > IR_DIV)
+        return 0;
+    for (uint32_t i = node->num_args; i-- > 0;) {
+        ir_ref arg = ir_arg(graph, ref, i);
+        if (ir_type_is_matrix(ir_type_of(graph, arg)))
+            return 0;
+        leading = ir_type_of(graph, arg) == IR_TYPE_VEC3 ? arg : leading;
+    }
+    return leading;
+}
+
 static enum osl_kind operand_kind(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
     if (!use->node || use->operands[index] != IR_TYPE_VEC3)
         return OSL_ANY;
-    ir_ref operand = ir_arg(osl->spell->shader->graph, use->node, index);
+    const struct ir_graph *graph = osl->spell->shader->graph;
+    ir_ref operand = ir_arg(graph, use->node, index), inner = operand;
+    while (inner && !osl->spell->local_of[operand]) {
+        operand = inner;
+        inner = leading_operand(graph, operand);
+    }
+    enum osl_kind kind = (enum osl_kind)osl->kinds[operand];
     bool is_local = osl->spell->local_of[operand]; /* the shader declares it as vector or color */
-    return is_local && osl->kinds[operand] == OSL_POINT ? OSL_VECTOR
-                                                        : (enum osl_kind)osl->kinds[operand];
+    return is_local && (kind == OSL_POINT || kind == OSL_NORMAL) ? OSL_VECTOR : kind;
 }
 
 static bool is_no_vector(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
     enum osl_kind kind = operand_kind(osl, use, index);
-    return kind == OSL_COLOR || kind == OSL_POINT;
+    return kind == OSL_COLOR || kind == OSL_POINT || kind == OSL_NORMAL;
 }
 
 /* In sums of a number and a matrix the matrix comes first. */
@@ -525,6 +549,22 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
     return NULL;
 }
 
+/* True if a call has operands of several kinds: oslc cannot choose among overloads then. */
+static bool mixes_kinds(const struct osl *osl, const struct lang_use *use)
+{
+    enum osl_kind first = OSL_ANY;
+    for (unsigned i = 0; i < use->num_operands; i++) {
+        if (use->operands[i] != IR_TYPE_VEC3)
+            continue;
+        enum osl_kind kind = operand_kind(osl, use, i);
+        kind = kind == OSL_ANY ? OSL_VECTOR : kind;
+        if (first != OSL_ANY && kind != first)
+            return true;
+        first = kind;
+    }
+    return false;
+}
+
 /*
  * The type to which a form must cast an operand, so that calls do not mix colours and vectors;
  * NULL: no cast.
@@ -533,12 +573,17 @@ static const char *cast_of(const struct osl *osl, const struct lang_use *use, un
 {
     enum osl_kind have = operand_kind(osl, use, index);
     if (use->op == IR_NORMALIZE) /* overloads exist for vectors and for normals */
-        return is_no_vector(osl, use, index) ? "vector" : NULL;
+        return have == OSL_COLOR || have == OSL_POINT ? "vector" : NULL;
     bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
     bool is_call = ir_op_info(use->op)->flags & OP_BUILTIN || use->op == IR_SELECT;
     if (use->op == IR_CLOSURE_SCALE || use->op == IR_CLOSURE_MIX)
         is_color = is_call = true;
-    return is_call && is_color && (have == OSL_VECTOR || have == OSL_POINT) ? "color" : NULL;
+    if (!is_call)
+        return NULL;
+    if (is_color)
+        return have != OSL_ANY && have != OSL_COLOR ? "color" : NULL;
+    bool is_ambiguous = use->type == IR_TYPE_VEC3 && mixes_kinds(osl, use);
+    return is_ambiguous && is_no_vector(osl, use, index) ? "vector" : NULL;
 }
 
 /* "dot(vector($0), $1)"; NULL: no operand needs a cast. */

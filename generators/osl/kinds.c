@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Finds the vec3 nodes that are colours. OSL distinguishes colours, vectors and points, and warns
- * of calls that mix them. One pass upwards: results of colours are colours. One pass downwards:
- * nodes that could be either, usually literals, get the kind of their use.
+ * Finds the vec3 nodes that are colours. OSL distinguishes colours, vectors, points and normals,
+ * and warns of calls that mix them. One pass upwards: results of colours are colours. One pass
+ * downwards: nodes that could be either, usually literals, get the kind of their use.
  */
 #include "generators/osl/osl.h"
 
@@ -25,6 +25,8 @@ static enum osl_kind kind_of_variable(const struct osl *osl, uint32_t index)
     const char *spelled = osl->spell->variables[index].text; /* NULL: nothing reads it */
     if (spelled && strcmp(spelled, "P") == 0)
         return OSL_POINT;
+    if (spelled && strcmp(spelled, "N") == 0)
+        return OSL_NORMAL;
     return variable->doc_type == STR_color3 ? OSL_COLOR : OSL_VECTOR;
 }
 
@@ -53,8 +55,11 @@ static enum osl_kind kind_of(const struct osl *osl, ir_ref ref)
             continue;
         if (osl->kinds[arg] == OSL_COLOR)
             return OSL_COLOR;
-        bool is_point = osl->kinds[arg] == OSL_POINT && ir_op_info(node->op)->flags & OP_OPERATOR;
-        kind = is_point || kind == OSL_POINT ? OSL_POINT : OSL_VECTOR;
+        bool is_operator = ir_op_info(node->op)->flags & OP_OPERATOR;
+        if (kind != OSL_POINT)
+            kind = is_operator && (kind == OSL_ANY || osl->kinds[arg] == OSL_POINT)
+                       ? (enum osl_kind)osl->kinds[arg]
+                       : OSL_VECTOR;
     }
     return kind;
 }

@@ -33,7 +33,7 @@ struct osl {
 /*
  * The IR's vec3 is OSL's `vector`, or `color` if it holds a colour; P is a `point`.
  */
-enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT };
+enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT, OSL_NORMAL };
 
 /* syntax.c: tables, and marks of use */
 extern const struct lang_syntax osl_syntax;

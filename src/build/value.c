@@ -50,9 +50,9 @@ ir_ref build_constant(struct builder *b, const struct port *port, str_id text, e
     if (parse(b, port->type, text, port, &value))
         return ir_const(b->graph, &value);
     if (text == doc_attr_value(build_doc(b), element, STR_value)
-        && doc_excess_numbers(port->type, build_text(b, text), str_len(&b->lib->strings, text),
-                              &value)) {
-        library_report_excess(b->lib, element, port->type, b->diags);
+        && doc_read_loosely(port->type, build_text(b, text), str_len(&b->lib->strings, text),
+                            &value)) {
+        library_report_loose(b->lib, element, port->type, b->diags);
         return ir_const(b->graph, &value);
     }
     diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(build_doc(b), element, STR_value),

@@ -51,10 +51,11 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
  */
 bool doc_value_is_valid(doc_type type, const char *text, size_t len);
 /*
- * How many numbers the text has, if they are more than the type has; otherwise 0. `out`, which may
- * be NULL, gets the first ones.
+ * How many numbers the text has, if they are more than the type has, or if other text follows a
+ * number, as in "0.5.0"; otherwise 0. `out`, which may be NULL, gets the first ones, which are what
+ * MaterialX reads.
  */
-unsigned doc_excess_numbers(doc_type type, const char *text, size_t len, struct ir_value *out);
+unsigned doc_read_loosely(doc_type type, const char *text, size_t len, struct ir_value *out);
 /* The reason why a value is invalid, as a suffix for a message. */
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
 
@@ -428,9 +429,12 @@ void doc_check_children(const struct document *doc, elem_id parent, struct diag_
 bool doc_is_outdated(const struct document *doc, elem_id element);
 void doc_report_outdated(const struct document *doc, elem_id element, struct diag_list *diags);
 
-/* value.c: reports excess numbers in a value; `suggestion` is the end of the message. */
-void doc_report_excess(const struct document *doc, elem_id element, doc_type type,
-                       const char *suggestion, struct diag_list *diags);
+/*
+ * value.c: reports excess numbers in a value, and text behind a number; `suggestion` is the end of
+ * the first message.
+ */
+void doc_report_loose(const struct document *doc, elem_id element, doc_type type,
+                      const char *suggestion, struct diag_list *diags);
 /* Reports the type of an element if it is unknown or missing. */
 void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags);
 

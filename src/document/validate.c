@@ -212,10 +212,10 @@ static void check_value(struct validation *v, elem_id element, doc_type type, st
                         str_id value)
 {
     size_t len = str_len(v->doc->strings, value);
-    if (value && attr == STR_value && doc_excess_numbers(type, text_of(v, value), len, NULL)) {
-        /* the definition of a node has a suggestion: library_report_excess */
+    if (value && attr == STR_value && doc_read_loosely(type, text_of(v, value), len, NULL)) {
+        /* the definition of a node has a suggestion: library_report_loose */
         if (doc_element(v->doc, doc_element(v->doc, element)->parent)->kind != KIND_NODE)
-            doc_report_excess(v->doc, element, type, "", v->diags);
+            doc_report_loose(v->doc, element, type, "", v->diags);
     } else if (value && !doc_value_is_valid(type, text_of(v, value), len))
         diag_add(v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr),
                  text_of(v, value), text_of(v, doc_type_name(type)),

@@ -42,31 +42,48 @@ static size_t parse_number(bool integer, const char *text, size_t len, union ir_
     return read;
 }
 
-/*
- * Reads numbers to the end of the text and returns their count, or -1 if the text at *out_fault is
- * not a number.
- */
-static int64_t find_numbers(bool integer, const char *text, size_t len, union ir_word *out,
-                            size_t max_kept, size_t *out_fault)
+struct number_text {
+    const char *text;
+    size_t len;
+    bool integer;
+    bool loose;   /* what stands behind a number up to the next separator is no fault */
+    size_t fault; /* found: where no number stands */
+    size_t rest;  /* found: the first text behind a number; 0: none */
+};
+
+/* The place behind a number and its rest. */
+static size_t skip_rest(struct number_text *t, size_t at)
 {
-    size_t at = skip_spaces(text, len, 0), count = 0;
-    if (at == len)
+    size_t end = at;
+    while (t->loose && end < t->len && t->text[end] != ',' && !is_space(t->text[end]))
+        end++;
+    if (end > at && !t->rest)
+        t->rest = at;
+    return end;
+}
+
+/* Reads numbers to the end of the text and returns their count, or -1 at a fault. */
+static int64_t find_numbers(struct number_text *t, union ir_word *out, size_t max_kept)
+{
+    size_t at = skip_spaces(t->text, t->len, 0), count = 0;
+    if (at == t->len)
         return 0;
     for (;;) {
         union ir_word word;
-        size_t read = parse_number(integer, text + at, len - at, &word);
-        *out_fault = at;
+        size_t read = parse_number(t->integer, t->text + at, t->len - at, &word);
+        t->fault = at;
         if (read == 0)
             return -1;
         if (count < max_kept)
             out[count] = word;
         count++;
-        if (skip_spaces(text, len, at + read) == len)
+        at = skip_rest(t, at + read);
+        if (skip_spaces(t->text, t->len, at) == t->len)
             return (int64_t)count;
-        at = skip_separator(text, len, at + read);
-        if (at == len)
-            *out_fault = at;
-        if (at == 0 || at == len)
+        at = skip_separator(t->text, t->len, at);
+        if (at == t->len)
+            t->fault = at;
+        if (at == 0 || at == t->len)
             return -1;
     }
 }
@@ -74,8 +91,8 @@ static int64_t find_numbers(bool integer, const char *text, size_t len, union ir
 static int64_t parse_numbers(bool integer, const char *text, size_t len, union ir_word *out,
                              size_t max_kept)
 {
-    size_t fault;
-    return find_numbers(integer, text, len, out, max_kept, &fault);
+    struct number_text numbers = {.text = text, .len = len, .integer = integer};
+    return find_numbers(&numbers, out, max_kept);
 }
 
 static bool parse_bool(const char *text, size_t len, union ir_word *out)
@@ -105,17 +122,23 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
            && parse_numbers(type == DOC_TYPE_integer, text, len, out->w, 16) == (int64_t)components;
 }
 
-unsigned doc_excess_numbers(doc_type type, const char *text, size_t len, struct ir_value *out)
+static unsigned read_loosely(doc_type type, struct number_text *t, struct ir_value *out)
 {
-    struct ir_value ignored;
     unsigned components = doc_type_components(type);
     if (!components || type == DOC_TYPE_boolean)
         return 0;
-    out = out ? out : &ignored;
+    t->integer = type == DOC_TYPE_integer;
+    t->loose = true;
     out->type = doc_type_ir(type);
-    int64_t count =
-        parse_numbers(type == DOC_TYPE_integer, text, len, out->w, sizeof out->w / sizeof *out->w);
-    return count > components ? (unsigned)count : 0;
+    int64_t count = find_numbers(t, out->w, sizeof out->w / sizeof *out->w);
+    return count > components || (count == components && t->rest) ? (unsigned)count : 0;
+}
+
+unsigned doc_read_loosely(doc_type type, const char *text, size_t len, struct ir_value *out)
+{
+    struct ir_value ignored;
+    struct number_text numbers = {.text = text, .len = len};
+    return read_loosely(type, &numbers, out ? out : &ignored);
 }
 
 /* " (a decimal number has a point: 0.5)" for a float such as "0,5"; otherwise "". */
@@ -132,23 +155,43 @@ static const char *decimal_hint(doc_type type, const char *text, unsigned count,
     return text_cstr(&hint);
 }
 
-void doc_report_excess(const struct document *doc, elem_id element, doc_type type,
-                       const char *suggestion, struct diag_list *diags)
+/* "'0.5.0' is read as '0.5'": of the word around `rest`. */
+static void report_rest(const char *text, size_t rest, struct diag_place place,
+                        struct diag_list *diags)
+{
+    size_t start = rest, end = rest;
+    while (start > 0 && text[start - 1] != ',' && !is_space(text[start - 1]))
+        start--;
+    while (text[end] && text[end] != ',' && !is_space(text[end]))
+        end++;
+    diag_add(diags, DIAG_ID_number_rest, place,
+             arena_strndup(diags->arena, text + start, end - start),
+             arena_strndup(diags->arena, text + start, rest - start));
+}
+
+void doc_report_loose(const struct document *doc, elem_id element, doc_type type,
+                      const char *suggestion, struct diag_list *diags)
 {
     str_id value = doc_attr_value(doc, element, STR_value);
-    const char *text = str_text(doc->strings, value);
-    unsigned count = doc_excess_numbers(type, text, str_len(doc->strings, value), NULL),
-             used = doc_type_components(type);
+    struct ir_value ignored;
+    struct number_text numbers = {.text = str_text(doc->strings, value),
+                                  .len = str_len(doc->strings, value)};
+    unsigned count = read_loosely(type, &numbers, &ignored), used = doc_type_components(type);
+    struct diag_place place = doc_attr_place(doc, element, STR_value);
+    if (numbers.rest)
+        report_rest(numbers.text, numbers.rest, place, diags);
+    if (count <= used)
+        return;
     struct text first;
     text_init(&first, diags->arena);
     text_str(&first, "first");
     if (used > 1)
         text_fmt(&first, " %u", used);
-    diag_add(diags, DIAG_ID_excess_numbers, doc_attr_place(doc, element, STR_value), text, count,
+    diag_add(diags, DIAG_ID_excess_numbers, place, numbers.text, count,
              str_text(doc->strings, doc_element(doc, element)->name),
              str_text(doc->strings, doc_type_name(type)), text_cstr(&first),
              used > 1 ? "are" : "is",
-             *suggestion ? suggestion : decimal_hint(type, text, count, diags->arena));
+             *suggestion ? suggestion : decimal_hint(type, numbers.text, count, diags->arena));
 }
 
 bool doc_value_is_valid(doc_type type, const char *text, size_t len)
@@ -167,12 +210,14 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena)
 {
     struct text message;
-    size_t fault = 0, end;
+    size_t end;
     bool integer = type == DOC_TYPE_integer || type == DOC_TYPE_integerarray;
+    struct number_text numbers = {.text = text, .len = len, .integer = integer};
     text_init(&message, arena);
     if (type == DOC_TYPE_boolean)
         return ": it is 'true' or 'false'";
-    int64_t count = find_numbers(integer, text, len, NULL, 0, &fault);
+    int64_t count = find_numbers(&numbers, NULL, 0);
+    size_t fault = numbers.fault;
     if (count >= 0) {
         text_fmt(&message, ": it has %d number%s", (int)count, count == 1 ? "" : "s");
         if (doc_type_components(type))

@@ -451,11 +451,11 @@ void library_check_shaders(const struct library *lib, elem_id node, uint32_t nod
                            const struct binding *bindings, struct diag_list *diags);
 
 /*
- * excess.c: reports a value with more numbers than the type of its port has, with the input of the
- * same definition that the author may mean.
+ * loose.c: reports a value with more numbers than the type of its port has, with the input of the
+ * same definition that the author may mean, or with text behind a number.
  */
-void library_report_excess(const struct library *lib, elem_id element, doc_type type,
-                           struct diag_list *diags);
+void library_report_loose(const struct library *lib, elem_id element, doc_type type,
+                          struct diag_list *diags);
 
 /* image.c */
 

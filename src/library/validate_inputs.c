@@ -69,9 +69,9 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
                  text_of(v, doc_element(v->doc, node)->category), text_of(v, port->name));
     if (!text || binding->element < v->doc->first_element)
         return;
-    if (doc_excess_numbers(port->type, text_of(v, text), str_len(&v->lib->strings, text), NULL)
+    if (doc_read_loosely(port->type, text_of(v, text), str_len(&v->lib->strings, text), NULL)
         && doc_element(v->doc, doc_element(v->doc, binding->element)->parent)->kind == KIND_NODE)
-        library_report_excess(v->lib, binding->element, port->type, v->diags);
+        library_report_loose(v->lib, binding->element, port->type, v->diags);
     if (port->type == DOC_TYPE_string)
         library_check_enum(v->lib, port, text, doc_attr_place(v->doc, binding->element, STR_value),
                            v->diags);

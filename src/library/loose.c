@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Values with more numbers than their input has. The reader takes the first, as MaterialX does. */
+/*
+ * Values with more numbers than their input has, or with text behind a number. The reader takes the
+ * first numbers, as MaterialX does.
+ */
 #include "library/library.h"
 
 static const char *text_of(const struct library *lib, str_id id)
@@ -26,13 +29,14 @@ static const char *suggest(const struct library *lib, elem_id node, str_id name,
     return diag_guess_text(&guess);
 }
 
-void library_report_excess(const struct library *lib, elem_id element, doc_type type,
-                           struct diag_list *diags)
+void library_report_loose(const struct library *lib, elem_id element, doc_type type,
+                          struct diag_list *diags)
 {
     const struct element *e = doc_element(&lib->doc, element);
     str_id value = doc_attr_value(&lib->doc, element, STR_value);
     unsigned count =
-        doc_excess_numbers(type, text_of(lib, value), str_len(&lib->strings, value), NULL);
-    doc_report_excess(&lib->doc, element, type, suggest(lib, e->parent, e->name, count, diags),
-                      diags);
+        doc_read_loosely(type, text_of(lib, value), str_len(&lib->strings, value), NULL);
+    bool is_excess = count > doc_type_components(type);
+    doc_report_loose(&lib->doc, element, type,
+                     is_excess ? suggest(lib, e->parent, e->name, count, diags) : "", diags);
 }
