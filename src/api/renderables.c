@@ -4,7 +4,7 @@
 
 #include <assert.h>
 
-enum { NOT_LISTED = UINT32_MAX };
+static const uint32_t NOT_LISTED = UINT32_MAX;
 
 /* ---- Reading ---- */
 
