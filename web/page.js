@@ -71,6 +71,8 @@ function setText(value) {
     }
     text.value = value;
     showGutter([]);
+    if (!document.body.dataset.picture)
+        preview();
     compile();
 }
 
@@ -114,6 +116,13 @@ async function inspect() {
 
 function missingTextures() {
     return shader.variables.filter(({ block, file }) => block === "textures" && file && !textures.has(nameOf(file))).map(({ file }) => file);
+}
+
+/** While there is no picture: a coarse one, of a smaller shader. */
+async function preview() {
+    const small = await compiler.ask("preview", { text: text.value }).catch(() => null);
+    if (small)
+        view?.showPreview(small);
 }
 
 async function compile() {
@@ -293,14 +302,14 @@ async function begin() {
     listen();
     showTab("messages");
     const about = compiler.ask("about");
-    openView();
-    const { targets, version } = await about;
-    fillSelect($("target"), targets, "essl");
-    document.querySelector("h1").title = `mxgen ${version}`;
     let fault = null;
     const isShared = await openAddress().catch(error => { fault = error; });
     if (!isShared)
         setText(gold);
+    openView(); // while the compiler works
+    const { targets, version } = await about;
+    fillSelect($("target"), targets, "essl");
+    document.querySelector("h1").title = `mxgen ${version}`;
     if (fault)
         tell(fault.message);
 }

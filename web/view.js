@@ -6,6 +6,7 @@ import { attributeOf, backToFront, CAMERA, lightValue, makeMesh, makeSky, unifor
 const MAX_LIGHTS = 3;
 const OVERSAMPLING = 2; // samples of a pixel in each direction, when the picture rests
 const IDLE = 150; // milliseconds until it does
+const COARSENESS = 4; // pixels of the first picture for one of its samples, in each direction
 
 // Averages the samples of a pixel over a grey background, and encodes sRGB (IEC 61966-2-1), like render/picture.c.
 const DEVELOP_VERTEX = `#version 300 es
@@ -18,8 +19,8 @@ const DEVELOP_PIXEL = `#version 300 es
 precision highp float;
 precision highp sampler2D;
 uniform sampler2D u_samples;
-uniform int u_oversampling;
-uniform float u_height;
+uniform int u_oversampling; // 0: the picture is coarse
+uniform vec2 u_extent;
 out vec4 color;
 void main()
 {
@@ -28,8 +29,8 @@ void main()
     for (int y = 0; y < u_oversampling; ++y)
         for (int x = 0; x < u_oversampling; ++x)
             sum += texelFetch(u_samples, first + ivec2(x, y), 0);
-    sum /= float(u_oversampling * u_oversampling);
-    float behind = 0.06 + 0.12 * (gl_FragCoord.y + 0.5) / u_height;
+    sum = u_oversampling > 0 ? sum / float(u_oversampling * u_oversampling) : textureLod(u_samples, gl_FragCoord.xy / u_extent, 0.0);
+    float behind = 0.06 + 0.12 * (gl_FragCoord.y + 0.5) / u_extent.y;
     vec3 linear = clamp(0.6 * sum.rgb + (1.0 - min(sum.a, 1.0)) * behind, 0.0, 1.0);
     color = vec4(mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, linear)), 1.0);
 }`;
@@ -43,12 +44,15 @@ export class View {
     #parallel;
     #pending = null; // a program that the driver compiles
     #drawn = null; // the program that is drawn
+    #isPreview = false; // that is pending or drawn: its picture is coarse
+    #complete = null; // the shader that follows the preview
     #meshes = new Map();
     #buffers = new Map();
     #textures = new Map(); // by file
     #sky;
     #target = null;
     #frame = 0;
+    #isBusy = false; // the device draws a frame
     #rest = 0;
     #shape = "ball";
     camera = { ...CAMERA };
@@ -83,10 +87,12 @@ export class View {
         this.#sky ??= makeSky();
         this.#maps = Object.fromEntries(Object.entries(this.#sky).map(([name, levels]) => [name, this.#upload(levels)]));
         this.#missing = this.#checker();
+        this.#mesh(1);
         for (const [file, { image }] of this.#textures)
             this.setTexture(file, image);
-        const { shader } = this.#pending ?? this.#drawn ?? {};
-        this.#drawn = this.#pending = null;
+        const shader = this.#complete ?? (this.#pending ?? this.#drawn)?.shader;
+        this.#drawn = this.#pending = this.#complete = null;
+        this.#isPreview = this.#isBusy = false;
         if (shader)
             this.setShader(shader);
     }
@@ -118,9 +124,30 @@ export class View {
         return logs.join("\n") || gl.getProgramInfoLog(program) || "the driver refuses the shader";
     }
 
+    /** Before the first picture: a smaller shader, whose coarse picture comes first. */
+    showPreview(shader) {
+        if (this.#drawn || this.#pending)
+            return;
+        this.#isPreview = true;
+        this.#drop({ shader, program: this.#link(shader.vertex, shader.pixel) });
+        this.draw();
+    }
+
+    #endPreview() {
+        const shader = this.#complete;
+        this.#isPreview = false;
+        this.#complete = null;
+        if (shader)
+            this.setShader(shader);
+    }
+
     /** Draws with another shader as soon as the driver has compiled it. `shader` has the sources, the info and the variables. */
     setShader(shader) {
         this.hasMoved = false;
+        if (this.#isPreview) {
+            this.#complete = shader;
+            return;
+        }
         if (this.#drawn && shader.vertex === this.#drawn.shader.vertex && shader.pixel === this.#drawn.shader.pixel) {
             this.#drawn.shader = shader;
             this.#drop(null);
@@ -148,6 +175,7 @@ export class View {
         if (fault) {
             this.onError(fault);
             this.#drop(null);
+            this.#endPreview();
             return false;
         }
         if (this.#drawn)
@@ -216,7 +244,7 @@ export class View {
         this.#frame = requestAnimationFrame(() => {
             if (this.#gl.isContextLost())
                 return;
-            if (this.#wait())
+            if (this.#isBusy || this.#wait())
                 this.#request(oversampling);
             else if (this.#drawn)
                 this.#drawFrame(oversampling);
@@ -234,7 +262,8 @@ export class View {
             const framebuffer = gl.createFramebuffer(), color = gl.createTexture(), depth = gl.createRenderbuffer();
             gl.bindTexture(gl.TEXTURE_2D, color);
             gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA16F, width, height);
-            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+            for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+                gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
             gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
             gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
             gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
@@ -257,7 +286,8 @@ export class View {
         const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)), height = Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio));
         if (canvas.width !== width || canvas.height !== height)
             Object.assign(canvas, { width, height });
-        this.#bindTarget(width * oversampling, height * oversampling);
+        const isPreview = this.#isPreview, scale = isPreview ? 1 / COARSENESS : oversampling;
+        this.#bindTarget(Math.ceil(width * scale), Math.ceil(height * scale));
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         gl.useProgram(program);
@@ -270,8 +300,31 @@ export class View {
         if (blends)
             gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, backToFront(mesh, uniformOf("u_viewDirection", this.camera, width / height, 0)), gl.DYNAMIC_DRAW);
         gl.drawElements(gl.TRIANGLES, mesh.indices.length, gl.UNSIGNED_INT, 0);
-        this.#developFrame(width, height, oversampling);
-        this.onPicture(oversampling === OVERSAMPLING);
+        this.#developFrame(width, height, isPreview ? 0 : oversampling);
+        this.#isBusy = true;
+        this.#whenDrawn(() => {
+            this.#isBusy = false;
+            this.onPicture(!isPreview && oversampling === OVERSAMPLING);
+            if (isPreview)
+                this.#endPreview();
+        });
+    }
+
+    /** Calls `then` when the device has done its work. */
+    #whenDrawn(then) {
+        const gl = this.#gl, sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        const look = () => {
+            if (gl.isContextLost())
+                return;
+            if (gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED) {
+                setTimeout(look, 4);
+                return;
+            }
+            gl.deleteSync(sync);
+            then();
+        };
+        setTimeout(look);
     }
 
     #developFrame(width, height, oversampling) {
@@ -286,7 +339,7 @@ export class View {
         gl.bindSampler(0, null);
         gl.uniform1i(gl.getUniformLocation(this.#develop, "u_samples"), 0);
         gl.uniform1i(gl.getUniformLocation(this.#develop, "u_oversampling"), oversampling);
-        gl.uniform1f(gl.getUniformLocation(this.#develop, "u_height"), height);
+        gl.uniform2f(gl.getUniformLocation(this.#develop, "u_extent"), width, height);
         gl.bindVertexArray(null);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }

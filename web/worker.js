@@ -5,6 +5,7 @@ import { DocumentError, instantiate } from "../js/mxgen/mxgen.js";
 import compressed from "mxgen.wasm.gz";
 
 const OPTIONS = { "sample-filter": "narrow" }; // as in `mxgen render`
+const REDUCED = { options: { interface: "reduced" } };
 const files = new Map(); // texts that documents include, by their last name
 
 const nameOf = path => path.slice(path.lastIndexOf("/") + 1);
@@ -36,25 +37,38 @@ function withDocument(context, text, found, use) {
     }
 }
 
-/** The shader of an element, as plain data. */
-function shaderOf(document, element, found) {
-    let shader;
+/** What the page needs to draw a shader, as plain data. */
+function partsOf({ info: { name, displaced, alpha }, vertex, pixel, variables }) {
+    return { info: { name, displaced, alpha, alphaNow: alpha }, vertex, pixel, variables };
+}
+
+function generate(document, element, options, use) {
+    const shader = document.generate("essl", { element, ...options, options: { ...OPTIONS, ...options.options } });
     try {
-        shader = document.generate("essl", { element, options: OPTIONS });
+        return use(shader);
+    } finally {
+        shader.destroy();
+    }
+}
+
+/** The shader of an element. */
+function shaderOf(document, element, found) {
+    try {
+        const parts = generate(document, element, {}, shader => {
+            found.push(...shader.diagnostics);
+            return partsOf(shader);
+        });
+        // What the values of the document make of it: most materials are opaque, although their opacity is a uniform.
+        generate(document, element, { ...REDUCED, withoutSource: true }, ({ info: { alpha, numClosures } }) => {
+            Object.assign(parts.info, { alphaNow: alpha, numClosures });
+        });
+        return parts;
     } catch (error) {
         if (!(error instanceof DocumentError))
             throw error;
         found.push(...error.diagnostics);
         return null;
     }
-    const { info: { name, displaced, alpha }, vertex, pixel, variables } = shader;
-    found.push(...shader.diagnostics);
-    shader.destroy();
-    // What the values of the document make of it: most materials are opaque, although their opacity is a uniform.
-    const reduced = document.generate("essl", { element, options: { ...OPTIONS, interface: "reduced" }, withoutSource: true });
-    const { alpha: alphaNow, numClosures } = reduced.info;
-    reduced.destroy();
-    return { info: { name, displaced, alpha, alphaNow, numClosures }, vertex, pixel, variables };
 }
 
 /** The same fault can stand in the diagnostics of the document and of the shader. */
@@ -72,6 +86,18 @@ const KINDS = {
         for (const [name, text] of added)
             files.set(name, text);
         return {};
+    },
+
+    /** A shader with the values of the document in its code: it is smaller, so a driver compiles it earlier. null: the document has errors. */
+    async preview({ text }) {
+        const { context } = await ready;
+        try {
+            return withDocument(context, text, [], document => generate(document, undefined, REDUCED, partsOf)) ?? null;
+        } catch (error) {
+            if (!(error instanceof DocumentError))
+                throw error;
+            return null;
+        }
     },
 
     /** The shader, diagnostics and renderables of a document. Without errors, its warnings too. */

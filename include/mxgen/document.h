@@ -119,8 +119,9 @@ MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_s
 /*
  * Makes a document from another one, or from nothing. Documents stay immutable: mxg_edit_end makes
  * the next one, which shares memory with the document that it comes from. An edit takes time and
- * memory for its changes, however large the document; only a change of a definition, and every so
- * often the sum of many edits, takes the time of an index of the whole.
+ * memory for its changes, however large the document. Only a change of a definition, the first
+ * material of a document, and the removal of the last one take the time of an index of the whole,
+ * and so does an edit after as many changes as the document has elements.
  *
  *     mxg_edit *edit;
  *     mxg_edit_begin(ctx, lib, NULL, "gold", &edit);

@@ -23,7 +23,9 @@ HUB = "lin_rec709"
 #: other names of the hub in configurations
 HUB_NAMES = (HUB, "lin_srgb", "Linear Rec.709 (sRGB)", "lin_rec709_srgb", "Utility - Linear - sRGB", "Utility - Linear - Rec.709")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
-_MAX_LUT = 4096  # entries; longer tables belong into textures
+_MAX_LUT = 4096  # entries of a table
+_MAX_GRID = 33  # entries of a table of three dimensions, in each direction
+_INVERSE_GRID = 25  # of the table that stands for the inverse of such a table; OpenColorIO's fast way has one as well
 
 Triple = Tuple[float, float, float]
 
@@ -227,26 +229,139 @@ def _range(ocio: Any, transform: Any, out: _Function) -> None:
             out.add(f"min(c, {_vec3([high[1]] * 3)})")
 
 
-def _lut_1d(ocio: Any, transform: Any, out: _Function) -> None:
+def _table(out: _Function, kind: str, entries: Sequence[str]) -> str:
+    """The name of a new array."""
+    name = f"{out.name}_table_{len(out.tables) + 1}"
+    out.tables.append(f"const {kind} {name}[{len(entries)}] = {kind}[{len(entries)}]({', '.join(entries)});\n")
+    return name
+
+
+def _tables_of(ocio: Any, transform: Any, out: _Function) -> List[Tuple[str, List[float]]]:
+    """An array for each channel, and its entries; equal channels share one."""
     length = transform.getLength()
-    if _is_inverse(ocio, transform) or transform.getInputHalfDomain() or transform.getHueAdjust() != ocio.HUE_NONE:
-        raise UnsupportedError("a table (Lut1DTransform) that is inverse, of half floats or adjusts hues")
+    if transform.getInputHalfDomain() or transform.getHueAdjust() != ocio.HUE_NONE:
+        raise UnsupportedError("a table (Lut1DTransform) of half floats, or one that adjusts hues")
     if not 2 <= length <= _MAX_LUT:
         raise UnsupportedError(f"a table (Lut1DTransform) of {length} entries; 2 to {_MAX_LUT} are possible")
-    entries = [transform.getValue(i) for i in range(length)]
-    channels = 1 if all(r == g == b for r, g, b in entries) else 3
-    table = f"{out.name}_table_{len(out.tables) + 1}"
-    for channel in range(channels):
-        values = ", ".join(_number(entry[channel]) for entry in entries)
-        out.tables.append(f"const float {table}{'rgb'[channel]}[{length}] = float[{length}]({values});\n")
-    place, base = f"{table}_place", f"{table}_base"
+    channels = [list(channel) for channel in zip(*(transform.getValue(i) for i in range(length)))]
+    if _is_inverse(ocio, transform):
+        channels = [_monotonic(channel) for channel in channels]
+    found: List[Tuple[str, List[float]]] = []
+    for channel in channels:
+        same = [one for one in found if one[1] == channel]
+        found.append(same[0] if same else (_table(out, "float", [_number(value) for value in channel]), channel))
+    return found
+
+
+def _monotonic(entries: List[float]) -> List[float]:
+    """OpenColorIO inverts a table that goes back as if it stayed where it was."""
+    choose = max if entries[-1] >= entries[0] else min
+    result = entries[:1]
+    for entry in entries[1:]:
+        result.append(choose(result[-1], entry))
+    return result
+
+
+def _search(out: _Function, table: str, entries: List[float]) -> str:
+    """A function that finds the place of a value in a table, from 0 to 1: bisection. Flat ends of the table have one place."""
+    first, last = 0, len(entries) - 1
+    while first < last and entries[first + 1] == entries[first]:
+        first += 1
+    while last > first and entries[last - 1] == entries[last]:
+        last -= 1
+    name, less = f"{table}_place", "<" if entries[-1] >= entries[0] else ">"
+    if f"float {name}(" in "".join(out.tables):
+        return name
+    low, high = sorted((entries[first], entries[last]))
+    lines = [f"float v = clamp(value, {_number(low)}, {_number(high)});", f"int at = {first};"]
+    step = 1 << max(0, (last - first).bit_length() - 1)
+    while step:
+        lines.append(f"if (at + {step} < {last} && {table}[at + {step}] {less} v)\n        at += {step};")
+        step //= 2
+    lines += [f"float size = {table}[min(at + 1, {last})] - {table}[at];",
+              f"return (float(at) + (size == 0.0 ? 0.0 : (v - {table}[at]) / size)) / {_number(len(entries) - 1)};"]
+    out.tables.append(f"float {name}(float value)\n{{\n" + "".join(f"    {line}\n" for line in lines) + "}\n")
+    return name
+
+
+def _lut_1d(ocio: Any, transform: Any, out: _Function) -> None:
+    tables = _tables_of(ocio, transform, out)
+    if _is_inverse(ocio, transform):
+        places = [_search(out, table, entries) for table, entries in tables]
+        out.add(f"vec3({', '.join(f'{place}(c.{axis})' for place, axis in zip(places, 'rgb'))})")
+        return
+    length = transform.getLength()
+    place, base = f"{tables[0][0]}_place", f"{tables[0][0]}_base"
     out.lines.append(f"vec3 {place} = clamp(c, vec3(0.0), vec3(1.0)) * {_number(length - 1)};")
     out.lines.append(f"vec3 {base} = min(floor({place}), vec3({_number(length - 2)}));")
     parts = []
-    for axis, letter in zip("xyz", "rgb" if channels == 3 else "rrr"):
+    for (table, _), axis in zip(tables, "rgb"):
         first = f"int({base}.{axis})"
-        parts.append(f"mix({table}{letter}[{first}], {table}{letter}[{first} + 1], {place}.{axis} - {base}.{axis})")
+        parts.append(f"mix({table}[{first}], {table}[{first} + 1], {place}.{axis} - {base}.{axis})")
     out.add(f"vec3({', '.join(parts)})")
+
+
+# The sum of the corners of a tetrahedron, or of all corners of a cell (OpenColorIO's reference, "Interpolation"). The corners of the
+# tetrahedron lie on the way from the low corner of the cell to the high one along the axes, the largest part first.
+_TETRAHEDRAL = """vec3 {name}(vec3 place)
+{{
+    vec3 low = min(floor(place), vec3({last}));
+    vec3 f = place - low;
+    vec3 first = vec3(0.0, 0.0, 1.0);
+    vec3 second = f.r >= f.g ? vec3(1.0, 0.0, 1.0) : vec3(0.0, 1.0, 1.0);
+    if (f.r >= f.g && f.r >= f.b) {{
+        first = vec3(1.0, 0.0, 0.0);
+        second = f.g >= f.b ? vec3(1.0, 1.0, 0.0) : vec3(1.0, 0.0, 1.0);
+    }} else if (f.g >= f.b) {{
+        first = vec3(0.0, 1.0, 0.0);
+        second = f.r >= f.b ? vec3(1.0, 1.0, 0.0) : vec3(0.0, 1.0, 1.0);
+    }}
+    float largest = max(f.r, max(f.g, f.b));
+    float least = min(f.r, min(f.g, f.b));
+    float middle = f.r + f.g + f.b - largest - least;
+    return {name}_at(low) * (1.0 - largest) + {name}_at(low + first) * (largest - middle)
+           + {name}_at(low + second) * (middle - least) + {name}_at(low + vec3(1.0)) * least;
+}}
+"""
+_TRILINEAR = """vec3 {name}(vec3 place)
+{{
+    vec3 low = min(floor(place), vec3({last}));
+    vec3 f = place - low;
+    vec3 near = mix(mix({name}_at(low), {name}_at(low + vec3(0.0, 0.0, 1.0)), f.b),
+                    mix({name}_at(low + vec3(0.0, 1.0, 0.0)), {name}_at(low + vec3(0.0, 1.0, 1.0)), f.b), f.g);
+    vec3 far = mix(mix({name}_at(low + vec3(1.0, 0.0, 0.0)), {name}_at(low + vec3(1.0, 0.0, 1.0)), f.b),
+                   mix({name}_at(low + vec3(1.0, 1.0, 0.0)), {name}_at(low + vec3(1.0)), f.b), f.g);
+    return mix(near, far, f.r);
+}}
+"""
+
+
+def _baked(ocio: Any, transform: Any, size: int) -> List[List[float]]:
+    """What OpenColorIO computes for the places of a table, the last channel fastest."""
+    processor = ocio.Config.CreateRaw().getProcessor(transform).getOptimizedCPUProcessor(ocio.OPTIMIZATION_LOSSLESS)
+    scale = 1 / (size - 1)
+    places = [x * scale for r in range(size) for g in range(size) for b in range(size) for x in (r, g, b)]
+    values = processor.applyRGB(places)
+    return [values[3 * i:3 * i + 3] for i in range(size**3)]
+
+
+def _lut_3d(ocio: Any, transform: Any, out: _Function) -> None:
+    size = transform.getGridSize()
+    entries: List[List[float]]
+    if _is_inverse(ocio, transform):
+        size = _INVERSE_GRID
+        entries = _baked(ocio, transform, size)
+    elif 2 <= size <= _MAX_GRID:
+        entries = [transform.getValue(r, g, b) for r in range(size) for g in range(size) for b in range(size)]
+    else:
+        raise UnsupportedError(f"a table (Lut3DTransform) of {size} entries in each direction; 2 to {_MAX_GRID} are possible")
+    tables = [_table(out, "float", [_number(float(f"{value:.7g}")) for value in channel]) for channel in zip(*entries)]
+    name = f"{tables[0]}_mix"
+    index = f"int((place.r * {_number(size)} + place.g) * {_number(size)} + place.b)"
+    out.tables.append(f"vec3 {name}_at(vec3 place)\n{{\n    int at = {index};\n    return vec3({', '.join(f'{table}[at]' for table in tables)});\n}}\n")
+    is_tetrahedral = transform.getInterpolation() in (ocio.INTERP_TETRAHEDRAL, ocio.INTERP_BEST)
+    out.tables.append((_TETRAHEDRAL if is_tetrahedral else _TRILINEAR).format(name=name, last=_number(size - 2)))
+    out.add(f"{name}(clamp(c, vec3(0.0), vec3(1.0)) * {_number(size - 1)})")
 
 
 _WRITERS: Dict[str, Callable[[Any, Any, _Function], None]] = {
@@ -259,6 +374,7 @@ _WRITERS: Dict[str, Callable[[Any, Any, _Function], None]] = {
     "CDLTransform": _cdl,
     "RangeTransform": _range,
     "Lut1DTransform": _lut_1d,
+    "Lut3DTransform": _lut_3d,
 }
 
 
@@ -329,8 +445,8 @@ def make_library(config: Any, functions_file: str, hub: Optional[str] = None) ->
     """The colour spaces of an OpenColorIO configuration (PyOpenColorIO.Config) as a library.
 
     `hub` is the configuration's name of linear Rec. 709 with the white D65; None looks for a known one. Raises ValueError if
-    the configuration has none. A space is missing, with the reason, if no name of it is an identifier, or if it needs a table
-    of three dimensions or another transform that an expression cannot say.
+    the configuration has none. A space is missing, with the reason, if no name of it is an identifier, or if it needs a
+    transform that an expression cannot say, or a larger table.
     """
     import PyOpenColorIO as ocio  # type: ignore[import]  # pylint: disable=import-outside-toplevel  # an optional package
 

@@ -128,15 +128,32 @@ struct mxg_context {
     struct mxg_library builtin; /* size 0: this build has no built-in library */
 };
 
+/*
+ * The renderables of a document in order: runs of those that were found in the document that stands
+ * in one piece, and single ones.
+ */
+struct renderable_run {
+    uint32_t start;   /* place of its first one in the list */
+    uint32_t first;   /* index of its first one in `found` */
+    elem_id element;  /* not 0: this one only */
+    const char *path; /* of the single one; NULL: its name */
+};
+
+struct renderables {
+    const elem_id *found;
+    const char *const *paths; /* parallel to `found`; NULL: its name */
+    VEC(struct renderable_run) runs;
+    uint32_t num;
+    bool are_materials; /* else outputs, and shaders without a user */
+};
+
 struct mxg_document {
     struct object object;
     struct library layer; /* above the library layers of its library */
     VEC(const char *) files;
-    VEC(elem_id) renderables;
-    const char **renderable_paths;
+    struct renderables renderables;
     /* the document whose elements and definitions this one shares; NULL: it has its own */
     const struct mxg_document *origin;
-    bool has_own_renderables; /* although it shares the rest */
     bool is_silent; /* its definitions have nothing to report, so that another may share them */
 };
 
@@ -297,12 +314,24 @@ void document_finish(struct mxg_document *document, struct file_source *files);
  */
 bool edit_share(struct mxg_document *document, struct arena *scratch, struct diag_list *diags);
 
-/* ---- Elements: renderable.c, element.c ---- */
+/* ---- Elements: renderable.c, renderables.c, element.c ---- */
 
-/* Finds the renderables. */
-void document_find_renderables(struct mxg_document *document, struct arena *scratch);
-/* Takes those of the origin if the changes leave them as they are; false: find them. */
-bool document_share_renderables(struct mxg_document *document);
+/* Finds the renderables of a document in one piece. */
+void document_find_renderables(struct mxg_document *document);
+/* True if an element belongs to the renderables of a document, with or without materials. */
+bool renderable_is_listed(const struct document *doc, elem_id element, bool are_materials);
+/* The path of a renderable, in the arena; NULL: it is its name. */
+const char *renderable_new_path(const struct document *doc, elem_id element, struct arena *arena);
+/* A renderable by its place in the list. */
+elem_id renderable_at(const struct mxg_document *document, uint32_t index);
+const char *renderable_path(const struct mxg_document *document, uint32_t index);
+/* The document, which an edit begins, has the renderables of `from`. */
+void renderables_begin(struct mxg_document *document, const struct mxg_document *from);
+/*
+ * Changes the renderables as the edit has changed the document. false: they may be others
+ * altogether, because the first material came or the last one went.
+ */
+bool renderables_follow(struct mxg_document *document, struct arena *scratch);
 
 /*
  * The node or <output> to generate for a path: the element, the only output of a nodegraph, or the

@@ -20,7 +20,7 @@ void document_finish(struct mxg_document *document, struct file_source *files)
     uint32_t before = diags->items.len;
     library_index(layer, &reader, &document->object.diagnostics.list);
     document->is_silent = diags->items.len == before;
-    document_find_renderables(document, &files->scratch);
+    document_find_renderables(document);
     document->files.items = files->names.items;
     document->files.len = files->names.len;
 }
@@ -118,7 +118,7 @@ const char *mxg_document_file(const mxg_document *document, uint32_t index)
 
 uint32_t mxg_document_num_renderables(const mxg_document *document)
 {
-    return document ? document->renderables.len : 0;
+    return document ? document->renderables.num : 0;
 }
 
 mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index,
@@ -127,10 +127,10 @@ mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index,
     if (index >= mxg_document_num_renderables(document))
         return MXG_ERROR_ARGUMENT;
     const struct document *doc = &document->layer.doc;
-    elem_id element = document->renderables.items[index];
+    elem_id element = renderable_at(document, index);
     assert(element > document->layer.doc.root);
     mxg_renderable full = {
-        .path = document->renderable_paths[index],
+        .path = renderable_path(document, index),
         .type = str_text(doc->strings, doc_attr_value(doc, element, STR_type)),
         .category = str_text(doc->strings, doc_element(doc, element)->category),
     };

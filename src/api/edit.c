@@ -39,7 +39,10 @@ static void begin_empty(struct document *doc, const char *name)
 /* The document whose elements a document that begins with `from` shares. */
 static const mxg_document *origin_of(const mxg_document *from)
 {
-    return from && from->origin ? from->origin : from;
+    const struct document *shared = from ? doc_to_share(&from->layer.doc) : NULL;
+    while (from && &from->layer.doc != shared)
+        from = from->origin;
+    return from;
 }
 
 static void begin_from(mxg_document *document, const mxg_document *from)
@@ -47,12 +50,11 @@ static void begin_from(mxg_document *document, const mxg_document *from)
     struct arena *arena = &document->object.arena;
     struct library *layer = &document->layer;
     document->origin = origin_of(from);
-    document->has_own_renderables = from->has_own_renderables;
     library_init(layer, arena, from->layer.base);
     strpool_init(&layer->strings, arena, &document->origin->layer.strings);
-    if (from != document->origin)
-        strpool_copy(&layer->strings, &from->layer.strings);
-    doc_begin_edit(&layer->doc, arena, &layer->strings, &from->layer.doc);
+    doc_begin_edit(&layer->doc, arena, &layer->strings, &from->layer.doc,
+                   &document->origin->layer.doc);
+    renderables_begin(document, from);
     for (uint32_t i = 0; i < from->files.len; i++) {
         const char *file = from->files.items[i];
         vec_push(arena, &document->files, arena_strndup(arena, file, strlen(file)));
@@ -272,7 +274,7 @@ static elem_id add_element(struct change *change, elem_id parent, const char *ca
                                       doc_element(doc, doc->root)->file, 0, 0);
     if (type && *type)
         doc_set_attr(doc, element, STR_type, word(change, type));
-    doc_index_element(doc, element);
+    doc_index_change(doc, element);
     return element;
 }
 
@@ -323,6 +325,7 @@ static void set(void *arg)
         doc_set_attr(tree_of(c->edit), c->element, word(c, c->name), word(c, c->text));
     else
         doc_remove_attr(tree_of(c->edit), c->element, word(c, c->name));
+    doc_index_change(tree_of(c->edit), c->element);
 }
 
 mxg_status mxg_edit_set(mxg_edit *edit, mxg_element element, const char *attribute,
@@ -354,8 +357,10 @@ static elem_id make_input(struct change *c, const char *type)
     elem_id input = child_of(c->edit, c->element, c->name);
     if (!input)
         return add_element(c, c->element, "input", c->name, type);
-    if (type)
+    if (type) {
         doc_set_attr(doc, input, STR_type, word(c, type));
+        doc_index_change(doc, input);
+    }
     return input;
 }
 
@@ -538,6 +543,7 @@ static void connect(void *arg)
     doc_set_attr(doc, port, attr, doc_element(doc, c->other)->name);
     if (c->text)
         doc_set_attr(doc, port, STR_output, word(c, c->text));
+    doc_index_change(doc, port);
 }
 
 mxg_status mxg_edit_connect(mxg_edit *edit, mxg_element node, const char *input, mxg_element from,
@@ -585,7 +591,7 @@ static void move(void *arg)
         doc_move_before(doc, c->element, c->before);
     else
         doc_move_element(doc, c->element, c->other);
-    doc_index_element(doc, c->element);
+    doc_index_change(doc, c->element);
 }
 
 mxg_status mxg_edit_move(mxg_edit *edit, mxg_element element, mxg_element parent,
@@ -632,11 +638,18 @@ struct end_job {
     struct file_source files;
 };
 
+static const mxg_document *whole_of(const mxg_document *origin)
+{
+    while (origin->origin)
+        origin = origin->origin;
+    return origin;
+}
+
 /* Leaves the origin: the document gets arrays and definitions of its own. */
 static void stand_alone(mxg_document *document)
 {
     doc_leave_origin(&document->layer.doc);
-    strpool_leave_base(&document->layer.strings);
+    strpool_leave_base(&document->layer.strings, &whole_of(document->origin)->layer.strings);
     struct library own = document->layer;
     library_init(&document->layer, &document->object.arena, own.base);
     document->layer.doc = own.doc;
@@ -644,7 +657,6 @@ static void stand_alone(mxg_document *document)
     document->layer.doc.strings = &document->layer.strings;
     document_follow_context(document);
     document->origin = NULL;
-    document->has_own_renderables = false;
 }
 
 static void end_document(void *arg)
@@ -667,10 +679,10 @@ static void end_document(void *arg)
 /* A document that stands alone holds the library in the place of its former origin. */
 static void hold_library(struct object *object, const mxg_document *origin)
 {
-    struct object *former = object->below;
+    struct object *former = object->below, *library = whole_of(origin)->object.below;
     assert(former == &origin->object);
-    object_ref(origin->object.below);
-    object->below = origin->object.below;
+    object_ref(library);
+    object->below = library;
     object_unref(former);
 }
 

@@ -19,8 +19,8 @@ static void report_unknown(const struct search *s, const char *path)
 {
     struct diag_guess guess;
     diag_guess_begin(&guess, s->diags, path);
-    for (uint32_t i = 0; i < s->document->renderables.len; i++)
-        diag_guess_add(&guess, s->document->renderable_paths[i]);
+    for (uint32_t i = 0; i < s->document->renderables.num; i++)
+        diag_guess_add(&guess, renderable_path(s->document, i));
     for (elem_id e = doc_element(s->doc, s->doc->root)->first_child; e;
          e = doc_element(s->doc, e)->next)
         if (doc_element(s->doc, e)->name)
@@ -152,9 +152,9 @@ static elem_id find_in_look(const struct search *s, elem_id look)
     struct choices materials = {0};
     elem_id usual = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK,
                                       doc_attr_value(s->doc, look, STR_default));
-    for (uint32_t i = 0; i < s->document->renderables.len; i++)
-        if (assigns(s, usual ? usual : look, s->document->renderables.items[i], 0))
-            add_choice(s, &materials, s->document->renderables.items[i]);
+    for (uint32_t i = 0; i < s->document->renderables.num; i++)
+        if (assigns(s, usual ? usual : look, renderable_at(s->document, i), 0))
+            add_choice(s, &materials, renderable_at(s->document, i));
     return only_choice(s, look, &materials);
 }
 
@@ -246,9 +246,9 @@ static elem_id find_asked(const struct search *s, const char *path, str_id *out_
 {
     elem_id found = find_path(s, path, out_output);
     /* invalid names may contain a '/' */
-    for (uint32_t i = 0; i < s->document->renderables.len && !found; i++)
-        if (strcmp(s->document->renderable_paths[i], path) == 0)
-            found = s->document->renderables.items[i];
+    for (uint32_t i = 0; i < s->document->renderables.num && !found; i++)
+        if (strcmp(renderable_path(s->document, i), path) == 0)
+            found = renderable_at(s->document, i);
     if (!found)
         report_unknown(s, path);
     return found ? find_meant(s, found) : 0;
@@ -275,8 +275,8 @@ elem_id document_find_element(const struct mxg_document *document, const char *p
     elem_id element = 0;
     if (path)
         element = find_asked(&s, path, out_output);
-    else if (document->renderables.len)
-        element = document->renderables.items[0];
+    else if (document->renderables.num)
+        element = renderable_at(document, 0);
     else
         report_nothing(&s);
     if (element && doc_element(s.doc, element)->kind == KIND_NODE
@@ -295,8 +295,8 @@ mxg_status mxg_document_look_material(const mxg_document *document, const char *
     elem_id element = find_own(&s, look, strlen(look));
     enum element_kind kind = element ? doc_element(s.doc, element)->kind : KIND_NODE;
     bool is_look = kind == KIND_LOOK || kind == KIND_LOOKGROUP;
-    for (uint32_t i = 0; is_look && i < document->renderables.len; i++)
-        if (assigns(&s, element, document->renderables.items[i], 0) && index-- == 0)
+    for (uint32_t i = 0; is_look && i < document->renderables.num; i++)
+        if (assigns(&s, element, renderable_at(document, i), 0) && index-- == 0)
             return mxg_document_renderable(document, i, out);
     return MXG_ERROR_ARGUMENT;
 }

@@ -14,8 +14,8 @@ static struct diag_list *diags_of(struct generation *g)
 
 static bool is_renderable(const mxg_document *document, elem_id element)
 {
-    for (uint32_t i = 0; i < document->renderables.len; i++)
-        if (document->renderables.items[i] == element)
+    for (uint32_t i = 0; i < document->renderables.num; i++)
+        if (renderable_at(document, i) == element)
             return true;
     return false;
 }

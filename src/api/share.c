@@ -9,13 +9,14 @@
 #include <assert.h>
 
 /*
- * With more changes the document stands alone. An edit copies all changes since the origin, and
- * standing alone costs time for each element, so the mean cost of an edit is least for about the
- * square root of the elements.
+ * With more changes the document stands alone: that takes time for each element, so the mean cost
+ * of an edit stays small, and what is no longer in the document is gone.
  */
-static bool are_many(uint64_t num_changes, uint64_t num_elements)
+static bool are_many(const struct document *doc)
 {
-    return num_changes > 64 && num_changes * num_changes > 4 * num_elements;
+    enum { FEW = 1024 };
+    uint64_t num = doc_num_changes(doc);
+    return num > FEW && num > doc->whole->elements.len;
 }
 
 static bool is_definition(const struct document *doc, elem_id top)
@@ -44,23 +45,13 @@ static bool defines(const struct document *doc, elem_id element)
     return is_definition(doc, element);
 }
 
-/* Messages name elements below by their paths. */
-static bool is_renamed_parent(const struct document *doc, const struct doc_change *change)
-{
-    if (change->index >= doc->origin->elements.len || !change->element.first_child)
-        return false;
-    const struct element *before = &doc->origin->elements.items[change->index];
-    return change->element.name != before->name || change->element.parent != before->parent;
-}
-
 static bool leaves_definitions(const struct document *doc, const struct doc_change *change)
 {
     elem_id element = doc->first_element + change->index;
     if (doc_is_same(doc, change))
         return true;
-    bool is_shared = change->index < doc->origin->elements.len;
-    return element != doc->root && !doc_attr(doc, element, STR_namespace)
-           && !is_renamed_parent(doc, change) && !defines(doc, element)
+    bool is_shared = change->index < doc->shared.elements;
+    return element != doc->root && !doc_attr(doc, element, STR_namespace) && !defines(doc, element)
            && !(is_shared && defines(doc->origin, element));
 }
 
@@ -68,10 +59,9 @@ static bool can_share(const mxg_document *document)
 {
     const struct document *doc = &document->layer.doc;
     const mxg_document *origin = document->origin;
-    if (!origin->is_silent || origin->layer.impls.len || doc->has_templates || !doc->is_global
+    if (!origin->is_silent || doc->has_templates || !doc->is_global
         || origin->layer.trust != document->layer.trust
-        || doc->has_attributedefs != doc->origin->has_attributedefs
-        || are_many(doc->changes.len, doc->origin->elements.len))
+        || doc->has_attributedefs != doc->origin->has_attributedefs || are_many(doc))
         return false;
     for (uint32_t i = 0; i < doc->changes.len; i++)
         if (doc->changes.items[i]->is_fresh && !leaves_definitions(doc, doc->changes.items[i]))
@@ -82,7 +72,7 @@ static bool can_share(const mxg_document *document)
 bool edit_share(mxg_document *document, struct arena *scratch, struct diag_list *diags)
 {
     struct document *doc = &document->layer.doc;
-    if (!can_share(document))
+    if (!can_share(document) || !renderables_follow(document, scratch))
         return false;
     for (uint32_t i = 0; i < doc->changes.len; i++)
         if (doc->changes.items[i]->is_fresh && !doc_is_same(doc, doc->changes.items[i]))
@@ -90,7 +80,5 @@ bool edit_share(mxg_document *document, struct arena *scratch, struct diag_list 
     doc_keep_paths(doc);
     library_share(&document->layer, &document->origin->layer);
     document->is_silent = true;
-    if (!document_share_renderables(document))
-        document_find_renderables(document, scratch);
     return true;
 }

@@ -56,34 +56,21 @@ str_id str_intern_z(struct strpool *pool, const char *text)
     return str_intern(pool, text, strlen(text));
 }
 
-void strpool_copy(struct strpool *pool, const struct strpool *from)
+void strpool_leave_base(struct strpool *pool, const struct strpool *lowest)
 {
-    assert(pool->base == from->base && pool->first == from->first && pool->num == 0);
-    assert(!from->offsets && from->num == from->entries.len);
-    size_t size = 0;
-    for (uint32_t i = 0; i < from->num; i++)
-        size += (size_t)from->entries.items[i].len + 1;
-    char *text = arena_alloc(pool->arena, size);
-    struct str_entry *entries = vec_extend(pool->arena, &pool->entries, from->num);
-    for (uint32_t i = 0; i < from->num; i++) {
-        entries[i] = (struct str_entry){text, from->entries.items[i].len};
-        memcpy(text, from->entries.items[i].text, (size_t)entries[i].len + 1);
-        text += (size_t)entries[i].len + 1;
+    const struct strpool top = *pool, *level = NULL;
+    *pool = (struct strpool){.base = lowest->base, .first = lowest->first, .arena = top.arena};
+    while (level != &top) { /* from the lowest one up */
+        const struct strpool *next = &top;
+        while (next != lowest && next->base != level)
+            next = next->base;
+        level = next;
+        assert(!level->offsets && level->first == pool->first + pool->num);
+        for (uint32_t i = 0; i < level->num; i++) {
+            const struct str_entry *e = &level->entries.items[i];
+            add(pool, e->text, e->len, hash_bytes(e->text, e->len));
+        }
     }
-    pool->num = from->num;
-    table_copy(&pool->table, pool->arena, &from->table);
-}
-
-void strpool_leave_base(struct strpool *pool)
-{
-    const struct strpool above = *pool, *base = above.base;
-    *pool = (struct strpool){.base = base->base, .first = base->first, .arena = above.arena};
-    strpool_copy(pool, base);
-    for (uint32_t i = 0; i < above.num; i++) {
-        const struct str_entry *e = &above.entries.items[i];
-        add(pool, e->text, e->len, hash_bytes(e->text, e->len));
-    }
-    assert(pool->first + pool->num == above.first + above.num);
 }
 
 void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base)

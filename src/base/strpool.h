@@ -49,16 +49,10 @@ struct strpool {
 void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base);
 
 /*
- * Fills an empty growing pool with the texts of another one, under the same ids. Both have the same
- * base.
+ * Takes the texts of the growing pools below, down to `lowest`, into the pool, which then stands
+ * above the base of that one. All ids stay.
  */
-void strpool_copy(struct strpool *pool, const struct strpool *from);
-
-/*
- * Takes the texts of a growing pool below into the pool, which then stands above the base of that
- * one. All ids stay.
- */
-void strpool_leave_base(struct strpool *pool);
+void strpool_leave_base(struct strpool *pool, const struct strpool *lowest);
 
 /*
  * The id of a text; adds the text if no pool of the stack has it. Copies the bytes, which must not

@@ -5,36 +5,33 @@
 
 #include <assert.h>
 
-/* How many lists and comments stand in the origin; the others follow. */
-static uint32_t num_shared_lists(const struct document *doc)
+/* The lists of an element by its link's number. */
+static const struct comment_lists *lists_at(const struct document *doc, uint32_t lists)
 {
-    return doc->origin ? doc->origin->comment_lists.len : 0;
-}
-
-static uint32_t num_shared(const struct document *doc)
-{
-    return doc->origin ? doc->origin->comments.len : 0;
+    while (lists <= doc->shared.comment_lists)
+        doc = doc->origin;
+    return &doc->comment_lists.items[lists - 1 - doc->shared.comment_lists];
 }
 
 const struct doc_comment *doc_comment_at(const struct document *doc, uint32_t comment)
 {
-    uint32_t shared = num_shared(doc);
-    assert(comment > 0 && comment <= shared + doc->comments.len);
-    return comment <= shared ? &doc->origin->comments.items[comment - 1]
-                             : &doc->comments.items[comment - 1 - shared];
+    assert(comment > 0 && comment <= doc->shared.comments + doc->comments.len);
+    while (comment <= doc->shared.comments)
+        doc = doc->origin;
+    return &doc->comments.items[comment - 1 - doc->shared.comments];
 }
 
 static struct doc_comment *own_comment(struct document *doc, uint32_t comment)
 {
-    assert(comment > num_shared(doc));
-    return &doc->comments.items[comment - 1 - num_shared(doc)];
+    assert(comment > doc->shared.comments);
+    return &doc->comments.items[comment - 1 - doc->shared.comments];
 }
 
 /* Appends a comment to a list of own comments. */
 static void push(struct document *doc, struct comment_lists *lists, unsigned place, str_id text)
 {
     vec_push(doc->arena, &doc->comments, (struct doc_comment){.text = text});
-    uint32_t added = num_shared(doc) + doc->comments.len;
+    uint32_t added = doc->shared.comments + doc->comments.len;
     if (lists->last[place])
         own_comment(doc, lists->last[place])->next = added;
     else
@@ -42,7 +39,7 @@ static void push(struct document *doc, struct comment_lists *lists, unsigned pla
     lists->last[place] = added;
 }
 
-/* A copy of lists of the origin. */
+/* A copy of lists that the document shares. */
 static struct comment_lists copied(struct document *doc, const struct comment_lists *from)
 {
     struct comment_lists copy = {0};
@@ -56,10 +53,10 @@ static struct comment_lists copied(struct document *doc, const struct comment_li
 static struct comment_lists *lists_of(struct document *doc, elem_id element)
 {
     struct doc_link *link = doc_own_link(doc, element);
-    uint32_t shared = num_shared_lists(doc), have = link->comments;
+    uint32_t shared = doc->shared.comment_lists, have = link->comments;
     if (!have || have <= shared) {
-        struct comment_lists lists = have ? copied(doc, &doc->origin->comment_lists.items[have - 1])
-                                          : (struct comment_lists){0};
+        struct comment_lists lists =
+            have ? copied(doc, lists_at(doc, have)) : (struct comment_lists){0};
         vec_push(doc->arena, &doc->comment_lists, lists);
         link->comments = shared + doc->comment_lists.len;
     }
@@ -101,12 +98,8 @@ void doc_move_comments(struct document *doc, elem_id from, elem_id to, enum comm
 
 uint32_t doc_first_comment(const struct document *doc, elem_id element, enum comment_place place)
 {
-    if (element < doc->first_element || num_shared(doc) + doc->comments.len == 0)
+    if (element < doc->first_element || doc->shared.comments + doc->comments.len == 0)
         return 0;
     const struct doc_link *link = doc_link(doc, element);
-    uint32_t lists = link ? link->comments : 0, shared = num_shared_lists(doc);
-    if (!lists)
-        return 0;
-    return lists <= shared ? doc->origin->comment_lists.items[lists - 1].first[place]
-                           : doc->comment_lists.items[lists - 1 - shared].first[place];
+    return link && link->comments ? lists_at(doc, link->comments)->first[place] : 0;
 }

@@ -19,17 +19,13 @@ enum element_kind doc_kind_of(str_id category)
 
 /* Layers */
 
-/* The index in `attrs` of the first attribute that the origin does not have. */
-static uint32_t num_shared_attrs(const struct document *doc)
-{
-    return doc->origin ? doc->origin->attrs.len : 0;
-}
-
 /* The attributes of an element of this layer from its first one. */
 static inline const struct attribute *attrs_of(const struct document *doc, const struct element *e)
 {
-    uint32_t at = e->first_attr - doc->first_attr, shared = num_shared_attrs(doc);
-    return at < shared ? doc->origin->attrs.items + at : doc->attrs.items + (at - shared);
+    uint32_t at = e->first_attr - doc->first_attr;
+    while (at < doc->shared.attrs)
+        doc = doc->origin;
+    return doc->attrs.items + (at - doc->shared.attrs);
 }
 
 const struct attribute *doc_attrs(const struct document *doc, elem_id element)
@@ -39,7 +35,7 @@ const struct attribute *doc_attrs(const struct document *doc, elem_id element)
     return e->num_attrs ? attrs_of(doc, e) : NULL;
 }
 
-struct doc_change *doc_find_change(const struct document *doc, uint32_t index)
+static struct doc_change *find_own_change(const struct document *doc, uint32_t index)
 {
     uint32_t hash = hash_pair(index, 0);
     for (uint32_t at = hash, found; (found = table_next(&doc->changed, hash, &at));)
@@ -48,11 +44,21 @@ struct doc_change *doc_find_change(const struct document *doc, uint32_t index)
     return NULL;
 }
 
-static struct doc_change *add_change(struct document *doc, uint32_t index)
+const struct doc_change *doc_find_change(const struct document *doc, uint32_t index)
 {
-    struct doc_change *change = ARENA_NEW(doc->arena, struct doc_change);
+    const struct doc_change *change = NULL;
+    for (; doc->origin && !change; doc = doc->origin)
+        change = find_own_change(doc, index);
+    return change;
+}
+
+struct doc_change *doc_add_change(struct document *doc, uint32_t index)
+{
+    struct doc_change *change = find_own_change(doc, index);
+    if (change)
+        return change;
+    change = ARENA_NEW(doc->arena, struct doc_change);
     change->index = index;
-    change->is_fresh = true;
     vec_push(doc->arena, &doc->changes, change);
     table_add(&doc->changed, doc->arena, hash_pair(index, 0), doc->changes.len);
     return change;
@@ -62,15 +68,14 @@ static struct doc_change *add_change(struct document *doc, uint32_t index)
 static struct doc_change *change_of(struct document *doc, elem_id element)
 {
     uint32_t index = element - doc->first_element;
-    struct doc_change *change = doc_find_change(doc, index);
-    if (change) {
-        change->is_fresh = true;
-        return change;
+    struct doc_change *change = find_own_change(doc, index);
+    if (!change) {
+        assert(index < doc->shared.elements);
+        change = doc_add_change(doc, index);
+        change->element = *doc_element(doc->origin, element);
+        change->link = *doc_link(doc->origin, element);
     }
-    assert(index < doc->origin->elements.len);
-    change = add_change(doc, index);
-    change->element = doc->origin->elements.items[index];
-    change->link = doc->origin->links.items[index];
+    change->is_fresh = true;
     return change;
 }
 
@@ -100,7 +105,7 @@ const struct doc_link *doc_link(const struct document *doc, elem_id element)
     const struct doc_change *change = doc->origin ? doc_find_change(doc, index) : NULL;
     if (change)
         return &change->link;
-    const struct document *whole = doc->origin ? doc->origin : doc;
+    const struct document *whole = doc->origin ? doc->whole : doc;
     return index < whole->links.len ? &whole->links.items[index] : NULL;
 }
 
@@ -150,11 +155,13 @@ elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, s
                             .line = line,
                             .column = column,
                             .file = file,
-                            .first_attr = doc->first_attr + num_shared_attrs(doc) + doc->attrs.len,
+                            .first_attr = doc->first_attr + doc->shared.attrs + doc->attrs.len,
                             .kind = (uint16_t)doc_kind_of(category)};
     if (doc->origin) {
+        struct doc_change *change = doc_add_change(doc, index);
         doc->num_added++;
-        add_change(doc, index)->element = added;
+        change->is_fresh = true;
+        change->element = added;
     } else {
         vec_push(doc->arena, &doc->elements, added);
         vec_push(doc->arena, &doc->links, (struct doc_link){0});
@@ -176,13 +183,13 @@ elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_
 }
 
 /*
- * The attributes of an element are contiguous: if others follow them, they first move to the end.
+ * The attributes of an element are contiguous: they move to the end, if others follow them or an
+ * origin has them.
  */
-/* Moves the attributes of an element to the end, if others follow them or an origin has them. */
 static struct element *own_attrs_at_end(struct document *doc, elem_id element)
 {
     struct element *e = own(doc, element);
-    uint32_t first = doc->first_attr + num_shared_attrs(doc);
+    uint32_t first = doc->first_attr + doc->shared.attrs;
     if (e->first_attr >= first && e->first_attr - first + e->num_attrs == doc->attrs.len)
         return e;
     struct attribute *moved = vec_extend(doc->arena, &doc->attrs, e->num_attrs);
@@ -204,7 +211,7 @@ void doc_add_attr(struct document *doc, elem_id element, struct attribute attr)
 /* The attributes of an element, to be changed. */
 static struct attribute *own_attrs(struct document *doc, elem_id element)
 {
-    uint32_t first = doc->first_attr + num_shared_attrs(doc);
+    uint32_t first = doc->first_attr + doc->shared.attrs;
     struct element *e = own(doc, element);
     if (e->first_attr < first)
         e = own_attrs_at_end(doc, element);
@@ -447,9 +454,10 @@ static const char *find_path(const struct document *doc, elem_id element)
 
 static const char *kept_path(const struct document *doc, elem_id element)
 {
-    doc = doc_layer(doc, element);
-    const char *path = find_path(doc, element);
-    return path || !doc->origin ? path : find_path(doc->origin, element);
+    const char *path = NULL;
+    for (doc = doc_layer(doc, element); doc && !path; doc = doc->origin)
+        path = find_path(doc, element);
+    return path;
 }
 
 /* 0 for a column that saturates: a message then shows no place in the line. */
@@ -535,10 +543,10 @@ static elem_id find_in_table(const struct document *doc, const struct table *nam
 static elem_id find_name(const struct document *doc, elem_id parent, str_id name, uint32_t *at)
 {
     elem_id found = find_in_table(doc, &doc->names, parent, name, at);
-    uint32_t at_origin;
-    return found || !doc->origin
-               ? found
-               : find_in_table(doc, &doc->origin->names, parent, name, &at_origin);
+    uint32_t other;
+    for (const struct document *below = doc->origin; below && !found; below = below->origin)
+        found = find_in_table(doc, &below->names, parent, name, &other);
+    return found;
 }
 
 /* True if two elements have equal content, so that the second one is redundant. */
@@ -595,7 +603,7 @@ static void report_duplicate(struct document *doc, elem_id first, elem_id second
 elem_id doc_second_of_name(const struct document *doc, elem_id element)
 {
     doc = doc_layer(doc, element);
-    doc = doc->origin ? doc->origin : doc;
+    doc = doc->origin ? doc->whole : doc;
     uint32_t at = hash_pair(element, 0);
     for (uint32_t found;
          doc->doubles.len && (found = table_next(&doc->double_table, hash_pair(element, 0), &at));)

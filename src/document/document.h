@@ -137,6 +137,19 @@ struct doc_change {
     struct doc_link link;
 };
 
+/* How many items the documents have whose items a document shares. */
+struct doc_counts {
+    uint32_t elements, attrs, comments, comment_lists;
+};
+
+/* An attribute of an element that names an element of a scope (references.c). */
+struct doc_reference {
+    elem_id scope; /* 0: the name counts anywhere */
+    str_id name;
+    elem_id element;
+    uint32_t next; /* of the same scope and name: index plus 1; 0 = none */
+};
+
 struct document {
     const struct document *base;                    /* the layer below, or NULL */
     struct strpool *strings;                        /* the pool of this layer */
@@ -152,11 +165,13 @@ struct document {
     /* blanks surround some '=', so no place of an attribute's name is known */
     bool has_loose_attrs;
     /*
-     * The document that an edit began with; NULL: all elements are in the arrays below. Otherwise
-     * `changes` has the elements that differ, and the arrays have only items behind those of the
-     * origin, which is in one piece and lives as long.
+     * The document whose items this one shares, which lives as long; NULL: all elements are in the
+     * arrays below. Otherwise `changes` has the elements that differ, and the arrays have only
+     * items behind those of the origin. An origin may have an origin: `whole` is the last one,
+     * which is in one piece.
      */
-    const struct document *origin;
+    const struct document *origin, *whole;
+    struct doc_counts shared; /* items of the origin, with those that it shares */
     VEC(struct doc_change *) changes;
     struct table changed;         /* index of an element → position in `changes` + 1 */
     uint32_t num_added;           /* elements that the origin does not have */
@@ -171,6 +186,9 @@ struct document {
     /* names that differing elements share, and a table by the first element */
     VEC(struct doc_double) doubles;
     struct table double_table;
+    /* who names whom, and a table (scope, name) → the last reference + 1: doc_index_references */
+    VEC(struct doc_reference) references;
+    struct table reference_table;
 };
 
 /* Makes an empty document with a root element <materialx>. */
@@ -254,6 +272,23 @@ elem_id doc_second_of_name(const struct document *doc, elem_id element);
 void doc_index_element(struct document *doc, elem_id element);
 
 /*
+ * references.c: which elements name an element. Builds the index for doc_rename; call it after
+ * doc_index_names.
+ */
+void doc_index_references(struct document *doc);
+/* True if a port names a node of the document beside it. */
+bool doc_is_used(const struct document *doc, elem_id node);
+/* The node that a port names; 0: none. */
+elem_id doc_named_node(const struct document *doc, elem_id port);
+/* Indexes the name and the references of an element that an edit has changed. */
+void doc_index_change(struct document *doc, elem_id element);
+/*
+ * Renames an element, indexes it, and changes the references to it. Time: linear in the references
+ * to elements of its name.
+ */
+void doc_rename(struct document *doc, elem_id element, str_id name);
+
+/*
  * complete.c: completes a tree that has all its elements: expands templates, mends file names,
  * qualifies and indexes names. A tree that an edit has changed is completed again.
  */
@@ -262,14 +297,14 @@ void doc_complete(struct document *doc, struct diag_list *diags);
 /* The number of elements of this layer, removed ones included. */
 static inline uint32_t doc_num_elements(const struct document *doc)
 {
-    return doc->origin ? doc->origin->elements.len + doc->num_added : doc->elements.len;
+    return doc->shared.elements + doc->num_added + doc->elements.len;
 }
 static inline bool doc_is_full(const struct document *doc)
 {
     return doc->max_elements && doc_num_elements(doc) >= doc->max_elements;
 }
-/* The change of an element by its index; NULL: it is as in the origin. */
-struct doc_change *doc_find_change(const struct document *doc, uint32_t index);
+/* The last change of an element by its index; NULL: it is as in `whole`. */
+const struct doc_change *doc_find_change(const struct document *doc, uint32_t index);
 
 /* The layer of an element. */
 static inline const struct document *doc_layer(const struct document *doc, elem_id element)
@@ -285,10 +320,12 @@ static inline const struct element *doc_element(const struct document *doc, elem
     uint32_t index = element - doc->first_element;
     if (doc->origin) {
         const struct doc_change *change = doc_find_change(doc, index);
-        return change ? &change->element : &doc->origin->elements.items[index];
+        return change ? &change->element : &doc->whole->elements.items[index];
     }
     return &doc->elements.items[index];
 }
+/* The change of an element in an edit, made if there is none: then it is empty. */
+struct doc_change *doc_add_change(struct document *doc, uint32_t index);
 /* To be changed. */
 struct doc_link *doc_own_link(struct document *doc, elem_id element);
 /* What only a tree in memory has; NULL: an image has none. */
@@ -367,16 +404,25 @@ str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place wher
  */
 
 /*
- * Makes a document that shares the elements of `from`, or of the origin of `from`, which becomes
- * its origin. Its strings are above those of the origin; those of `from` that the origin lacks are
- * in it under the same ids. Time and memory: linear in the changes of `from`.
+ * The document that an edit of `from` shares: `from`, or one of its origins, so that few changes
+ * are copied and few origins lie above each other.
+ */
+const struct document *doc_to_share(const struct document *from);
+/*
+ * Makes a document like `from` that shares the items of `origin`, which is doc_to_share(from). Its
+ * strings are above those of the origin. Time and memory: linear in the changes of `from` and of
+ * the origins between them.
  */
 void doc_begin_edit(struct document *doc, struct arena *arena, struct strpool *strings,
-                    const struct document *from);
-/* Takes all elements out of the origin. The strings become those of the whole layer. */
+                    const struct document *from, const struct document *origin);
+/* How many items a document has beside those of its `whole`. */
+uint64_t doc_num_changes(const struct document *doc);
+/* Takes all elements out of the origins. The strings become those of the whole layer. */
 void doc_leave_origin(struct document *doc);
 /* True if an element of the origin has other siblings or children at most. */
 bool doc_is_same(const struct document *doc, const struct doc_change *change);
+/* True if an element of the origin has another name or parent, so that paths below it change. */
+bool doc_is_renamed(const struct document *doc, const struct doc_change *change);
 /* A comment by its index plus 1. */
 const struct doc_comment *doc_comment_at(const struct document *doc, uint32_t comment);
 /*
@@ -389,11 +435,6 @@ elem_id doc_copy_element(struct document *doc, elem_id parent, const struct docu
 bool doc_has_element(const struct document *doc, elem_id element);
 /* True if an element can have this name ("MaterialX Names": letters, digits, '_', namespaces). */
 bool doc_is_name(const char *text);
-/*
- * Renames an element, indexes it, and changes the references to it. Time: linear in the elements of
- * the layer.
- */
-void doc_rename(struct document *doc, elem_id element, str_id name);
 /* Keeps the paths of elements without a line, for doc_place. Call it when the tree is complete. */
 void doc_keep_paths(struct document *doc);
 

@@ -14,29 +14,91 @@
                    (from)->field.len * sizeof *(from)->field.items); \
     } while (0)
 
-static void copy_changes(struct document *doc, const struct document *from)
+/* What an edit copies of a document that it does not share. */
+static uint64_t num_own(const struct document *doc)
 {
-    uint32_t num = from->changes.len;
-    struct doc_change *changes = ARENA_ARRAY(doc->arena, struct doc_change, num),
-                      **items = vec_extend(doc->arena, &doc->changes, num);
-    doc->num_added = from->num_added;
-    for (uint32_t i = 0; i < num; i++) {
-        items[i] = &changes[i];
-        changes[i] = *from->changes.items[i];
-        changes[i].is_fresh = false;
+    return (uint64_t)doc->changes.len + doc->attrs.len;
+}
+
+uint64_t doc_num_changes(const struct document *doc)
+{
+    uint64_t num = 0;
+    for (; doc->origin; doc = doc->origin)
+        num += num_own(doc);
+    return num;
+}
+
+/*
+ * Each origin has more changes than all documents above it have together, so there are few of them,
+ * and a series of edits copies a change only each time when their number has doubled.
+ */
+const struct document *doc_to_share(const struct document *from)
+{
+    enum { FEW = 64 };
+    uint64_t copied = 0;
+    for (; from->origin && num_own(from) <= 2 * copied + FEW; from = from->origin)
+        copied += num_own(from);
+    return from;
+}
+
+/* The document that shares `below` directly, of those under `top` or `top` itself. */
+static const struct document *above(const struct document *top, const struct document *below)
+{
+    while (top->origin != below)
+        top = top->origin;
+    return top;
+}
+
+/* Texts that the origin does not have get new ids: those that no element has any more are gone. */
+static str_id kept_text(struct document *doc, const struct document *from, str_id text)
+{
+    return text < doc->strings->first ? text
+                                      : str_intern(doc->strings, str_text(from->strings, text),
+                                                   str_len(from->strings, text));
+}
+
+static void keep_changes(struct document *doc, const struct document *from,
+                         const struct document *level)
+{
+    uint32_t shared = doc->shared.comment_lists;
+    for (uint32_t i = 0; i < level->changes.len; i++) {
+        const struct doc_change *change = level->changes.items[i];
+        struct doc_change *kept = doc_add_change(doc, change->index);
+        kept->element = change->element;
+        kept->link = change->link;
+        kept->element.category = kept_text(doc, from, change->element.category);
+        kept->element.name = kept_text(doc, from, change->element.name);
     }
-    table_copy(&doc->changed, doc->arena, &from->changed);
-    table_copy(&doc->names, doc->arena, &from->names);
-    COPY(doc, from, attrs);
-    COPY(doc, from, comments);
-    COPY(doc, from, comment_lists);
+    for (uint32_t i = 0; i < level->comments.len; i++) {
+        const struct doc_comment comment = {kept_text(doc, from, level->comments.items[i].text),
+                                            level->comments.items[i].next};
+        vec_push(doc->arena, &doc->comments, comment);
+    }
+    assert(level->shared.comment_lists == shared + doc->comment_lists.len);
+    COPY(doc, level, comment_lists);
+    doc->num_added += level->num_added;
+}
+
+static void keep_attrs(struct document *doc, const struct document *from, struct doc_change *change)
+{
+    struct element *e = &change->element;
+    uint32_t first = doc->first_attr + doc->shared.attrs;
+    if (e->first_attr < first)
+        return; /* the origin has them */
+    const struct attribute *attrs = doc_attrs(from, doc->first_element + change->index);
+    e->first_attr = first + doc->attrs.len;
+    for (uint32_t i = 0; i < e->num_attrs; i++) {
+        struct attribute attr = attrs[i];
+        attr.name = kept_text(doc, from, attr.name);
+        attr.value = kept_text(doc, from, attr.value);
+        vec_push(doc->arena, &doc->attrs, attr);
+    }
 }
 
 void doc_begin_edit(struct document *doc, struct arena *arena, struct strpool *strings,
-                    const struct document *from)
+                    const struct document *from, const struct document *origin)
 {
-    const struct document *origin = from->origin ? from->origin : from;
-    assert(strings->base == origin->strings && !origin->origin);
+    assert(strings->base == origin->strings);
     *doc = (struct document){.base = origin->base,
                              .strings = strings,
                              .arena = arena,
@@ -50,52 +112,82 @@ void doc_begin_edit(struct document *doc, struct arena *arena, struct strpool *s
                              .is_global = from->is_global,
                              .keeps_comments = from->keeps_comments,
                              .has_loose_attrs = from->has_loose_attrs,
-                             .origin = origin};
+                             .origin = origin,
+                             .whole = origin->origin ? origin->whole : origin,
+                             .shared = {doc_num_elements(origin),
+                                        origin->shared.attrs + origin->attrs.len,
+                                        origin->shared.comments + origin->comments.len,
+                                        origin->shared.comment_lists + origin->comment_lists.len}};
     COPY(doc, from, files);
-    if (from->origin)
-        copy_changes(doc, from);
+    for (const struct document *level = origin; level != from;) {
+        level = above(from, level);
+        keep_changes(doc, from, level);
+    }
+    for (uint32_t i = 0; i < doc->changes.len; i++)
+        keep_attrs(doc, from, doc->changes.items[i]);
+    for (uint32_t i = 0; i < doc->changes.len; i++)
+        doc_index_change(doc, doc->first_element + doc->changes.items[i]->index);
+}
+
+static const struct element *element_of_origin(const struct document *doc,
+                                               const struct doc_change *change)
+{
+    return change->index < doc->shared.elements
+               ? doc_element(doc->origin, doc->first_element + change->index)
+               : NULL;
 }
 
 bool doc_is_same(const struct document *doc, const struct doc_change *change)
 {
-    if (change->index >= doc->origin->elements.len)
-        return false;
-    const struct element *now = &change->element,
-                         *before = &doc->origin->elements.items[change->index];
-    return now->category == before->category && now->name == before->name
+    const struct element *now = &change->element, *before = element_of_origin(doc, change);
+    return before && now->category == before->category && now->name == before->name
            && now->parent == before->parent && now->first_attr == before->first_attr
            && now->num_attrs == before->num_attrs;
 }
 
+bool doc_is_renamed(const struct document *doc, const struct doc_change *change)
+{
+    const struct element *before = element_of_origin(doc, change);
+    return before
+           && (change->element.name != before->name || change->element.parent != before->parent);
+}
+
 void doc_leave_origin(struct document *doc)
 {
-    const struct document *origin = doc->origin;
-    struct document changed = *doc;
+    const struct document top = *doc, *whole = top.whole;
     uint32_t num = doc_num_elements(doc);
-    memset(&doc->elements, 0, sizeof doc->elements);
-    memset(&doc->attrs, 0, sizeof doc->attrs);
-    memset(&doc->comments, 0, sizeof doc->comments);
-    memset(&doc->comment_lists, 0, sizeof doc->comment_lists);
-    COPY(doc, origin, attrs);
-    COPY(doc, origin, comments);
-    COPY(doc, origin, comment_lists);
-    COPY(doc, &changed, attrs);
-    COPY(doc, &changed, comments);
-    COPY(doc, &changed, comment_lists);
-    COPY(doc, origin, elements);
-    COPY(doc, origin, links);
-    (void)vec_extend(doc->arena, &doc->elements, num - origin->elements.len);
-    (void)vec_extend(doc->arena, &doc->links, num - origin->links.len);
-    for (uint32_t i = 0; i < changed.changes.len; i++) {
-        const struct doc_change *change = changed.changes.items[i];
-        doc->elements.items[change->index] = change->element;
-        doc->links.items[change->index] = change->link;
+    *doc = (struct document){.base = top.base,
+                             .strings = top.strings,
+                             .arena = top.arena,
+                             .first_element = top.first_element,
+                             .first_attr = top.first_attr,
+                             .first_file = top.first_file,
+                             .root = top.root,
+                             .max_elements = top.max_elements,
+                             .has_templates = top.has_templates,
+                             .has_attributedefs = top.has_attributedefs,
+                             .is_global = top.is_global,
+                             .keeps_comments = top.keeps_comments,
+                             .has_loose_attrs = top.has_loose_attrs};
+    COPY(doc, &top, files);
+    COPY(doc, whole, attrs);
+    COPY(doc, whole, comments);
+    COPY(doc, whole, comment_lists);
+    COPY(doc, whole, elements);
+    COPY(doc, whole, links);
+    (void)vec_extend(doc->arena, &doc->elements, num - whole->elements.len);
+    (void)vec_extend(doc->arena, &doc->links, num - whole->links.len);
+    for (const struct document *level = whole; level != &top;) {
+        level = above(&top, level);
+        COPY(doc, level, attrs);
+        COPY(doc, level, comments);
+        COPY(doc, level, comment_lists);
+        for (uint32_t i = 0; i < level->changes.len; i++) {
+            const struct doc_change *change = level->changes.items[i];
+            doc->elements.items[change->index] = change->element;
+            doc->links.items[change->index] = change->link;
+        }
     }
-    doc->origin = NULL;
-    doc->num_added = 0;
-    memset(&doc->changes, 0, sizeof doc->changes);
-    memset(&doc->changed, 0, sizeof doc->changed);
-    memset(&doc->paths, 0, sizeof doc->paths);
     doc_index_names(doc, NULL);
 }
 
@@ -135,7 +227,7 @@ static elem_id copy_one(const struct copier *c, elem_id parent, elem_id element,
                                         .value = copied_text(c, attr.value)});
     }
     copy_comments(c, copy, element);
-    doc_index_element(c->doc, copy);
+    doc_index_change(c->doc, copy);
     return copy;
 }
 
@@ -194,107 +286,6 @@ bool doc_is_name(const char *text)
     return false;
 }
 
-/* The elements whose attributes may name an element. */
-enum reference_scope {
-    ANYWHERE,
-    BESIDE,  /* the children of its siblings, and its siblings */
-    WITHIN,  /* all elements below its parent */
-    PORTS_OF /* elements whose `nodegraph` names its parent */
-};
-
-static const struct reference {
-    uint8_t kind; /* enum element_kind of the named element */
-    uint8_t scope;
-    str_id attr; /* one name, or several with commas */
-} references[] = {
-    {KIND_NODE, BESIDE, STR_nodename},
-    {KIND_NODE, ANYWHERE, STR_material},
-    {KIND_NODEGRAPH, ANYWHERE, STR_nodegraph},
-    {KIND_INPUT, WITHIN, STR_interfacename},
-    {KIND_OUTPUT, PORTS_OF, STR_output},
-    {KIND_NODEDEF, ANYWHERE, STR_nodedef},
-    {KIND_NODEDEF, ANYWHERE, STR_inherit},
-    {KIND_TYPEDEF, ANYWHERE, STR_type},
-    {KIND_LOOK, ANYWHERE, STR_look},
-    {KIND_LOOK, ANYWHERE, STR_looks},
-    {KIND_LOOK, ANYWHERE, STR_inherit},
-    {KIND_LOOKGROUP, ANYWHERE, STR_looks},
-    {KIND_COLLECTION, ANYWHERE, STR_collection},
-    {KIND_COLLECTION, ANYWHERE, STR_includecollection},
-    {KIND_VARIANTSET, ANYWHERE, STR_variantset},
-    {KIND_GEOMPROPDEF, ANYWHERE, STR_geomprop},
-    {KIND_GEOMPROPDEF, ANYWHERE, STR_defaultgeomprop},
-};
-
-struct renaming {
-    struct document *doc;
-    elem_id element, parent;
-    uint8_t kind;
-    str_id old, parents_name;
-    str_id name;
-    struct text list;
-};
-
-/* Several kinds share an attribute: "inherit" of a look names looks only. */
-static bool can_refer(const struct renaming *r, const struct reference *reference, elem_id at)
-{
-    const struct element *e = doc_element(r->doc, at);
-    switch ((enum reference_scope)reference->scope) {
-    case BESIDE:
-        return e->parent == r->parent
-               || (e->parent && doc_element(r->doc, e->parent)->parent == r->parent);
-    case PORTS_OF: return doc_attr_value(r->doc, at, STR_nodegraph) == r->parents_name;
-    case WITHIN: return doc_is_within(r->doc, at, r->parent);
-    case ANYWHERE: return reference->attr != STR_inherit || e->kind == r->kind;
-    }
-    return false;
-}
-
-/* Replaces the name in a list "a, b" or alone. */
-static void replace_name(struct renaming *r, elem_id at, str_id attr)
-{
-    struct document *doc = r->doc;
-    const char *text = str_text(doc->strings, doc_attr_value(doc, at, attr)),
-               *old = str_text(doc->strings, r->old);
-    size_t old_len = str_len(doc->strings, r->old);
-    bool found = false;
-    r->list.len = 0;
-    while (*text) {
-        size_t gap = strspn(text, ", "), len = strcspn(text + gap, ", ");
-        bool is_old = len == old_len && memcmp(text + gap, old, len) == 0;
-        text_mem(&r->list, text, gap);
-        if (is_old)
-            text_str(&r->list, str_text(doc->strings, r->name));
-        else
-            text_mem(&r->list, text + gap, len);
-        found |= is_old;
-        text += gap + len;
-    }
-    if (found)
-        doc_set_attr(doc, at, attr, str_intern(doc->strings, r->list.data, r->list.len));
-}
-
-void doc_rename(struct document *doc, elem_id element, str_id name)
-{
-    const struct element *e = doc_element(doc, element);
-    struct renaming r = {.doc = doc,
-                         .element = element,
-                         .parent = e->parent,
-                         .kind = (uint8_t)e->kind,
-                         .old = e->name,
-                         .parents_name = doc_element(doc, e->parent)->name,
-                         .name = name};
-    assert(e->parent && name);
-    text_init(&r.list, doc->arena);
-    for (elem_id at = r.old ? doc->root : 0; at; at = doc_next_in_tree(doc, doc->root, at))
-        for (size_t i = 0; i < sizeof references / sizeof *references; i++)
-            if (references[i].kind == r.kind && doc_attr_value(doc, at, references[i].attr)
-                && can_refer(&r, &references[i], at))
-                replace_name(&r, at, references[i].attr);
-    doc_set_name(doc, element, name);
-    doc_index_element(doc, element);
-}
-
 /* ---- Places ---- */
 
 static void keep_path(struct document *doc, elem_id element)
@@ -321,8 +312,13 @@ void doc_keep_paths(struct document *doc)
     if (!doc->origin)
         for (uint32_t i = 0; i < doc->elements.len; i++)
             keep_path(doc, doc->first_element + i);
-    for (uint32_t i = 0; i < doc->changes.len; i++)
-        keep_path(doc, doc->first_element + doc->changes.items[i]->index);
+    for (uint32_t i = 0; i < doc->changes.len; i++) {
+        elem_id element = doc->first_element + doc->changes.items[i]->index;
+        keep_path(doc, element);
+        for (elem_id at = doc_is_renamed(doc, doc->changes.items[i]) ? element : 0; at;
+             at = doc_next_in_tree(doc, element, at))
+            keep_path(doc, at);
+    }
     if (doc->paths.len)
         qsort(doc->paths.items, doc->paths.len, sizeof *doc->paths.items, by_element);
 }

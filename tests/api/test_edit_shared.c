@@ -9,12 +9,13 @@
 
 #include <stdlib.h>
 
-static size_t used;
+static size_t used, allocated;
 
 static void *count_realloc(void *user_data, void *block, size_t old_size, size_t new_size)
 {
     (void)user_data;
     used += new_size - old_size;
+    allocated += new_size;
     if (new_size)
         return realloc(block, new_size);
     free(block);
@@ -51,18 +52,33 @@ static mxg_document *parse(struct world *w, const char *text, size_t size)
     return document;
 }
 
-static mxg_document *many_materials(struct world *w, unsigned count)
+/* Shaders, each with a graph and, if `has_materials`, a material. */
+static mxg_document *many_materials(struct world *w, unsigned count, bool has_materials)
 {
-    char *text = malloc(count * 400 + 100);
-    size_t len = (size_t)sprintf(text, "<materialx version='1.39'>");
-    for (unsigned i = 0; i < count; ++i)
+    char *text = malloc(count * 800 + 1000);
+    size_t len = (size_t)sprintf(
+        text, "<materialx version='1.39'><nodedef name='ND_twice' node='twice'><input name='in' "
+              "type='float' value='1'/><output name='out' type='float'/></nodedef><nodegraph "
+              "name='NG_twice' nodedef='ND_twice'><add name='sum' type='float'><input name='in1' "
+              "type='float' interfacename='in'/><input name='in2' type='float' "
+              "interfacename='in'/></add><output name='out' type='float' nodename='sum'/>"
+              "</nodegraph>");
+    for (unsigned i = 0; i < count; ++i) {
         len += (size_t)sprintf(
             text + len,
-            "<!-- material %u --><standard_surface name='S%u' type='surfaceshader'>"
-            "<input name='base' type='float' value='0.5'/></standard_surface>"
-            "<surfacematerial name='M%u' type='material'>"
-            "<input name='surfaceshader' type='surfaceshader' nodename='S%u'/></surfacematerial>",
+            "<!-- material %u --><nodegraph name='G%u'><twice name='two' type='float'><input "
+            "name='in' type='float' value='0.25'/></twice><output name='out' type='float' "
+            "nodename='two'/></nodegraph><standard_surface name='S%u' type='surfaceshader'>"
+            "<input name='base' type='float' value='0.5'/><input name='metalness' type='float' "
+            "nodegraph='G%u'/></standard_surface>",
             i, i, i, i);
+        if (has_materials)
+            len += (size_t)sprintf(
+                text + len,
+                "<surfacematerial name='M%u' type='material'><input name='surfaceshader' "
+                "type='surfaceshader' nodename='S%u'/></surfacematerial>",
+                i, i);
+    }
     len += (size_t)sprintf(text + len, "</materialx>");
     mxg_document *document = parse(w, text, len);
     free(text);
@@ -71,26 +87,56 @@ static mxg_document *many_materials(struct world *w, unsigned count)
 
 /* ---- Memory ---- */
 
-enum edit_kind { VALUE, NEW_INPUT, NEW_NODE, CONNECTION, NUM_KINDS };
+enum edit_kind {
+    VALUE,
+    NEW_INPUT,
+    NEW_NODE,
+    NEW_MATERIAL,
+    CONNECTION,
+    NAME_OF_NODE,
+    NAME_OF_MATERIAL,
+    NAME_OF_GRAPH,
+    REMOVAL,
+    REMOVED_MATERIAL,
+    MOVE,
+    COPY,
+    NUM_KINDS
+};
+
+static void make_edit(mxg_edit *edit, const mxg_document *from, enum edit_kind kind)
+{
+    const float value = 0.25f;
+    mxg_element shader = mxg_edit_find(edit, "S1"), material = mxg_edit_find(edit, "M1"), node;
+    switch (kind) {
+    case VALUE: mxg_edit_numbers(edit, shader, "base", NULL, &value, 1); break;
+    case NEW_INPUT: mxg_edit_numbers(edit, shader, "coat", "float", &value, 1); break;
+    case NEW_NODE: mxg_edit_add(edit, 0, "constant", "Grey", "float"); break;
+    case NEW_MATERIAL:
+        node = mxg_edit_add(edit, 0, "surfacematerial", "Grey", "material");
+        mxg_edit_connect(edit, node, "surfaceshader", shader, NULL);
+        break;
+    case NAME_OF_NODE: mxg_edit_rename(edit, shader, "Shader"); break;
+    case NAME_OF_MATERIAL: mxg_edit_rename(edit, material, "Material"); break;
+    case NAME_OF_GRAPH: mxg_edit_rename(edit, mxg_edit_find(edit, "G1"), "Graph"); break;
+    case REMOVAL: mxg_edit_remove(edit, mxg_edit_find(edit, "S1/base")); break;
+    case REMOVED_MATERIAL: mxg_edit_remove(edit, material); break;
+    case MOVE: mxg_edit_move(edit, material, 0, shader); break;
+    case COPY: mxg_edit_copy(edit, 0, from, mxg_document_find(from, "S2"), "Copy"); break;
+    default:
+        node = mxg_edit_add(edit, 0, "constant", "Grey", "float");
+        mxg_edit_connect(edit, shader, "base", node, NULL);
+    }
+    REQUIRE_STR(mxg_edit_error(edit), "");
+}
 
 /* The bytes that a document takes beside the one that it comes from. */
 static size_t bytes_of_edit(struct world *w, const mxg_document *from, enum edit_kind kind)
 {
     mxg_edit *edit;
     mxg_document *next;
-    const float value = 0.25f;
     size_t before = used;
     REQUIRE(mxg_edit_begin(w->context, w->library, from, NULL, &edit) == MXG_OK);
-    mxg_element shader = mxg_edit_find(edit, "S1"), node;
-    switch (kind) {
-    case VALUE: mxg_edit_numbers(edit, shader, "base", NULL, &value, 1); break;
-    case NEW_INPUT: mxg_edit_numbers(edit, shader, "coat", "float", &value, 1); break;
-    case NEW_NODE: mxg_edit_add(edit, 0, "constant", "Grey", "float"); break;
-    default:
-        node = mxg_edit_add(edit, 0, "constant", "Grey", "float");
-        mxg_edit_connect(edit, shader, "base", node, NULL);
-    }
-    REQUIRE_STR(mxg_edit_error(edit), "");
+    make_edit(edit, from, kind);
     REQUIRE(mxg_edit_end(edit, &next) == MXG_OK);
     size_t bytes = used - before;
     mxg_document_destroy(next);
@@ -102,17 +148,51 @@ static size_t bytes_of_edit(struct world *w, const mxg_document *from, enum edit
 static void test_memory(void)
 {
     struct world w = open_world();
-    mxg_document *small = many_materials(&w, 50), *large = many_materials(&w, 2000);
-    for (int kind = 0; kind < NUM_KINDS; ++kind) {
-        size_t of_small = bytes_of_edit(&w, small, (enum edit_kind)kind),
-               of_large = bytes_of_edit(&w, large, (enum edit_kind)kind);
-        REQUIRE(of_small > 0);
-        if (!REQUIRE(of_large <= of_small + 64))
-            printf("    kind %d: %zu bytes, and %zu with more materials\n", kind, of_small,
-                   of_large);
+    for (int has_materials = 0; has_materials < 2; ++has_materials) {
+        mxg_document *small = many_materials(&w, 50, has_materials),
+                     *large = many_materials(&w, 2000, has_materials);
+        for (int kind = 0; kind < NUM_KINDS; ++kind) {
+            bool is_of_material =
+                kind == NAME_OF_MATERIAL || kind == REMOVED_MATERIAL || kind == MOVE;
+            if (!has_materials && (is_of_material || kind == NEW_MATERIAL))
+                continue; /* the first material: the document has other renderables then */
+            size_t of_small = bytes_of_edit(&w, small, (enum edit_kind)kind),
+                   of_large = bytes_of_edit(&w, large, (enum edit_kind)kind);
+            REQUIRE(of_small > 0);
+            if (!REQUIRE(of_large <= of_small + 64))
+                printf("    kind %d: %zu bytes, and %zu with more materials\n", kind, of_small,
+                       of_large);
+        }
+        mxg_document_destroy(small);
+        mxg_document_destroy(large);
     }
-    mxg_document_destroy(small);
-    mxg_document_destroy(large);
+    close_world(&w);
+}
+
+/* A series of edits, each of another material, copies a change a few times at most. */
+static void test_series(void)
+{
+    struct world w = open_world();
+    mxg_document *first = many_materials(&w, 2000, true), *document = first;
+    size_t allocated_before = allocated;
+    for (unsigned i = 0; i < 1000; ++i) {
+        char name[16];
+        mxg_edit *edit;
+        mxg_document *next;
+        const float value = 0.001f * (float)i;
+        snprintf(name, sizeof name, "S%u", i);
+        mxg_edit_begin(w.context, w.library, document, NULL, &edit);
+        mxg_edit_numbers(edit, mxg_edit_find(edit, name), "base", NULL, &value, 1);
+        REQUIRE(mxg_edit_end(edit, &next) == MXG_OK);
+        if (document != first)
+            mxg_document_destroy(document);
+        document = next;
+    }
+    size_t bytes = (allocated - allocated_before) / 1000;
+    if (!REQUIRE(bytes < 65536))
+        printf("    %zu bytes per edit\n", bytes);
+    mxg_document_destroy(document);
+    mxg_document_destroy(first);
     close_world(&w);
 }
 
@@ -120,7 +200,7 @@ static void test_memory(void)
 static void test_slider(void)
 {
     struct world w = open_world();
-    mxg_document *document = many_materials(&w, 500);
+    mxg_document *document = many_materials(&w, 500, true);
     size_t first = 0, most = 0, before = used;
     for (int i = 0; i < 1000; ++i) {
         mxg_edit *edit;
@@ -153,8 +233,11 @@ static void make_change(mxg_edit *edit, const mxg_document *from, unsigned *rand
     const float value = 0.001f * (float)(next_random(random) % 1000);
     snprintf(name, sizeof name, "S%u", next_random(random) % 20);
     snprintf(other, sizeof other, "N%u", next_random(random) % 30);
-    mxg_element shader = mxg_edit_find(edit, name), node = mxg_edit_find(edit, other);
-    switch (next_random(random) % 14) {
+    mxg_element shader = mxg_edit_find(edit, name), node = mxg_edit_find(edit, other), graph, two;
+    snprintf(name, sizeof name, "G%u", next_random(random) % 20);
+    graph = mxg_edit_find(edit, name);
+    snprintf(name, sizeof name, "S%u", next_random(random) % 20);
+    switch (next_random(random) % 22) {
     case 0:
     case 1:
     case 2: mxg_edit_numbers(edit, shader, "base", "float", &value, 1); break;
@@ -168,6 +251,25 @@ static void make_change(mxg_edit *edit, const mxg_document *from, unsigned *rand
     case 10: mxg_edit_rename(edit, node, "N99"); break;
     case 11: mxg_edit_copy(edit, 0, from, mxg_document_find(from, name), other); break;
     case 12: mxg_edit_remove(edit, shader); break;
+    case 13: mxg_edit_rename(edit, graph, other); break;
+    case 14: mxg_edit_rename(edit, shader, other); break;
+    case 15:
+        two = mxg_edit_child(edit, graph, "two");
+        mxg_edit_rename(edit, two ? two : mxg_edit_child(edit, graph, "second"),
+                        two ? "second" : "two");
+        break;
+    case 16:
+        two = mxg_edit_child(edit, graph, "out");
+        mxg_edit_rename(edit, two ? two : mxg_edit_child(edit, graph, "result"),
+                        two ? "result" : "out");
+        break;
+    case 17: mxg_edit_move(edit, graph, 0, shader); break;
+    case 18:
+        node = mxg_edit_add(edit, 0, "surfacematerial", other, "material");
+        mxg_edit_connect(edit, node, "surfaceshader", shader, NULL);
+        break;
+    case 19: mxg_edit_connect(edit, shader, "base", graph, NULL); break;
+    case 20: mxg_edit_remove(edit, graph); break;
     default:
         node = mxg_edit_add(edit, 0, "nodegraph", other, NULL);
         mxg_edit_set(edit, node, "nodedef", next_random(random) % 2 ? "ND_own" : NULL);
@@ -229,7 +331,7 @@ static void test_sequences(void)
     struct world w = open_world();
     for (unsigned seed = 1; seed <= 12; ++seed) {
         unsigned random = seed;
-        mxg_document *document = many_materials(&w, 20), *kept = NULL;
+        mxg_document *document = many_materials(&w, 20, seed % 2), *kept = NULL;
         for (int i = 0; i < 40; ++i) {
             mxg_edit *edit;
             mxg_document *next = NULL;
@@ -290,7 +392,7 @@ static void test_values(void)
                                            {"coat_color", "color3", "0.1, 0.2, 0.3"},
                                            {"thin_walled", "boolean", "true"}};
     struct world w = open_world();
-    mxg_document *document = many_materials(&w, 20);
+    mxg_document *document = many_materials(&w, 20, true);
     mxg_result *program = generate(&w, document);
     unsigned char now[2048], expected[2048];
     size_t size = mxg_result_pack(program, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0);
@@ -336,6 +438,7 @@ int main(void)
 {
     test_values();
     test_memory();
+    test_series();
     test_slider();
     test_sequences();
     return test_report("api-edit_shared");

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The library of an OpenColorIO configuration: what mxgen computes with it is what OpenColorIO computes."""
 import contextlib
+import functools
 import io
+import itertools
 import pathlib
 import re
 import tempfile
@@ -72,6 +74,18 @@ colorspaces:
     name: table
     to_scene_reference: !<FileTransform> {src: table.spi1d, interpolation: linear}
   - !<ColorSpace>
+    name: falling
+    to_scene_reference: !<FileTransform> {src: falling.spi1d, interpolation: linear}
+  - !<ColorSpace>
+    name: cube
+    to_scene_reference: !<FileTransform> {src: cube.spi3d, interpolation: linear}
+  - !<ColorSpace>
+    name: cube_best
+    to_scene_reference: !<FileTransform> {src: cube.spi3d, interpolation: tetrahedral}
+  - !<ColorSpace>
+    name: cube_large
+    to_scene_reference: !<FileTransform> {src: large.spi3d}
+  - !<ColorSpace>
     name: "not an identifier"
     to_scene_reference: !<ExponentTransform> {value: 2}
   - !<ColorSpace>
@@ -80,10 +94,29 @@ colorspaces:
   - !<ColorSpace> {name: raw, isdata: true}
 """
 TABLE = "Version 1\nFrom 0.0 1.0\nLength 5\nComponents 1\n{\n0.0\n0.05\n0.2\n0.5\n1.0\n}\n"
+# three channels, with flat parts, falling
+FALLING = "Version 1\nFrom 0.0 1.0\nLength 6\nComponents 3\n{\n1 0.9 0.95\n1 0.8 0.9\n0.7 0.8 0.5\n0.7 0.3 0.4\n0.1 0.25 0.2\n0.1 0 0.1\n}\n"
+
+
+def cube(size):
+    """A table of three dimensions that mixes the channels, and is no sum of functions of one."""
+    lines = ["SPILUT 1.0", "3 3", f"{size} {size} {size}"]
+    for r, g, b in itertools.product(range(size), repeat=3):
+        x, y, z = (i / (size - 1) for i in (r, g, b))
+        lines.append(f"{r} {g} {b} {x * x * 0.8 + 0.1 * y + 0.05 * x * z:.7f} {y * 0.7 + 0.3 * y * y * x:.7f} {z**1.5 * 0.9 + 0.1 * x * y:.7f}")
+    return "\n".join(lines) + "\n"
+
+
 COLORS = (0.0, 0.18, 1.0), (0.002, 0.5, 0.9), (-0.25, 0.03, 2.5), (0.7, 0.01, 0.4)
 DOCUMENT = """<?xml version="1.0"?>
 <materialx version="1.39">
   <constant name="c" type="color3"><input name="value" type="color3" value="{value}" colorspace="{space}"/></constant>
+  <output name="out" type="color3" nodename="c"/>
+</materialx>
+"""
+MOVING = """<?xml version="1.0"?>
+<materialx version="1.39">
+  <image name="c" type="color3"><input name="file" type="filename" value="a.png" colorspace="cube"/></image>
   <output name="out" type="color3" nodename="c"/>
 </materialx>
 """
@@ -96,7 +129,8 @@ class ColorSpaces(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        (self.folder / "table.spi1d").write_text(TABLE, encoding="utf-8")
+        for name, text in ("table.spi1d", TABLE), ("falling.spi1d", FALLING), ("cube.spi3d", cube(9)), ("large.spi3d", cube(34)):
+            (self.folder / name).write_text(text, encoding="utf-8")
         self.path = self.folder / "config.ocio"
         self.path.write_text(CONFIG, encoding="utf-8")
         self.config = PyOpenColorIO.Config.CreateFromFile(str(self.path))
@@ -117,39 +151,58 @@ class ColorSpaces(unittest.TestCase):
         numbers = [float(number) for number in re.findall(r"-?[0-9.]+(?:e-?[0-9]+)?", numbers.group(1).replace("vec3(", ""))]
         return numbers[:-1] * (3 if len(numbers) == 2 else 1)
 
-    def compare(self, space, working):
+    @functools.lru_cache(maxsize=1)
+    def studio(self):
         self.assertEqual(self.run_command(self.path, "-o", self.folder / "studio.mtlx")[0], 0)
         context = mxgen.Context()
-        library = context.load_library(self.folder / "studio.mtlx")
+        return context, context.load_library(self.folder / "studio.mtlx")
+
+    def compare(self, space, working, delta=2e-4):
+        context, library = self.studio()
         names = {space.getName(): space.getName() for space in self.config.getColorSpaces()}
         names["srgb_studio"] = "sRGB - Texture"
-        processor = self.config.getProcessor(names[space], names[working]).getDefaultCPUProcessor()
+        processor = self.config.getProcessor(names[space], names[working]).getOptimizedCPUProcessor(PyOpenColorIO.OPTIMIZATION_LOSSLESS)
         for color in COLORS:
             expected, got = processor.applyRGB(list(color)), self.value(context, library, color, space, working)
             for a, b in zip(got, expected):
-                self.assertAlmostEqual(a, b, delta=2e-4 * max(1, abs(b)), msg=f"{space} to {working}: {color}: {got}, not {expected}")
+                self.assertAlmostEqual(a, b, delta=delta * max(1, abs(b)), msg=f"{space} to {working}: {color}: {got}, not {expected}")
 
     def test_values(self):
         library = mxgen_ocio.make_library(self.config, "studio.glsl")
         spaces = set(library.spaces) - {"lin_ap1"}
-        self.assertEqual(len(spaces), 14)
+        self.assertEqual(len(spaces), 17)
         for space in sorted(spaces):
             with self.subTest(space):
                 self.compare(space, "lin_rec709")
 
     def test_working_spaces(self):
         self.compare("camera", "acescg")
-        for space in "g22", "mirrored", "affine", "graded_open", "several", "g22_pass", "plain_log", "ranged":
+        for space in "g22", "mirrored", "affine", "graded_open", "several", "g22_pass", "plain_log", "ranged", "table", "falling":
             with self.subTest(space):
                 self.compare("lin_rec709", space)
+
+    def test_inverse_of_three_dimensions(self):
+        # a table stands for the inverse, here as in OpenColorIO's fast way, with another number of entries
+        for space in "cube", "cube_best":
+            with self.subTest(space):
+                self.compare("lin_rec709", space, delta=0.02)
+
+    def test_targets(self):
+        """Tables as arrays in every raster language."""
+        context, library = self.studio()
+        document = context.parse(MOVING, library=library)
+        for target in "glsl", "vulkan", "essl", "hlsl":
+            shader = document.generate(target, element="out")
+            self.assertEqual(list(shader.diagnostics), [])
+            self.assertIn("[729]", shader.pixel)
 
     def test_missing(self):
         code, out, err = self.run_command(self.path, "-o", self.folder / "studio.mtlx")
         self.assertEqual(code, 0)
-        self.assertIn("15 names of colour spaces, 2 colour spaces missing", out)
+        self.assertIn("18 names of colour spaces, 3 colour spaces missing", out)
         self.assertIn("'not an identifier' is not in the library: no name or alias of it is an identifier", err)
         self.assertIn("'hue' is not in the library: it needs a FixedFunctionTransform", err)
-        self.assertIn("'table' cannot be the working space: it needs a table", err)
+        self.assertIn("'cube_large' is not in the library: it needs a table (Lut3DTransform) of 34 entries in each direction; 2 to 33", err)
 
     def test_errors(self):
         self.assertEqual(self.run_command(self.folder / "absent.ocio", "-o", self.folder / "a.mtlx")[0], 1)
