@@ -91,7 +91,8 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 {
     assert(e->lit.color < e->shader->locals.len);
     ir_push_origin_of(e->graph, value);
-    effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, closure_mul(e->graph, factor, value)));
+    value = factor ? closure_product(e->graph, factor, value) : value;
+    effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, value));
     ir_pop_origin(e->graph);
 }
 
