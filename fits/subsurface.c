@@ -5,9 +5,9 @@
  * gathered at 32 points around a circle (after Penner 2011, "Pre-integrated skin shading"). Prints
  * the constants of the function.
  *
- * The part of the response that is odd in the light's cosine c is a multiple of c, because max(c, 0)
- * is c / 2 + |c| / 2. The even part is fitted by a hyperbola. With x, the radius of the profile over
- * that of the circle,
+ * The part of the response that is odd in the light's cosine c is a multiple of c, because max(c,
+ * 0) is c / 2 + |c| / 2. The even part is fitted by a hyperbola. With x, the radius of the profile
+ * over that of the circle,
  *
  *     response(x, c) = (odd(x) c + sqrt(flat(x)^2 (1 - c^2) + steep(x)^2 c^2)) / 2
  *
