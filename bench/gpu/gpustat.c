@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * bench-gpustat VERTEX.spv PIXEL.spv: makes a pipeline of two modules and prints the driver's
- * statistics of the pixel stage, one per line: "name=value". With RADV_FORCE_FAMILY=navi21 Mesa
- * compiles for an AMD GPU that need not be there. The process ends without cleaning up.
+ * bench-gpustat VERTEX.spv PIXEL.spv, or COMPUTE.spv: makes a pipeline of the modules and prints
+ * the driver's statistics of the last stage, one per line: "name=value". With
+ * RADV_FORCE_FAMILY=navi21 Mesa compiles for an AMD GPU that need not be there. The process ends
+ * without cleaning up.
  */
 #include "interface.h"
 
@@ -10,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MAX_STATISTICS = 64, MAX_EXECUTABLES = 8, MAX_OUTPUTS = 8 };
+enum { MAX_STATISTICS = 64, MAX_EXECUTABLES = 8 };
 
 static void fail(const char *what)
 {
@@ -170,6 +171,19 @@ static void describe_inputs(const struct shader_interface *interface,
     }
 }
 
+static VkPipeline make_compute(VkDevice device, const struct shader_interface *interface,
+                               const VkPipelineShaderStageCreateInfo *stage)
+{
+    VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                        .flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR,
+                                        .stage = *stage,
+                                        .layout = make_layout(device, interface)};
+    VkPipeline pipeline;
+    check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline),
+          "the driver refuses the shader");
+    return pipeline;
+}
+
 static VkPipeline make_pipeline(VkDevice device, const struct shader_interface *interface,
                                 const VkPipelineShaderStageCreateInfo *stages)
 {
@@ -184,11 +198,10 @@ static VkPipeline make_pipeline(VkDevice device, const struct shader_interface *
         .pVertexAttributeDescriptions = inputs};
     VkPipelineColorBlendAttachmentState blends[MAX_OUTPUTS];
     VkFormat formats[MAX_OUTPUTS];
-    uint32_t num_outputs =
-        interface->num_outputs < MAX_OUTPUTS ? interface->num_outputs : MAX_OUTPUTS;
+    uint32_t num_outputs = interface->num_outputs;
     for (uint32_t i = 0; i < num_outputs; i++) {
         blends[i] = (VkPipelineColorBlendAttachmentState){.colorWriteMask = 15};
-        formats[i] = VK_FORMAT_R32G32B32A32_SFLOAT;
+        formats[i] = interface->is_integer[i] ? VK_FORMAT_R32_UINT : VK_FORMAT_R32G32B32A32_SFLOAT;
     }
     VkPipelineColorBlendStateCreateInfo blend = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
@@ -230,7 +243,7 @@ static void print_executable(VkDevice device, VkPipeline pipeline, uint32_t inde
             printf("%s=%" PRIu64 "\n", statistics[i].name, statistics[i].value.u64);
 }
 
-static void print_pixel_stage(VkDevice device, VkPipeline pipeline)
+static void print_stage(VkDevice device, VkPipeline pipeline, VkShaderStageFlags stage)
 {
     PFN_vkGetPipelineExecutablePropertiesKHR get =
         (PFN_vkGetPipelineExecutablePropertiesKHR)vkGetDeviceProcAddr(
@@ -243,27 +256,32 @@ static void print_pixel_stage(VkDevice device, VkPipeline pipeline)
             .sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR};
     get(device, &info, &count, properties);
     for (uint32_t i = 0; i < count; i++)
-        if (properties[i].stages & VK_SHADER_STAGE_FRAGMENT_BIT)
+        if (properties[i].stages & stage)
             print_executable(device, pipeline, i);
 }
 
 int main(int argc, char **argv)
 {
-    static const VkShaderStageFlagBits bits[2] = {VK_SHADER_STAGE_VERTEX_BIT,
-                                                  VK_SHADER_STAGE_FRAGMENT_BIT};
+    static const VkShaderStageFlagBits drawn[] = {VK_SHADER_STAGE_VERTEX_BIT,
+                                                  VK_SHADER_STAGE_FRAGMENT_BIT},
+                                       computed[] = {VK_SHADER_STAGE_COMPUTE_BIT};
     static struct shader_interface interface;
     struct module modules[2];
     VkPipelineShaderStageCreateInfo stages[2];
-    if (argc != 3)
-        fail("usage: bench-gpustat VERTEX.spv PIXEL.spv");
+    if (argc != 2 && argc != 3)
+        fail("usage: bench-gpustat VERTEX.spv PIXEL.spv | COMPUTE.spv");
+    const VkShaderStageFlagBits *bits = argc == 3 ? drawn : computed;
+    unsigned count = (unsigned)argc - 1;
     VkDevice device = make_device(first_device());
-    for (unsigned i = 0; i < 2; i++) {
+    for (unsigned i = 0; i < count; i++) {
         modules[i] = read_module(argv[i + 1]);
         if (!interface_of_module(modules[i].words, modules[i].size / 4, bits[i], &interface))
             fail(argv[i + 1]);
         stages[i] = make_stage(device, &modules[i], bits[i]);
     }
-    print_pixel_stage(device, make_pipeline(device, &interface, stages));
+    VkPipeline pipeline = argc == 3 ? make_pipeline(device, &interface, stages)
+                                    : make_compute(device, &interface, stages);
+    print_stage(device, pipeline, bits[count - 1]);
     fflush(stdout);
     _Exit(0); /* RADV without a GPU may hang in its destructors */
 }

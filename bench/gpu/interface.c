@@ -11,6 +11,7 @@ enum opcode {
     OP_TYPE_INT = 21,
     OP_TYPE_FLOAT = 22,
     OP_TYPE_VECTOR = 23,
+    OP_TYPE_IMAGE = 25,
     OP_TYPE_ARRAY = 28,
     OP_TYPE_POINTER = 32,
     OP_CONSTANT = 43,
@@ -26,6 +27,7 @@ struct id {                          /* a result of the module */
     uint32_t of;                     /* a pointer's or array's type */
     uint32_t count;                  /* components, elements, or the value of a constant */
     bool is_array;                   /* else any other type */
+    bool is_integer, is_stored;      /* a number or its vector; an image without a sampler */
     uint32_t set, binding, location; /* ABSENT without decoration */
 };
 
@@ -39,11 +41,12 @@ static void decorate(struct id *id, uint32_t decoration, uint32_t value)
         id->set = value;
 }
 
-static VkDescriptorType resource_type(uint32_t storage)
+static VkDescriptorType resource_type(uint32_t storage, bool is_stored)
 {
-    return storage == UNIFORM_CONSTANT ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-           : storage == STORAGE_BUFFER ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-                                       : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    return is_stored                     ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+           : storage == UNIFORM_CONSTANT ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+           : storage == STORAGE_BUFFER   ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                         : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 }
 
 /* Both stages may have the same resource. */
@@ -60,7 +63,7 @@ static bool add_resource(const struct id *ids, const struct id *variable, uint32
     out->resources[out->num_resources++] =
         (struct resource){variable->set,
                           {.binding = variable->binding,
-                           .descriptorType = resource_type(storage),
+                           .descriptorType = resource_type(storage, type->is_stored),
                            .descriptorCount = type->is_array ? type->count : 1,
                            .stageFlags = VK_SHADER_STAGE_ALL}};
     return true;
@@ -80,7 +83,12 @@ static bool add_variable(const struct id *ids, const struct id *variable, uint32
         out->inputs[out->num_inputs++].components = ids[ids[variable->of].of].count;
     }
     bool is_output = stage == VK_SHADER_STAGE_FRAGMENT_BIT && storage == OUTPUT;
-    if (is_output && variable->location >= out->num_outputs)
+    if (!is_output)
+        return true;
+    if (variable->location >= MAX_OUTPUTS)
+        return false;
+    out->is_integer[variable->location] = ids[ids[variable->of].of].is_integer;
+    if (variable->location >= out->num_outputs)
         out->num_outputs = variable->location + 1;
     return true;
 }
@@ -91,8 +99,15 @@ static bool read_instruction(const uint32_t *word, struct id *ids, VkShaderStage
     uint32_t length = word[0] >> 16;
     switch (word[0] & 0xffff) {
     case OP_TYPE_INT:
+        ids[word[1]].is_integer = true;
+        ids[word[1]].count = 1;
+        break;
     case OP_TYPE_FLOAT: ids[word[1]].count = 1; break;
-    case OP_TYPE_VECTOR: ids[word[1]].count = word[3]; break;
+    case OP_TYPE_VECTOR:
+        ids[word[1]].count = word[3];
+        ids[word[1]].is_integer = ids[word[2]].is_integer;
+        break;
+    case OP_TYPE_IMAGE: ids[word[1]].is_stored = word[7] == 2; break;
     case OP_TYPE_ARRAY:
         ids[word[1]].of = word[2];
         ids[word[1]].count = ids[word[3]].count;

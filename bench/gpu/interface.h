@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <vulkan/vulkan.h>
 
-enum { MAX_SETS = 8, MAX_RESOURCES = 64, MAX_INPUTS = 32 };
+enum { MAX_SETS = 8, MAX_RESOURCES = 64, MAX_INPUTS = 32, MAX_OUTPUTS = 8 };
 
 struct resource {
     uint32_t set;
@@ -22,6 +22,7 @@ struct shader_interface {
     } inputs[MAX_INPUTS];
     uint32_t num_inputs;
     uint32_t num_outputs;
+    bool is_integer[MAX_OUTPUTS]; /* by location */
 };
 
 /*

@@ -9,8 +9,8 @@ const struct target target_vulkan = {
     .materialx_name = "genglsl_vk",
     .base = &target_glsl,
     .brief = "GLSL 4.50 for SPIR-V and Vulkan",
-    .caps =
-        GLSL_CAPS | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO | CAP_STORES,
+    .caps = GLSL_CAPS | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO
+            | CAP_STORES | CAP_MEDIUMP,
     .versions = versions,
     .syntax = &glsl_syntax,
     .stage_suffix = {"vert", "frag"},

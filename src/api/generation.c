@@ -577,6 +577,7 @@ struct spell_options generation_spell_options(const struct generation *g)
         .metadata = (int)g->options[OPTION_metadata].number,
         .vulkan_attributes = g->options[OPTION_hlsl_vulkan].number,
         .comments = g->options[OPTION_comments].number,
+        .halves = g->options[OPTION_precision].number != 0,
         .user_data = result,
         .path = origin_path,
         .ui = result_ui,

@@ -82,8 +82,9 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 {
     assert(e->lit.color < e->shader->locals.len);
     ir_push_origin_of(e->graph, value);
-    emitter_effect(e, EFFECT_ACCUMULATE, e->lit.color,
-                   emitter_vec3(e, closure_mul(e->graph, factor, value)));
+    if (factor) /* of the numbers of both a GPU makes one, before it comes to vectors */
+        value = closure_product(e->graph, factor, value);
+    emitter_effect(e, EFFECT_ACCUMULATE, e->lit.color, emitter_vec3(e, value));
     ir_pop_origin(e->graph);
 }
 

@@ -87,6 +87,8 @@ bool spell_functions_read_vertex_data(const struct spell *spell)
 void spell_declare(struct spell *spell, const struct shader_variable *variable,
                    struct spell_name name)
 {
+    if (spell_is_half_variable(spell, variable))
+        spell_text(spell, "mediump ");
     spell_variable(spell, variable->type, name);
     if (variable->array_length) {
         text_char(spell->out, '[');

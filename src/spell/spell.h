@@ -59,7 +59,16 @@ struct spell {
     VEC(struct spell_maker) makers;
     void *target_data;     /* belongs to the target while its hook runs */
     uint8_t *origins_seen; /* origins whose path is known; NULL: no comments */
+    uint8_t *kinds;        /* by node: precision.c; NULL: all values have all bits */
 };
+
+/* ---- precision.c: values that bear half floats, if the options ask for them. ---- */
+
+/* Fills spell->kinds, which the functions below read. */
+void spell_find_kinds(struct spell *spell);
+bool spell_is_half(const struct spell *spell, ir_ref ref);
+/* A uniform or a texture. */
+bool spell_is_half_variable(const struct spell *spell, const struct shader_variable *variable);
 
 /* ---- expression.c ---- */
 

@@ -314,6 +314,7 @@ static void init(struct spell *spell)
     if (spell->options->shader_name)
         names_take(&spell->names, spell->options->shader_name, strlen(spell->options->shader_name));
     spell->shares_vertex_data = shader->is_function && spell_functions_read_vertex_data(spell);
+    spell_find_kinds(spell);
     spell_name_interface(spell);
     spell_take_source_names(spell);
     name_types(spell);

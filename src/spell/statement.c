@@ -91,6 +91,8 @@ static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
 static void write_typed(struct spell *spell, ir_ref ref, ir_type_id type, struct spell_name name)
 {
     const char *own_type = spell->target->node_type ? spell->target->node_type(spell, ref) : NULL;
+    if (spell_is_half(spell, ref) && type == ir_type_of(spell->shader->graph, ref))
+        spell_text(spell, "mediump ");
     if (!own_type) {
         spell_variable(spell, type, name);
         return;

@@ -45,6 +45,7 @@ enum target_caps {
     CAP_METADATA = 1 << 19,          /* parameters have metadata */
     CAP_VULKAN_ATTRIBUTES = 1 << 20, /* can write bindings of Vulkan beside its own */
     CAP_STORES = 1 << 21,            /* pixel stages can write images: the deferred pipeline */
+    CAP_MEDIUMP = 1 << 22,           /* declarations can have a lower precision: --precision */
     /* not in the tables of targets: two that follow from their members */
     CAP_LIGHTING = 1 << 29, /* the shader computes lights and layers: it has no closures */
     CAP_NETWORKS = 1 << 30, /* has `network` */
@@ -167,6 +168,7 @@ struct spell_options {
     bool vulkan_attributes;  /* of HLSL: [[vk::binding(3, 0)]] */
     const char *shader_name; /* unique among functions and shaders; NULL: from the element's path */
     bool comments;           /* write element paths as comments */
+    bool halves;             /* colours are half floats, with CAP_MEDIUMP */
     void *user_data;
     /* The element path for the comment of an origin; NULL: none. May be NULL. */
     const char *(*path)(void *user_data, uint32_t origin);

@@ -54,9 +54,10 @@ void main()
         float choice = type == 3 ? smoothstep(difference, u_lightData[i].inner_angle,
             -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
         float choice_2 = type == 2 ? ratio : choice;
-        vec3 diffuse_response = max(dot(type == 1 ? -u_lightData[i].direction : to_light, diffuse_facing), 1e-8)
-            / 3.1415927 * vec3(0.8, 0.1, 0.1);
-        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : choice_2) * diffuse_response;
+        vec3 diffuse_product = u_lightData[i].color
+            * (max(dot(type == 1 ? -u_lightData[i].direction : to_light, diffuse_facing), 1e-8) / 3.1415927
+            * vec3(0.8, 0.1, 0.1));
+        color += (type == 1 ? u_lightData[i].intensity : choice_2) * diffuse_product;
     }
     vec3 color_2 = vec3(0.0);
     // lights
@@ -72,9 +73,10 @@ void main()
             ? smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
             -dot(u_lightData[i].direction, spot_light_direction)) * spot_light_ratio : 0.0;
         float point_light_choice = type == 2 ? spot_light_ratio : spot_light_choice;
-        vec3 diffuse_product = max(dot(diffuse_facing, type == 1 ? -u_lightData[i].direction : spot_light_direction),
-            1e-8) / 3.1415927 * vec3(0.8, 0.1, 0.1);
-        color_2 += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * diffuse_product;
+        vec3 diffuse_product = u_lightData[i].color
+            * (max(dot(diffuse_facing, type == 1 ? -u_lightData[i].direction : spot_light_direction), 1e-8) / 3.1415927
+            * vec3(0.8, 0.1, 0.1));
+        color_2 += (type == 1 ? u_lightData[i].intensity : point_light_choice) * diffuse_product;
     }
     // opacity
     if (0.5 < u_alphaThreshold)

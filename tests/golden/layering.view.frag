@@ -46,15 +46,19 @@ mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
         sqrt(cosine * cosine + 0.0025 * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
+{
+    return cos_h * cos_h + (square - cos_h * cos_h) / (lobe.alpha.x * lobe.alpha.x);
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -106,8 +110,9 @@ void main()
         float scaled_cos_l = max(dot(L, facing), 1e-8) / 3.1415927;
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(L, V) * 0.5 + 0.5, 1e-8, 1.0)));
         vec3 metal_response = scaled_ggx_compensation * (mx_ggx_light(lobe, V, L) * fresnel);
-        vec3 sum = scaled_cos_l * vec3(0.025, 0.05, 0.3) + (metal_response + scaled_cos_l * vec3(0.21, 0.035, 0.0175));
-        color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * sum;
+        vec3 product = u_lightData[i].color
+            * (scaled_cos_l * vec3(0.025, 0.05, 0.3) + (metal_response + scaled_cos_l * vec3(0.21, 0.035, 0.0175)));
+        color += (u_lightData[i].type == 1 ? intensity : 0.0) * product;
     }
     out1 = vec4(color, 1.0);
 }

@@ -26,6 +26,11 @@ struct mx_GgxFacet {
     float shrink;
     float spread;
 };
+struct mx_GgxLight {
+    vec3 color;
+    float weight;
+    float cosine;
+};
 uniform float SR_standard_surface_base;
 uniform vec3 SR_standard_surface_base_color;
 uniform float SR_standard_surface_diffuse_roughness;
@@ -207,16 +212,20 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
+{
+    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -302,37 +311,28 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float 
     return vec3(mx_fresnel_dielectric(cosine, n.x));
 }
 
-vec3 mx_subsurface_light(const vec3 falloff, const float cos_l)
+// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+float mx_subsurface_light(const float radius, const float curvature, const float cos_l)
 {
-    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
-    vec3 light = vec3(0.0);
-    vec3 sum = vec3(0.0);
-    vec2 middle = vec2(0.9987955, 0.04906767);
-    while (middle.x > 0.0) {
-        float d = middle.y;
-        vec3 e = exp(falloff * d);
-        vec3 profile = (e + e * e * e) / d;
-        float along = cos_l * (1.0 - 2.0 * d * d);
-        float across = sin_l * (2.0 * d * middle.x);
-        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
-        sum += 2.0 * profile;
-        middle = mat2(0.9951847, 0.09801714, -0.09801714, 0.9951847) * middle;
-    }
-    return light / (3.1415927 * sum);
+    float x = curvature * max(radius, 0.1);
+    vec3 bend = (vec3(0.1573, 0.0104, 0.1632) + x * (vec3(0.662, 0.1732, 0.6079) + x * vec3(0.6075, 0.4138, 0.8133)))
+        / (6.2831855 * (0.1602 + x * (0.6652 + x)));
+    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// The point of the picture for a unit direction in it.
+// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
+float mx_half_turn(const float t)
+{
+    float t2 = t * t;
+    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+}
+
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    vec2 a = abs(d.xz);
-    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
-    float t2 = t * t;
-    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
-    turn = a.x > a.y ? 0.25 - turn : turn;
-    turn = d.z > 0.0 ? 0.5 - turn : turn;
-    float y = abs(d.y);
-    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
-    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+    float radius = length(d.xz);
+    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
 }
 
 // The frame of a round lobe has V above its x.
@@ -349,19 +349,20 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
         share * (v.z + lobe.masking));
 }
 
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
+{
+    float level = 0.5 * log2(spread / length(d.xz));
+    level += float(u_envRadianceMips) - 1.17425;
+    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+}
+
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
-}
-
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float spread)
-{
-    return textureLod(u_envRadiance, mx_map_point(d),
-        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -383,15 +384,15 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
-vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -402,12 +403,12 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 }
 
 // The light that comes through it and a solid sphere of an index behind it.
-vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
+mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z
-        * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), s.weight
+        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -486,9 +487,8 @@ void main()
         * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
     vec3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
     float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
-    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd_positionWorld)), 0.01) * 3.0;
-    vec3 subsurface_falloff = vec3(-2.0)
-        / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
+    vec3 scatter_radius = SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale;
+    float curvature = max(length(fwidth(Nf)) / length(fwidth(vd_positionWorld)), 0.01);
     vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // fuzz, translucent, diffuse
@@ -501,42 +501,47 @@ void main()
             ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
             * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 directional_light_light = u_lightData[i].color
-            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        vec3 color_2 = u_lightData[i].color;
         vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
-        float l_dot_nf = dot(L, Nf);
-        float cos_l = max(l_dot_nf, 1e-8);
+        float cos_l = dot(L, Nf);
+        float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
         vec3 diffuse_response = diffuse_product
-            * (cos_l / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l, 0.0) / max(cos_l, cos_v)));
-        float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
-        float fuzz_product_2 = cos_l * ((s + 2.0)
+            * (cos_l_2 / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l_2, 0.0) / max(cos_l_2, cos_v)));
+        float scaled_along = (cos_v + cos_l) * (cos_v + cos_l);
+        float fuzz_product_2 = cos_l_2 * ((s + 2.0)
             * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
-        vec3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
-        color += directional_light_light
-            * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
+        vec3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
+        color += directional_light_choice
+            * (color_2 * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_standard_surface_coat > 0.0)
-            color += directional_light_light
+            color += color_2 * (directional_light_choice
                 * (SR_standard_surface_coat * coating_scale
-                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, SR_standard_surface_coat_IOR)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, SR_standard_surface_coat_IOR))));
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_visible)
-            color += directional_light_light
-                * (metal_product * (ggx_light
-                * mx_fresnel(cosine, re, im, SR_standard_surface_thin_film_thickness,
-                SR_standard_surface_thin_film_IOR)));
+            color += directional_light_choice
+                * (color_2 * (metal_product
+                * (ggx_light * mx_fresnel(cosine, re, im, SR_standard_surface_thin_film_thickness,
+                SR_standard_surface_thin_film_IOR))));
         // reflection
         if (reflection_visible)
-            color += directional_light_light
-                * (reflection_product * (ggx_light
-                * mx_fresnel(cosine, vec3(SR_standard_surface_specular_IOR), SR_standard_surface_thin_film_thickness,
-                SR_standard_surface_thin_film_IOR)));
+            color += directional_light_choice
+                * (color_2 * (reflection_product
+                * (ggx_light * mx_fresnel(cosine, vec3(SR_standard_surface_specular_IOR),
+                SR_standard_surface_thin_film_thickness, SR_standard_surface_thin_film_IOR))));
         // scatter
-        if (scatter_weight > 0.0)
-            color += directional_light_light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+        if (scatter_weight > 0.0) {
+            float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
+            float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
+            color += directional_light_choice
+                * (color_2 * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
+                mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
+        }
     }
     // environment
     // fuzz, scatter, diffuse
@@ -556,9 +561,9 @@ void main()
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            vec4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += coating_light.xyz * (SR_standard_surface_coat * coating_scale
-                * mx_fresnel_dielectric(coating_light.w, SR_standard_surface_coat_IOR));
+            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += light.color * (SR_standard_surface_coat * coating_scale
+                * (light.weight * mx_fresnel_dielectric(light.cosine, SR_standard_surface_coat_IOR)));
             turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
         }
     }
@@ -570,32 +575,37 @@ void main()
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal
-                vec4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
-                        * (mx_film_index(metal_ggx_reflected.w, re, im, SR_standard_surface_thin_film_thickness,
-                        SR_standard_surface_thin_film_IOR) * metal_ggx_reflected.xyz);
+                        * (metal_ggx_reflected.weight
+                        * (metal_ggx_reflected.color
+                        * mx_film_index(metal_ggx_reflected.cosine, re, im, SR_standard_surface_thin_film_thickness,
+                        SR_standard_surface_thin_film_IOR)));
                 // reflection
                 if (reflection_visible)
                     color += reflection_product
-                        * (metal_ggx_reflected.xyz
-                        * mx_film_index(metal_ggx_reflected.w, reflection_vector, vec3(0.0),
-                        SR_standard_surface_thin_film_thickness, SR_standard_surface_thin_film_IOR));
+                        * (metal_ggx_reflected.weight
+                        * (metal_ggx_reflected.color
+                        * mx_film_index(metal_ggx_reflected.cosine, reflection_vector, vec3(0.0),
+                        SR_standard_surface_thin_film_thickness, SR_standard_surface_thin_film_IOR)));
                 turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal
-                vec4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
-                        * (mx_fresnel_conductor(metal_ggx_reflected.w, re, im) * metal_ggx_reflected.xyz);
+                        * (metal_ggx_reflected.weight
+                        * (metal_ggx_reflected.color * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
                 // reflection
                 if (reflection_visible)
                     color += reflection_product
-                        * (metal_ggx_reflected.xyz
-                        * mx_fresnel_dielectric(metal_ggx_reflected.w, SR_standard_surface_specular_IOR));
+                        * (metal_ggx_reflected.weight
+                        * (metal_ggx_reflected.color
+                        * mx_fresnel_dielectric(metal_ggx_reflected.cosine, SR_standard_surface_specular_IOR)));
                 turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
             }
         }
@@ -612,10 +622,11 @@ void main()
             SR_standard_surface_specular_anisotropy), N, specular_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_standard_surface_specular_IOR, i, turn);
-            color += refraction_product * ((1.0
-                - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_standard_surface_specular_IOR))
-                * refraction_ggx_transmitted.xyz);
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_standard_surface_specular_IOR, i,
+                turn);
+            color += refraction_product * (refraction_ggx_transmitted.color
+                * (refraction_ggx_transmitted.weight
+                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_standard_surface_specular_IOR))));
             turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
         }
     }

@@ -23,6 +23,11 @@ struct mx_GgxFacet {
     float shrink;
     float spread;
 };
+struct mx_GgxLight {
+    float3 color;
+    float weight;
+    float cosine;
+};
 cbuffer PublicUniforms : register(b1)
 {
     float3 SR_UsdPreviewSurface_diffuseColor : packoffset(c0);
@@ -113,6 +118,15 @@ mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
     return made;
 }
 
+mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
+{
+    mx_GgxLight made;
+    made.color = color;
+    made.weight = weight;
+    made.cosine = cosine;
+    return made;
+}
+
 // A texel of zeros is a missing map, and means the normal itself.
 float3 mx_normalmap(float3 texel, float3 normal, float3 tangent, float3 bitangent)
 {
@@ -151,15 +165,20 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
+{
+    float3 slope = cross(H, lobe.N) / lobe.alpha.x;
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
-    float3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -203,18 +222,19 @@ float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
         mx_fresnel_conductor(cosine, re.z, im.z));
 }
 
-// The point of the picture for a unit direction in it.
+// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
+float mx_half_turn(float t)
+{
+    float t2 = t * t;
+    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+}
+
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
-    float2 a = abs(d.xz);
-    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
-    float t2 = t * t;
-    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
-    turn = a.x > a.y ? 0.25 - turn : turn;
-    turn = d.z > 0.0 ? 0.5 - turn : turn;
-    float y = abs(d.y);
-    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
-    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+    float radius = length(d.xz);
+    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
+    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
 }
 
 // The frame of a round lobe has V above its x.
@@ -230,19 +250,20 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
         * stretch.y, v, lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float spread)
+{
+    float level = 0.5 * log2(spread / length(d.xz));
+    level += float(u_envRadianceMips) - 1.17425;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), level).xyz;
+}
+
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
-}
-
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float spread)
-{
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
-        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -264,15 +285,15 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
-float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return float4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(mul(l, s.to_map), facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.spread), s.weight * u_envLightIntensity * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -283,13 +304,12 @@ float3 mx_refract_sphere(float3 v, float3 h, float ior)
 }
 
 // The light that comes through it and a solid sphere of an index behind it.
-float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
+mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = facet.h * sqrt(facet.shrink);
-    return float4(s.weight * u_envLightIntensity * 0.5 / s.v.z
-        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread),
-        clamp(dot(s.v, h), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread), s.weight
+        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -362,25 +382,28 @@ void main(
             ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
             * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float3 directional_light_light = u_lightData[i].color
-            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        float3 color_2 = u_lightData[i].color;
         float3 L = type == 1 ? -u_lightData[i].direction : to_light;
-        color += directional_light_light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
+        color += directional_light_choice * (color_2 * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product));
         // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_UsdPreviewSurface_clearcoat > 0.0) {
             float coating_product = mx_ggx_light(coating_lobe, V, L) * (SR_UsdPreviewSurface_clearcoat * coating_scale);
-            color += directional_light_light
-                * (mx_fresnel_schlick(cosine, (float3)coating_fresnel_facing, float3(1.0, 1.0, 1.0)) * coating_product);
+            color += directional_light_choice
+                * (color_2 * (mx_fresnel_schlick(cosine, (float3)coating_fresnel_facing, float3(1.0, 1.0, 1.0))
+                * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_weight > 0.0)
-            color += directional_light_light * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, re, im)));
+            color += directional_light_choice
+                * (color_2 * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, re, im))));
         // reflection
         if (diffuse_weight > 0.0)
-            color += directional_light_light
-                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_facing, f90)));
+            color += directional_light_choice
+                * (color_2 * (reflection_product
+                * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_facing, f90))));
     }
     // environment
     // diffuse
@@ -393,10 +416,10 @@ void main(
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += SR_UsdPreviewSurface_clearcoat * coating_scale
-                * (mx_fresnel_schlick(coating_light.w, (float3)coating_fresnel_facing, float3(1.0, 1.0, 1.0))
-                * coating_light.xyz);
+            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            float3 coating_product = light.color
+                * mx_fresnel_schlick(light.cosine, (float3)coating_fresnel_facing, float3(1.0, 1.0, 1.0));
+            color += coating_product * (SR_UsdPreviewSurface_clearcoat * coating_scale * light.weight);
             turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
         }
     }
@@ -406,15 +429,16 @@ void main(
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             // metal
-            float4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+            mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
             if (metal_weight > 0.0)
-                color += metal_product * (mx_fresnel_conductor(metal_ggx_reflected.w, re, im)
-                    * metal_ggx_reflected.xyz);
+                color += metal_product * (metal_ggx_reflected.weight
+                    * (metal_ggx_reflected.color * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
             // reflection
             if (diffuse_weight > 0.0)
                 color += reflection_product
-                    * (metal_ggx_reflected.xyz
-                    * mx_fresnel_schlick(metal_ggx_reflected.w, reflection_fresnel_facing, f90));
+                    * (metal_ggx_reflected.weight
+                    * (metal_ggx_reflected.color
+                    * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_facing, f90)));
             turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
         }
     }
@@ -424,10 +448,11 @@ void main(
         mx_GgxSamples samples = mx_ggx_samples(float2(0.0, 0.0), shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_UsdPreviewSurface_ior, i, turn);
-            color += refraction_ggx_transmitted.xyz
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_UsdPreviewSurface_ior, i, turn);
+            color += refraction_ggx_transmitted.color
                 * (body_weight * refraction_weight
-                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_UsdPreviewSurface_ior)));
+                * (refraction_ggx_transmitted.weight
+                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_UsdPreviewSurface_ior))));
             turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
         }
     }

@@ -23,6 +23,11 @@ struct mx_GgxFacet {
     float shrink;
     float spread;
 };
+struct mx_GgxLight {
+    float3 color;
+    float weight;
+    float cosine;
+};
 cbuffer PublicUniforms : register(b1)
 {
     float3 SR_gltf_pbr_base_color : packoffset(c0);
@@ -121,6 +126,15 @@ mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
     return made;
 }
 
+mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
+{
+    mx_GgxLight made;
+    made.color = color;
+    made.weight = weight;
+    made.cosine = cosine;
+    return made;
+}
+
 // A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
 float mx_bicubic(float4x4 m, float x, float y)
 {
@@ -210,15 +224,20 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
+{
+    float3 slope = cross(H, lobe.N) / lobe.alpha.x;
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
-    float3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -247,16 +266,20 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched_2(mx_GgxLobe lobe, float3 H, float cos_h)
+{
+    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light_2(mx_GgxLobe lobe, float3 V, float3 L)
 {
-    float3 H = V + L;
-    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched_2(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -297,18 +320,19 @@ float3 mx_fresnel(float cosine, float3 n, float3 f90, float film, float film_ior
     return mx_fresnel_schlick(cosine, n, f90);
 }
 
-// The point of the picture for a unit direction in it.
+// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
+float mx_half_turn(float t)
+{
+    float t2 = t * t;
+    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+}
+
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
-    float2 a = abs(d.xz);
-    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
-    float t2 = t * t;
-    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
-    turn = a.x > a.y ? 0.25 - turn : turn;
-    turn = d.z > 0.0 ? 0.5 - turn : turn;
-    float y = abs(d.y);
-    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
-    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+    float radius = length(d.xz);
+    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
+    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
 }
 
 // The frame of a round lobe has V above its x.
@@ -324,19 +348,20 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
         * stretch.y, v, lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float spread)
+{
+    float level = 0.5 * log2(spread / length(d.xz));
+    level += float(u_envRadianceMips) - 1.17425;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), level).xyz;
+}
+
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
-}
-
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float spread)
-{
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
-        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -358,15 +383,15 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
-float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return float4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(mul(l, s.to_map), facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.spread), s.weight * u_envLightIntensity * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // The frame of a round lobe has V above its x.
@@ -391,13 +416,12 @@ float3 mx_refract_sphere(float3 v, float3 h, float ior)
 }
 
 // The light that comes through it and a solid sphere of an index behind it.
-float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
+mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = facet.h * sqrt(facet.shrink);
-    return float4(s.weight * u_envLightIntensity * 0.5 / s.v.z
-        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread),
-        clamp(dot(s.v, h), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread), s.weight
+        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main(
@@ -476,48 +500,49 @@ void main(
             ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
             * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float3 directional_light_light = u_lightData[i].color
-            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        float3 color_2 = u_lightData[i].color;
         float3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
-        color += directional_light_light * (cos_l / 3.1415927 * diffuse_product);
+        color += directional_light_choice * (color_2 * (cos_l / 3.1415927 * diffuse_product));
         // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0)
-            color += directional_light_light
+            color += color_2 * (directional_light_choice
                 * (SR_gltf_pbr_clearcoat * coating_scale
-                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5))));
         // fuzz
         if (sheen_weight > 0.0) {
             float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
             float fuzz_product_2 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
                 / 6.2831855);
-            color += directional_light_light
-                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
+            color += directional_light_choice
+                * (color_2 * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
         }
         // metal_film
         float ggx_light = mx_ggx_light_2(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += directional_light_light
-                * (metal_film_product * (ggx_light
-                * mx_fresnel(cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0), iridescence_thickness, iridescence_ior)));
+            color += directional_light_choice
+                * (color_2 * (metal_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0), iridescence_thickness,
+                iridescence_ior))));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += directional_light_light
-                * (metal_bare_product * (ggx_light
-                * mx_fresnel_schlick(cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0))));
+            color += directional_light_choice
+                * (color_2 * (metal_bare_product
+                * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0)))));
         // reflection_film
         if (reflection_film_visible)
-            color += directional_light_light
-                * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, iridescence_thickness, iridescence_ior)));
+            color += directional_light_choice
+                * (color_2 * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, iridescence_thickness, iridescence_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += directional_light_light
-                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90)));
+            color += directional_light_choice
+                * (color_2 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90))));
     }
     // environment
     // fuzz
@@ -533,9 +558,9 @@ void main(
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_lobe, N, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += coating_light.xyz * (SR_gltf_pbr_clearcoat * coating_scale
-                * mx_fresnel_dielectric(coating_light.w, 1.5));
+            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += light.color * (SR_gltf_pbr_clearcoat * coating_scale
+                * (light.weight * mx_fresnel_dielectric(light.cosine, 1.5)));
             turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
         }
     }
@@ -546,40 +571,48 @@ void main(
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film
-                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
-                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, float3(1.0, 1.0, 1.0),
-                        iridescence_thickness, iridescence_ior) * metal_film_ggx_reflected.xyz);
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0),
+                        iridescence_thickness, iridescence_ior)));
                 // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
-                        * (metal_film_ggx_reflected.xyz
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, float3(1.0, 1.0, 1.0)));
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2,
+                        float3(1.0, 1.0, 1.0))));
                 // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
-                        * (metal_film_ggx_reflected.xyz
-                        * mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90, iridescence_thickness,
-                        iridescence_ior));
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90, iridescence_thickness,
+                        iridescence_ior)));
                 // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
-                        * (metal_film_ggx_reflected.xyz
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90));
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90)));
                 turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
             }
         } else {
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film, metal_bare
-                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
-                float3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2,
-                    float3(1.0, 1.0, 1.0)) * metal_film_ggx_reflected.xyz;
+                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                float3 metal_bare_product_2 = metal_film_ggx_reflected.weight
+                    * (metal_film_ggx_reflected.color
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0)));
                 color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
                 // reflection_film
-                float3 reflection_product_2 = metal_film_ggx_reflected.xyz
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90);
+                float3 reflection_product_2 = metal_film_ggx_reflected.weight
+                    * (metal_film_ggx_reflected.color
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90));
                 if (reflection_film_visible)
                     color += reflection_film_product * reflection_product_2;
                 // reflection
@@ -595,9 +628,10 @@ void main(
         float3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
-            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_gltf_pbr_ior))
-                * refraction_ggx_transmitted.xyz);
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
+            color += refraction_product * (refraction_ggx_transmitted.color
+                * (refraction_ggx_transmitted.weight
+                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_gltf_pbr_ior))));
             turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
         }
     }

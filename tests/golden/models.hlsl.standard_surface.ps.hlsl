@@ -23,6 +23,11 @@ struct mx_GgxFacet {
     float shrink;
     float spread;
 };
+struct mx_GgxLight {
+    float3 color;
+    float weight;
+    float cosine;
+};
 cbuffer PublicUniforms : register(b1)
 {
     float SR_standard_surface_base : packoffset(c0);
@@ -131,6 +136,15 @@ mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
     made.h = h;
     made.shrink = shrink;
     made.spread = spread;
+    return made;
+}
+
+mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
+{
+    mx_GgxLight made;
+    made.color = color;
+    made.weight = weight;
+    made.cosine = cosine;
     return made;
 }
 
@@ -257,16 +271,20 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
+{
+    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
-    float3 H = V + L;
-    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -353,37 +371,29 @@ float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
     return (float3)mx_fresnel_dielectric(cosine, n.x);
 }
 
-float3 mx_subsurface_light(float3 falloff, float cos_l)
+// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+float mx_subsurface_light(float radius, float curvature, float cos_l)
 {
-    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
-    float3 light = float3(0.0, 0.0, 0.0);
-    float3 sum = float3(0.0, 0.0, 0.0);
-    float2 middle = float2(0.9987955, 0.04906767);
-    while (middle.x > 0.0) {
-        float d = middle.y;
-        float3 e = exp(falloff * d);
-        float3 profile = (e + e * e * e) / d;
-        float along = cos_l * (1.0 - 2.0 * d * d);
-        float across = sin_l * (2.0 * d * middle.x);
-        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
-        sum += 2.0 * profile;
-        middle = mul(middle, float2x2(0.9951847, 0.09801714, -0.09801714, 0.9951847));
-    }
-    return light / (3.1415927 * sum);
+    float x = curvature * max(radius, 0.1);
+    float3 bend = (float3(0.1573, 0.0104, 0.1632) + x
+        * (float3(0.662, 0.1732, 0.6079) + x * float3(0.6075, 0.4138, 0.8133)))
+        / (6.2831855 * (0.1602 + x * (0.6652 + x)));
+    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// The point of the picture for a unit direction in it.
+// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
+float mx_half_turn(float t)
+{
+    float t2 = t * t;
+    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+}
+
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
-    float2 a = abs(d.xz);
-    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
-    float t2 = t * t;
-    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
-    turn = a.x > a.y ? 0.25 - turn : turn;
-    turn = d.z > 0.0 ? 0.5 - turn : turn;
-    float y = abs(d.y);
-    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
-    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+    float radius = length(d.xz);
+    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
+    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
 }
 
 // The frame of a round lobe has V above its x.
@@ -400,19 +410,20 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
         share * top.z, share * (v.z + lobe.masking));
 }
 
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float spread)
+{
+    float level = 0.5 * log2(spread / length(d.xz));
+    level += float(u_envRadianceMips) - 1.17425;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), level).xyz;
+}
+
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
-}
-
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float spread)
-{
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
-        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -434,15 +445,15 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
-float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return float4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(mul(l, s.to_map), facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.spread), s.weight * u_envLightIntensity * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -453,13 +464,12 @@ float3 mx_refract_sphere(float3 v, float3 h, float ior)
 }
 
 // The light that comes through it and a solid sphere of an index behind it.
-float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
+mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = facet.h * sqrt(facet.shrink);
-    return float4(s.weight * u_envLightIntensity * 0.5 / s.v.z
-        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread),
-        clamp(dot(s.v, h), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread), s.weight
+        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main(
@@ -540,9 +550,8 @@ void main(
         * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
     float3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
     float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
-    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
-    float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
-        / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
+    float3 scatter_radius = SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale;
+    float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
     float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // fuzz, translucent, diffuse
@@ -555,38 +564,45 @@ void main(
             ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
             * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float3 directional_light_light = u_lightData[i].color
-            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        float3 color_2 = u_lightData[i].color;
         float3 L = type == 1 ? -u_lightData[i].direction : to_light;
-        float l_dot_nf = dot(L, Nf);
-        float cos_l = max(l_dot_nf, 1e-8);
+        float cos_l = dot(L, Nf);
+        float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
         float3 diffuse_response = diffuse_product
-            * (cos_l / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l, 0.0) / max(cos_l, cos_v)));
-        float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
-        float fuzz_product_2 = cos_l * ((s + 2.0)
+            * (cos_l_2 / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l_2, 0.0) / max(cos_l_2, cos_v)));
+        float scaled_along = (cos_v + cos_l) * (cos_v + cos_l);
+        float fuzz_product_2 = cos_l_2 * ((s + 2.0)
             * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
-        float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
-        color += directional_light_light
-            * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
+        float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
+        color += directional_light_choice
+            * (color_2 * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat > 0.0)
-            color += directional_light_light
-                * (coat * coating_scale * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_IOR)));
+            color += color_2 * (directional_light_choice
+                * (coat * coating_scale * (mx_ggx_light(coating_lobe, V, L)
+                * mx_fresnel_dielectric(cosine, coat_IOR))));
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_visible)
-            color += directional_light_light
-                * (metal_product * (ggx_light * mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR)));
+            color += directional_light_choice
+                * (color_2 * (metal_product
+                * (ggx_light * mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR))));
         // reflection
         if (reflection_visible)
-            color += directional_light_light
-                * (reflection_product * (ggx_light
-                * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR)));
+            color += directional_light_choice
+                * (color_2 * (reflection_product
+                * (ggx_light * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR))));
         // scatter
-        if (scatter_weight > 0.0)
-            color += directional_light_light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+        if (scatter_weight > 0.0) {
+            float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
+            float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
+            color += directional_light_choice
+                * (color_2 * (float3(scatter_subsurface_light, scatter_subsurface_light_2,
+                mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
+        }
     }
     // environment
     // fuzz, scatter, diffuse
@@ -608,8 +624,9 @@ void main(
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += coating_light.xyz * (coat * coating_scale * mx_fresnel_dielectric(coating_light.w, coat_IOR));
+            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += light.color * (coat * coating_scale
+                * (light.weight * mx_fresnel_dielectric(light.cosine, coat_IOR)));
             turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
         }
     }
@@ -621,31 +638,36 @@ void main(
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal
-                float4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
-                        * (mx_film_index(metal_ggx_reflected.w, re, im, thin_film_thickness, thin_film_IOR)
-                        * metal_ggx_reflected.xyz);
+                        * (metal_ggx_reflected.weight
+                        * (metal_ggx_reflected.color
+                        * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
                 // reflection
                 if (reflection_visible)
                     color += reflection_product
-                        * (metal_ggx_reflected.xyz
-                        * mx_film_index(metal_ggx_reflected.w, reflection_vector, float3(0.0, 0.0, 0.0),
-                        thin_film_thickness, thin_film_IOR));
+                        * (metal_ggx_reflected.weight
+                        * (metal_ggx_reflected.color
+                        * mx_film_index(metal_ggx_reflected.cosine, reflection_vector, float3(0.0, 0.0, 0.0),
+                        thin_film_thickness, thin_film_IOR)));
                 turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
             }
         } else {
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal
-                float4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
-                        * (mx_fresnel_conductor(metal_ggx_reflected.w, re, im) * metal_ggx_reflected.xyz);
+                        * (metal_ggx_reflected.weight
+                        * (metal_ggx_reflected.color * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
                 // reflection
                 if (reflection_visible)
                     color += reflection_product
-                        * (metal_ggx_reflected.xyz * mx_fresnel_dielectric(metal_ggx_reflected.w, specular_IOR));
+                        * (metal_ggx_reflected.weight
+                        * (metal_ggx_reflected.color
+                        * mx_fresnel_dielectric(metal_ggx_reflected.cosine, specular_IOR)));
                 turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
             }
         }
@@ -662,9 +684,10 @@ void main(
             SR_standard_surface_specular_anisotropy), N, specular_tangent, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, specular_IOR, i, turn);
-            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, specular_IOR))
-                * refraction_ggx_transmitted.xyz);
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, specular_IOR, i, turn);
+            color += refraction_product * (refraction_ggx_transmitted.color
+                * (refraction_ggx_transmitted.weight
+                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, specular_IOR))));
             turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
         }
     }

@@ -23,6 +23,11 @@ struct mx_GgxFacet {
     float shrink;
     float spread;
 };
+struct mx_GgxLight {
+    vec3 color;
+    float weight;
+    float cosine;
+};
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
     vec3 SR_gltf_pbr_base_color;
     float SR_gltf_pbr_metallic;
@@ -166,15 +171,20 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
+{
+    vec3 slope = cross(H, lobe.N) / lobe.alpha.x;
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -203,16 +213,20 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched_2(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
+{
+    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched_2(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -252,18 +266,19 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float fi
     return mx_fresnel_schlick(cosine, n, f90);
 }
 
-// The point of the picture for a unit direction in it.
+// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
+float mx_half_turn(const float t)
+{
+    float t2 = t * t;
+    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+}
+
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    vec2 a = abs(d.xz);
-    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
-    float t2 = t * t;
-    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
-    turn = a.x > a.y ? 0.25 - turn : turn;
-    turn = d.z > 0.0 ? 0.5 - turn : turn;
-    float y = abs(d.y);
-    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
-    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+    float radius = length(d.xz);
+    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
 }
 
 // The frame of a round lobe has V above its x.
@@ -279,19 +294,20 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
         lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
+{
+    float level = 0.5 * log2(spread / length(d.xz));
+    level += float(u_envRadianceMips) - 1.17425;
+    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+}
+
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
-}
-
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float spread)
-{
-    return textureLod(u_envRadiance, mx_map_point(d),
-        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -313,15 +329,15 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
-vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // The frame of a round lobe has V above its x.
@@ -346,12 +362,12 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 }
 
 // The light that comes through it and a solid sphere of an index behind it.
-vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
+mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z
-        * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), s.weight
+        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -427,47 +443,49 @@ void main()
             ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
             * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 directional_light_light = u_lightData[i].color
-            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        vec3 color_2 = u_lightData[i].color;
         vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
-        color += directional_light_light * (cos_l / 3.1415927 * diffuse_product);
+        color += directional_light_choice * (color_2 * (cos_l / 3.1415927 * diffuse_product));
         // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0)
-            color += directional_light_light
+            color += color_2 * (directional_light_choice
                 * (SR_gltf_pbr_clearcoat * coating_scale
-                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5))));
         // fuzz
         if (sheen_weight > 0.0) {
             float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
             float fuzz_product_2 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
                 / 6.2831855);
-            color += directional_light_light
-                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
+            color += directional_light_choice
+                * (color_2 * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
         }
         // metal_film
         float ggx_light = mx_ggx_light_2(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += directional_light_light
-                * (metal_film_product * (ggx_light
-                * mx_fresnel(cosine, fresnel_facing_2, vec3(1.0), iridescence_thickness, iridescence_ior)));
+            color += directional_light_choice
+                * (color_2 * (metal_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing_2, vec3(1.0), iridescence_thickness,
+                iridescence_ior))));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += directional_light_light
-                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing_2, vec3(1.0))));
+            color += directional_light_choice
+                * (color_2 * (metal_bare_product
+                * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing_2, vec3(1.0)))));
         // reflection_film
         if (reflection_film_visible)
-            color += directional_light_light
-                * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, iridescence_thickness, iridescence_ior)));
+            color += directional_light_choice
+                * (color_2 * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, iridescence_thickness, iridescence_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += directional_light_light
-                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90)));
+            color += directional_light_choice
+                * (color_2 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90))));
     }
     // environment
     // fuzz
@@ -482,9 +500,9 @@ void main()
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), N, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            vec4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += coating_light.xyz * (SR_gltf_pbr_clearcoat * coating_scale
-                * mx_fresnel_dielectric(coating_light.w, 1.5));
+            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += light.color * (SR_gltf_pbr_clearcoat * coating_scale
+                * (light.weight * mx_fresnel_dielectric(light.cosine, 1.5)));
             turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
         }
     }
@@ -495,40 +513,47 @@ void main()
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film
-                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
-                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0),
-                        iridescence_thickness, iridescence_ior) * metal_film_ggx_reflected.xyz);
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2, vec3(1.0),
+                        iridescence_thickness, iridescence_ior)));
                 // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
-                        * (metal_film_ggx_reflected.xyz
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0)));
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2, vec3(1.0))));
                 // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
-                        * (metal_film_ggx_reflected.xyz
-                        * mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90, iridescence_thickness,
-                        iridescence_ior));
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90, iridescence_thickness,
+                        iridescence_ior)));
                 // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
-                        * (metal_film_ggx_reflected.xyz
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90));
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90)));
                 turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film, metal_bare
-                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
-                vec3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0))
-                    * metal_film_ggx_reflected.xyz;
+                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                vec3 metal_bare_product_2 = metal_film_ggx_reflected.weight
+                    * (metal_film_ggx_reflected.color
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2, vec3(1.0)));
                 color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
                 // reflection_film
-                vec3 reflection_product_2 = metal_film_ggx_reflected.xyz
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90);
+                vec3 reflection_product_2 = metal_film_ggx_reflected.weight
+                    * (metal_film_ggx_reflected.color
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90));
                 if (reflection_film_visible)
                     color += reflection_film_product * reflection_product_2;
                 // reflection
@@ -544,9 +569,10 @@ void main()
         vec3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
-            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_gltf_pbr_ior))
-                * refraction_ggx_transmitted.xyz);
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
+            color += refraction_product * (refraction_ggx_transmitted.color
+                * (refraction_ggx_transmitted.weight
+                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_gltf_pbr_ior))));
             turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
         }
     }

@@ -23,6 +23,11 @@ struct mx_GgxFacet {
     float shrink;
     float spread;
 };
+struct mx_GgxLight {
+    vec3 color;
+    float weight;
+    float cosine;
+};
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
     float SR_open_pbr_surface_base_weight;
     vec3 SR_open_pbr_surface_base_color;
@@ -233,16 +238,20 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
+{
+    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 H = V + L;
-    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -337,23 +346,13 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float 
     return vec3(mx_fresnel_dielectric(cosine, n.x));
 }
 
-vec3 mx_subsurface_light(const vec3 falloff, const float cos_l)
+// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+float mx_subsurface_light(const float radius, const float curvature, const float cos_l)
 {
-    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
-    vec3 light = vec3(0.0);
-    vec3 sum = vec3(0.0);
-    vec2 middle = vec2(0.9987955, 0.04906767);
-    while (middle.x > 0.0) {
-        float d = middle.y;
-        vec3 e = exp(falloff * d);
-        vec3 profile = (e + e * e * e) / d;
-        float along = cos_l * (1.0 - 2.0 * d * d);
-        float across = sin_l * (2.0 * d * middle.x);
-        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
-        sum += 2.0 * profile;
-        middle = mat2(0.9951847, 0.09801714, -0.09801714, 0.9951847) * middle;
-    }
-    return light / (3.1415927 * sum);
+    float x = curvature * max(radius, 0.1);
+    vec3 bend = (vec3(0.1573, 0.0104, 0.1632) + x * (vec3(0.662, 0.1732, 0.6079) + x * vec3(0.6075, 0.4138, 0.8133)))
+        / (6.2831855 * (0.1602 + x * (0.6652 + x)));
+    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
 // Directional albedo of Fujii's lobe.
@@ -365,18 +364,19 @@ float mx_fujii_albedo(const float cosine, const float r)
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
-// The point of the picture for a unit direction in it.
+// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
+float mx_half_turn(const float t)
+{
+    float t2 = t * t;
+    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+}
+
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    vec2 a = abs(d.xz);
-    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
-    float t2 = t * t;
-    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
-    turn = a.x > a.y ? 0.25 - turn : turn;
-    turn = d.z > 0.0 ? 0.5 - turn : turn;
-    float y = abs(d.y);
-    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
-    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+    float radius = length(d.xz);
+    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
 }
 
 // Albedo of what the lobe scatters more than once, relative to `color`.
@@ -399,19 +399,20 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
         share * (v.z + lobe.masking));
 }
 
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
+{
+    float level = 0.5 * log2(spread / length(d.xz));
+    level += float(u_envRadianceMips) - 1.17425;
+    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+}
+
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
-}
-
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float spread)
-{
-    return textureLod(u_envRadiance, mx_map_point(d),
-        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -433,15 +434,15 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
-vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -452,12 +453,12 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 }
 
 // The light that comes through it and a solid sphere of an index behind it.
-vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
+mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z
-        * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), s.weight
+        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -562,10 +563,8 @@ void main()
     float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
     vec3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
-    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
-    vec3 subsurface_falloff = vec3(-2.0)
-        / (scaled_curvature * max(SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale,
-        0.1));
+    vec3 scatter_radius = SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale;
+    float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
     vec3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
     float diffuse_weight = SR_open_pbr_surface_base_weight
         * (opaque_weight * (1.0 - SR_open_pbr_surface_subsurface_weight));
@@ -588,55 +587,65 @@ void main()
             ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
             * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 directional_light_light = u_lightData[i].color
-            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        vec3 color_2 = u_lightData[i].color;
         vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
-        float l_dot_nf = dot(L, Nf);
-        float cos_l = max(l_dot_nf, 1e-8);
+        float cos_l = dot(L, Nf);
+        float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
-        float s = v_dot_l - cos_v * cos_l;
-        float greater = max(cos_l, cos_v);
-        vec3 sheet_front_response = sheet_front_product * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += directional_light_light
-            * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
+        float s = v_dot_l - cos_v * cos_l_2;
+        float greater = max(cos_l_2, cos_v);
+        vec3 sheet_front_response = sheet_front_product * (cos_l_2 / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += directional_light_choice
+            * (color_2 * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
         // fuzz
         if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += directional_light_light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
+            color += directional_light_choice
+                * (color_2 * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
         if (coat_weight > 0.0)
-            color += directional_light_light
-                * (coating_product * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
+            color += directional_light_choice
+                * (color_2 * (coating_product
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior))));
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += directional_light_light
-                * (metal_film_product * (ggx_light
-                * mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)));
+            color += directional_light_choice
+                * (color_2 * (metal_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior))));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += directional_light_light
-                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend)));
+            color += directional_light_choice
+                * (color_2 * (metal_bare_product
+                * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
         // reflection_film
         if (reflection_film_visible)
-            color += directional_light_light
-                * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, thin_film_ior)));
+            color += directional_light_choice
+                * (color_2 * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, thin_film_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += directional_light_light * (reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
+            color += directional_light_choice
+                * (color_2 * (reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior))));
         // scatter
-        if (scatter_weight > 0.0)
-            color += directional_light_light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+        if (scatter_weight > 0.0) {
+            float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
+            float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
+            color += directional_light_choice
+                * (color_2 * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
+                mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
+        }
         // diffuse
         if (diffuse_weight > 0.0) {
             float diffuse_s = s / greater;
             vec3 diffuse_product_2 = fujii_multiple
-                * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l, base_diffuse_roughness), 1e-8)
+                * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8)
                 / diffuse_greater_2);
-            color += directional_light_light
-                * (diffuse_product * (cos_l / 3.1415927
-                * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum + diffuse_product_2)));
+            color += directional_light_choice
+                * (color_2 * (diffuse_product
+                * (cos_l_2 / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
+                + diffuse_product_2))));
         }
     }
     // environment
@@ -661,8 +670,8 @@ void main()
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, X, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            vec4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += coating_light.xyz * (coating_product * mx_fresnel_dielectric(coating_light.w, coat_ior));
+            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += light.color * (coating_product * (light.weight * mx_fresnel_dielectric(light.cosine, coat_ior)));
             turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
         }
     }
@@ -674,48 +683,58 @@ void main()
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film
-                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
-                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend, film_thickness,
-                        thin_film_ior) * metal_film_ggx_reflected.xyz);
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend, film_thickness,
+                        thin_film_ior)));
                 // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
-                        * (metal_film_ggx_reflected.xyz
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend));
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend)));
                 // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
-                        * (metal_film_ggx_reflected.xyz
-                        * mx_film_index(metal_film_ggx_reflected.w, reflection_film_vector, film_thickness,
-                        thin_film_ior));
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color
+                        * mx_film_index(metal_film_ggx_reflected.cosine, reflection_film_vector, film_thickness,
+                        thin_film_ior)));
                 // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
-                        * (metal_film_ggx_reflected.xyz * mx_fresnel_dielectric(metal_film_ggx_reflected.w, ior));
+                        * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
+                        * mx_fresnel_dielectric(metal_film_ggx_reflected.cosine, ior)));
                 turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film
-                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
-                vec3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend)
-                    * metal_film_ggx_reflected.xyz;
+                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                vec3 metal_bare_product_2 = metal_film_ggx_reflected.weight
+                    * (metal_film_ggx_reflected.color
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend));
                 if (metal_film_weight > 0.0)
                     color += metal_film_product * metal_bare_product_2;
                 // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product * metal_bare_product_2;
                 // reflection_film
-                vec3 reflection_product_2 = metal_film_ggx_reflected.xyz
-                    * mx_fresnel_dielectric(metal_film_ggx_reflected.w, ior);
+                float reflection_film_fresnel_dielectric = mx_fresnel_dielectric(metal_film_ggx_reflected.cosine, ior);
                 if (reflection_film_visible)
-                    color += reflection_film_product * reflection_product_2;
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.weight
+                        * (metal_film_ggx_reflected.color * reflection_film_fresnel_dielectric));
                 // reflection
                 if (reflection_weight > 0.0)
-                    color += reflection_product * reflection_product_2;
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight * reflection_film_fresnel_dielectric));
                 turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
             }
         }
@@ -733,9 +752,11 @@ void main()
             * refraction_product_2;
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
             color += refraction_product_3
-                * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, ior)) * refraction_ggx_transmitted.xyz);
+                * (refraction_ggx_transmitted.color
+                * (refraction_ggx_transmitted.weight
+                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, ior))));
             turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
         }
     }

@@ -23,6 +23,11 @@ struct mx_GgxFacet {
     float shrink;
     float spread;
 };
+struct mx_GgxLight {
+    vec3 color;
+    float weight;
+    float cosine;
+};
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
 uniform mat4 u_envMatrix = mat4(-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
@@ -78,15 +83,20 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
         sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
+{
+    vec3 slope = cross(H, lobe.N) / lobe.alpha.x;
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -110,24 +120,42 @@ vec3 mx_medium_layer(const float way, out vec3 transmitted)
     return s * ways / below;
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
+{
+    return cos_h * cos_h + (square - cos_h * cos_h) / (lobe.alpha.x * lobe.alpha.x);
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
 vec3 mx_medium_reflected(const float way)
 {
     vec3 ignored;
     return mx_medium_layer(way, ignored);
 }
 
-// The point of the picture for a unit direction in it.
+// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
+float mx_half_turn(const float t)
+{
+    float t2 = t * t;
+    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+}
+
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    vec2 a = abs(d.xz);
-    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
-    float t2 = t * t;
-    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
-    turn = a.x > a.y ? 0.25 - turn : turn;
-    turn = d.z > 0.0 ? 0.5 - turn : turn;
-    float y = abs(d.y);
-    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
-    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+    float radius = length(d.xz);
+    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
 }
 
 // The frame of a round lobe has V above its x.
@@ -143,19 +171,20 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
         lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
+{
+    float level = 0.5 * log2(spread / length(d.xz));
+    level += float(u_envRadianceMips) - 1.17425;
+    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+}
+
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
-}
-
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float spread)
-{
-    return textureLod(u_envRadiance, mx_map_point(d),
-        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -177,15 +206,15 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
-vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
 }
 
 void main()
@@ -218,35 +247,36 @@ void main()
     vec3 Nf = faceforward(N, -V, N);
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cosine + 0.25071993), cosine);
-    float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
-        * milk_reflection_scale, 0.0);
-    vec3 milk_medium_difference = milk_reflection_throughput * blended_coat_bare_throughput - milk_reflection_throughput
-        * blended_coat_bare_throughput_2;
-    vec3 milk_medium_decay = clamp((milk_reflection_throughput * blended_coat_bare_throughput_2
-        - milk_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
+    vec2 albedo = mx_ggx_albedo_fit(0.25, 0.25 / (cosine + 0.25), cosine);
+    float difference_2 = 1.0 / albedo.x - 1.0;
+    float milk_second_reflection_scale = difference_2 * 0.08571428 + 1.0;
+    float milk_second_reflection_throughput = max(1.0 - albedo.x * mix(0.04, 1.0, albedo.y)
+        * milk_second_reflection_scale, 0.0);
+    vec3 milk_medium_difference = milk_second_reflection_throughput * blended_coat_bare_throughput
+        - milk_second_reflection_throughput * blended_coat_bare_throughput_2;
+    vec3 milk_medium_decay = clamp((milk_second_reflection_throughput * blended_coat_bare_throughput_2
+        - milk_second_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0,
+        0.999);
     vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
-    vec3 milk_medium_steady = milk_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cosine + 0.29886922), cosine);
-    vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
-        + vec3(1.0);
-    mx_GgxLobe metal_reflection_lobe = mx_ggx_lobe(vec2(0.29886922), N, V);
+    vec3 milk_medium_steady = milk_second_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
+    vec3 metal_second_reflection_scale = difference_2 * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
+    mx_GgxLobe lobe = mx_ggx_lobe(vec2(0.25), N, V);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
-    vec3 milk_bare_product = milk_reflection_throughput
+    vec3 milk_bare_product = milk_second_reflection_throughput
         * (milk_medium_transmitted / (vec3(1.0)
-        - min(mix(metal_constant, vec3(1.0), metal_reflection_albedo.y) * metal_reflection_albedo.x
-        * metal_reflection_scale * vec3(0.10193972, 0.102937125, 0.103155464), 0.999))
-        * vec3(0.895498, 0.89649165, 0.8967095));
-    vec3 metal_reflection_difference = blended_coat_bare_throughput * milk_bare_product - blended_coat_bare_throughput_2
-        * milk_bare_product;
-    vec3 metal_reflection_decay = clamp((blended_coat_bare_throughput_2 * milk_bare_product
-        - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
-    vec3 metal_reflection_ratio = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
-    vec3 metal_reflection_steady = blended_coat_bare_throughput * milk_bare_product - metal_reflection_ratio;
-    mx_GgxLobe milk_reflection_lobe = mx_ggx_lobe(vec2(0.25071993), N, V);
+        - min(mix(metal_constant, vec3(1.0), albedo.y) * albedo.x * metal_second_reflection_scale
+        * vec3(0.10193972, 0.102937125, 0.103155464), 0.999)) * vec3(0.895498, 0.89649165, 0.8967095));
+    vec3 metal_second_reflection_difference = blended_coat_bare_throughput * milk_bare_product
+        - blended_coat_bare_throughput_2 * milk_bare_product;
+    vec3 metal_second_reflection_decay = clamp((blended_coat_bare_throughput_2 * milk_bare_product
+        - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_second_reflection_difference, 1e-6), 0.0,
+        0.999);
+    vec3 metal_second_reflection_ratio = metal_second_reflection_difference
+        / (vec3(1.0) - metal_second_reflection_decay);
+    vec3 metal_second_reflection_steady = blended_coat_bare_throughput * milk_bare_product
+        - metal_second_reflection_ratio;
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // metal_reflection, milk_reflection, milk_medium, coat_reflection
+        // metal_second_reflection, milk_second_reflection, milk_medium, coat_reflection
         int type = u_lightData[i].type;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float ratio_2 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
@@ -268,16 +298,17 @@ void main()
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
         vec3 milk_medium_product = milk_medium * milk_medium_2 / vec3(0.10193972, 0.102937125, 0.103155464)
             * milk_medium_weight;
-        vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_ratio
-            * pow(metal_reflection_decay, vec3(way_2));
-        vec3 metal_reflection_product = mx_fresnel_schlick(cosine_2, metal_constant) * metal_reflection_weight;
-        vec3 metal_reflection_response = metal_reflection_scale
-            * (mx_ggx_light(metal_reflection_lobe, V, L) * metal_reflection_product);
-        vec3 milk_reflection_product = fresnel * (difference + ratio * pow(clamped, vec3(way_2)));
-        vec3 sum = metal_reflection_response + milk_reflection_scale * mx_ggx_light(milk_reflection_lobe, V, L)
-            * milk_reflection_product;
-        vec3 sum_2 = coat_reflection_response + (max(dot(L, Nf), 0.0) / 3.1415927 * milk_medium_product + sum);
-        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_2;
+        float ggx_light = mx_ggx_light_2(lobe, V, L);
+        vec3 metal_second_reflection_weight = metal_second_reflection_steady + metal_second_reflection_ratio
+            * pow(metal_second_reflection_decay, vec3(way_2));
+        vec3 milk_second_reflection_response = milk_second_reflection_scale * ggx_light
+            * (fresnel * (difference + ratio * pow(clamped, vec3(way_2))));
+        vec3 sum = metal_second_reflection_scale
+            * (ggx_light * (mx_fresnel_schlick(cosine_2, metal_constant) * metal_second_reflection_weight))
+            + milk_second_reflection_response;
+        vec3 product = u_lightData[i].color
+            * (coat_reflection_response + (max(dot(L, Nf), 0.0) / 3.1415927 * milk_medium_product + sum));
+        color += (type == 1 ? u_lightData[i].intensity : point_light_choice) * product;
     }
     // environment
     // milk_medium
@@ -285,34 +316,31 @@ void main()
         * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
     color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
         * milk_medium_product);
-    // metal_reflection
-    vec3 metal_reflection_product = metal_reflection_scale
-        * (metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way)));
-    mx_GgxSamples metal_reflection_ggx_samples = mx_ggx_samples(vec2(0.29886922), N, V);
+    // metal_second_reflection, milk_second_reflection
+    vec3 metal_second_reflection_product = metal_second_reflection_scale
+        * (metal_second_reflection_steady + metal_second_reflection_ratio
+        * pow(metal_second_reflection_decay, vec3(way)));
+    mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(0.25), N, V);
+    vec3 milk_second_reflection_product = milk_second_reflection_scale * (difference + ratio * pow(clamped, vec3(way)));
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
-        color += metal_reflection_product * (mx_fresnel_schlick(light.w, metal_constant) * light.xyz);
+        // metal_second_reflection, milk_second_reflection
+        mx_GgxLight light = mx_ggx_reflected(ggx_samples, i, turn);
+        vec3 metal_second_reflection_response = metal_second_reflection_product
+            * (light.weight * (light.color * mx_fresnel_schlick(light.cosine, metal_constant)));
+        color += metal_second_reflection_response + milk_second_reflection_product
+            * (light.weight * (light.color * mx_fresnel_schlick(light.cosine, vec3(0.04))));
         turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
-    }
-    // milk_reflection
-    vec3 milk_reflection_product = milk_reflection_scale * (difference + ratio * pow(clamped, vec3(way)));
-    mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(vec2(0.25071993), N, V);
-    vec2 turn_2 = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 milk_reflection_ggx_reflected = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
-        color += milk_reflection_product
-            * (mx_fresnel_schlick(milk_reflection_ggx_reflected.w, vec3(0.04)) * milk_reflection_ggx_reflected.xyz);
-        turn_2 = turn_2 * -0.7373689 + vec2(-turn_2.y, turn_2.x) * 0.6754903;
     }
     // coat_reflection
     mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), N, V);
-    vec2 turn_3 = vec2(1.0, 0.0);
+    vec2 turn_2 = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
-        color += coat_reflection_scale * 0.5
-            * (mx_fresnel_schlick(coat_reflection_ggx_reflected.w, vec3(0.04)) * coat_reflection_ggx_reflected.xyz);
-        turn_3 = turn_3 * -0.7373689 + vec2(-turn_3.y, turn_3.x) * 0.6754903;
+        mx_GgxLight coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_2);
+        vec3 coat_reflection_product = coat_reflection_ggx_reflected.color
+            * mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, vec3(0.04));
+        color += coat_reflection_product * (coat_reflection_scale * 0.5 * coat_reflection_ggx_reflected.weight);
+        turn_2 = turn_2 * -0.7373689 + vec2(-turn_2.y, turn_2.x) * 0.6754903;
     }
     out1 = vec4(color, 1.0);
 }

@@ -23,6 +23,11 @@ struct mx_GgxFacet {
     float shrink;
     float spread;
 };
+struct mx_GgxLight {
+    vec3 color;
+    float weight;
+    float cosine;
+};
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
 uniform mat4 u_envMatrix = mat4(-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
@@ -75,22 +80,6 @@ void fogged_bsdf(ClosureData closureData, BSDF base, float fog, inout BSDF bsdf)
     bsdf.response = base.response * (1.0 - fog) + vec3(fog * 0.1);
 }
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
-float mx_bicubic(const mat4 m, const float x)
-{
-    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.05, 0.0025, 0.000125));
-}
-
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
-vec2 mx_ggx_albedo_fit(const float u, const float c)
-{
-    float x = clamp(1.0 - c - 0.05 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
-        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
-    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
-        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
-}
-
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 {
     float cosine = max(abs(dot(N, V)), 1e-8);
@@ -111,33 +100,35 @@ mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
         lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
-float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
+// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
+float mx_half_turn(const float t)
 {
-    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+    float t2 = t * t;
+    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
 }
 
-// The point of the picture for a unit direction in it.
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    vec2 a = abs(d.xz);
-    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
-    float t2 = t * t;
-    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
-    turn = a.x > a.y ? 0.25 - turn : turn;
-    turn = d.z > 0.0 ? 0.5 - turn : turn;
-    float y = abs(d.y);
-    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
-    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+    float radius = length(d.xz);
+    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
 }
 
 // Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
 // Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
 vec3 mx_filtered_light(const vec3 d, const float spread)
 {
-    return textureLod(u_envRadiance, mx_map_point(d),
-        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
+    float level = 0.5 * log2(spread / length(d.xz));
+    level += float(u_envRadianceMips) - 1.17425;
+    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
@@ -159,35 +150,55 @@ mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
     return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
-vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(const mat4 m, const float x)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.05, 0.0025, 0.000125));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+vec2 mx_ggx_albedo_fit(const float u, const float c)
+{
+    float x = clamp(1.0 - c - 0.05 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(const float cosine)
 {
-    float g = sqrt(max(2.25 + cosine * cosine - 1.0, 0.0));
+    float g = sqrt(2.25 + cosine * cosine - 1.0);
     vec2 a = cosine * vec2(1.0, 2.25);
     vec2 r = (a - g) / (a + g);
     return 0.5 * dot(r, r);
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
+{
+    return cos_h * cos_h + (square - cos_h * cos_h) / (lobe.alpha.x * lobe.alpha.x);
+}
+
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
-    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
-    float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
     return square * square * cos_l / (6.2831855 * area * e * e
         * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
 }
@@ -197,14 +208,14 @@ void main()
     vec3 gathered = vec3(0.0);
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    mx_GgxSamples gloss_ggx_samples = mx_ggx_samples(N, V);
     float cosine = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.05 / (cosine + 0.05), cosine);
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
-    mx_GgxSamples gloss_ggx_samples = mx_ggx_samples(N, V);
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 light = mx_ggx_reflected(gloss_ggx_samples, i, turn);
-        gathered += scale * mx_fresnel_dielectric(light.w) * light.xyz;
+        mx_GgxLight light = mx_ggx_reflected(gloss_ggx_samples, i, turn);
+        gathered += light.color * (light.weight * (scale * mx_fresnel_dielectric(light.cosine)));
         turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
     }
     vec3 color = vec3(0.0);
@@ -222,13 +233,14 @@ void main()
             ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
             * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
         vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         ClosureData closure_data = ClosureData(1, L, V, N, vd.positionWorld, 1.0);
         float fresnel = mx_fresnel_dielectric(sqrt(clamp(dot(L, V) * 0.5 + 0.5, 1e-8, 1.0)));
         BSDF vector = BSDF(vec3(scale * mx_ggx_light(lobe, V, L) * fresnel), dielectric_bsdf_throughput);
         BSDF fogged = BSDF(vec3(0.0), vec3(1.0));
         fogged_bsdf(closure_data, vector, 0.25, fogged);
-        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * fogged.response;
+        color += directional_light_choice * (u_lightData[i].color * fogged.response);
     }
     // environment
     // fogged

@@ -46,9 +46,9 @@ void main()
             ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
             * ratio : 0.0;
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 light = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice);
         float smoke_d = dot(V, type == 1 ? -u_lightData[i].direction : to_light) * 0.8 + 1.16;
-        color += light * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product);
+        vec3 smoke_product_2 = u_lightData[i].color * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product);
+        color += (type == 1 ? u_lightData[i].intensity : point_light_choice) * smoke_product_2;
     }
     out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
 }

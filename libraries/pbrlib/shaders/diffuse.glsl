@@ -188,42 +188,27 @@ float mx_translucent_bsdf_pdf(vec3 color, vec3 N, vec3 V, vec3 L)
 
 // ---- subsurface_bsdf ------------------------------------------------------------------------------------------------
 
-// Burley's normalised diffusion profile (Christensen 2015) gathered around a circle of the local curvature
-// (after Penner 2011, "Pre-integrated skin shading").
-
+// Burley's normalised diffusion profile (Christensen 2015) gathered around a circle of the local curvature (after Penner 2011,
+// "Pre-integrated skin shading"). A stored radius is that over the circle's.
 float mx_curvature(vec3 n, vec3 P)
 {
-    return max(length(fwidth(n)) / length(fwidth(P)), 0.01);
+    return option_stored == 1 ? 1.0 : max(length(fwidth(n)) / length(fwidth(P)), 0.01);
 }
 
-// Exponent of the profile where the chord is the diameter of the circle. A stored radius is that over the circle's.
-vec3 mx_subsurface_falloff(vec3 radius, vec3 n, vec3 P)
+// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+float mx_subsurface_light(float radius, float curvature, float cos_l)
 {
-    if (option_stored == 1)
-        return -2.0 / (3.0 * max(radius, 1e-6));
-    float scaled_curvature = mx_curvature(n, P) * 3.0;
-    return -2.0 / (scaled_curvature * max(radius, 0.1));
+    float x = curvature * max(radius, option_stored == 1 ? 1e-6 : 0.1);
+    vec3 bend = (vec3(0.1573, 0.0104, 0.1632) + x * (vec3(0.6620, 0.1732, 0.6079) + x * vec3(0.6075, 0.4138, 0.8133)))
+              / (2.0 * MX_PI * (0.1602 + x * (0.6652 + x)));
+    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-vec3 mx_subsurface_light(vec3 falloff, float cos_l)
+// Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
+vec3 mx_subsurface_light(vec3 radius, float curvature, float cos_l)
 {
-    const mat2 TURN = mat2(0.99518473, 0.09801714, -0.09801714, 0.99518473); // by 1/64 of the circle
-    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
-    vec3 light = vec3(0.0);
-    vec3 sum = vec3(0.0);
-    vec2 middle = vec2(0.9987955, 0.04906767); // cosine and sine of half the angle from L's point of view, both ways around
-    while (middle.x > 0.0)
-    {
-        float d = middle.y; // the chord, in diameters
-        vec3 e = exp(falloff * d);
-        vec3 profile = (e + e * e * e) / d;
-        float along = cos_l * (1.0 - 2.0 * d * d);
-        float across = sin_l * (2.0 * d * middle.x);
-        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
-        sum += 2.0 * profile;
-        middle = TURN * middle;
-    }
-    return light / (MX_PI * sum);
+    return vec3(mx_subsurface_light(radius.x, curvature, cos_l), mx_subsurface_light(radius.y, curvature, cos_l),
+                mx_subsurface_light(radius.z, curvature, cos_l));
 }
 
 vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)
@@ -231,7 +216,9 @@ vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, 
     vec3 Nf = mx_facing(N, V);
     if (option_integrator == 1) // where there are no screen derivatives: what leaves where it entered
         return color * mx_cosine_pdf(Nf, L);
-    return color * mx_subsurface_light(mx_subsurface_falloff(radius, Nf, P), dot(Nf, L));
+    if (mx_known(radius.x == radius.y) && mx_known(radius.y == radius.z))
+        return color * mx_subsurface_light(radius.x, mx_curvature(Nf, P), dot(Nf, L));
+    return color * mx_subsurface_light(radius, mx_curvature(Nf, P), dot(Nf, L));
 }
 
 vec3 mx_subsurface_bsdf_environment(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V)

@@ -16,7 +16,8 @@
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(float cosine, float ior)
 {
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float square = ior * ior + cosine * cosine - 1.0;
+    float g = sqrt(mx_known(ior >= 1.0) ? square : max(square, 0.0));
     vec2 a = cosine * vec2(1.0, ior * ior);
     vec2 r = (a - g) / (a + g);
     return 0.5 * dot(r, r);

@@ -127,18 +127,34 @@ float mx_half_cosine(vec3 V, vec3 L)
     return sqrt(clamp(0.5 + 0.5 * dot(V, L), MX_EPSILON, 1.0));
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor. The facet's normal V + L has any length. Its
-// cross product with N serves all lobes of one normal.
-float mx_ggx_light(mx_GgxLobe lobe, bool is_round, vec3 V, vec3 L)
+// True if the compiler knows that a lobe is wide: where it is narrow, 1 - cos^2 of the small angles in it has lost its bits.
+bool mx_ggx_wide(vec2 roughness)
 {
-    vec3 H = V + L;
+    return mx_known(min(roughness.x, roughness.y) >= 0.03);
+}
+
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness. What remains of H across x
+// follows from its square, unless the lobe is narrow; then from the cross product with N, which serves all lobes of one normal.
+float mx_ggx_stretched(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 H, float cos_h, float square)
+{
+    if (is_wide && is_round)
+        return cos_h * cos_h + (square - cos_h * cos_h) / (lobe.alpha.x * lobe.alpha.x);
+    float along = is_round ? 0.0 : dot(H, lobe.x);
+    if (is_wide)
+        return dot(vec3(along * along, square - along * along - cos_h * cos_h, cos_h * cos_h), vec3(1.0 / (lobe.alpha * lobe.alpha), 1.0));
     vec3 across = cross(H, lobe.N);
-    vec3 slope = is_round ? across / lobe.alpha.x : vec3(vec2(dot(H, lobe.x), dot(across, lobe.x)) / lobe.alpha, 0.0);
+    vec3 slope = is_round ? across / lobe.alpha.x : vec3(vec2(along, dot(across, lobe.x)) / lobe.alpha, 0.0);
+    return dot(slope, slope) + cos_h * cos_h;
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor. The facet's normal V + L has any length.
+float mx_ggx_light(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 V, vec3 L)
+{
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), MX_EPSILON);
     float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
-    float e = dot(slope, slope) + cos_h * cos_h;
+    float e = mx_ggx_stretched(lobe, is_round, is_wide, V + L, cos_h, square);
     return square * square * cos_l / (2.0 * MX_PI * area * e * e * (lobe.cosine * mx_ggx_masking(cos_l, area) + cos_l * lobe.masking));
 }
 
@@ -168,7 +184,8 @@ vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, v
 {
     return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior)
          * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
-                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness), V, L))
+                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness),
+                                                  mx_ggx_wide(roughness), V, L))
          * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior);
 }
 
@@ -251,24 +268,32 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
     return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
 }
 
-// The light that the facet of sample i reflects, and in the fourth component the cosine at it. A visible normal weighs G2 / G1.
-vec4 mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
+// What a sample brings: the weight stands beside the light, so that it scales Fresnel's factor, which may be one number.
+struct mx_GgxLight {
+    vec3 color;
+    float weight;
+    float cosine; // at the facet
+};
+
+// The light that the facet of sample i reflects. A visible normal weighs G2 / G1.
+mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
     vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
     float cos_l = max(l.z, MX_EPSILON);
-    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
-                    * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), MX_EPSILON, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread),
+                       s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+                       clamp(cosine * sqrt(facet.shrink), MX_EPSILON, 1.0));
 }
 
 // The light that comes through it and a solid sphere of an index behind it. A visible normal weighs 1 / G1.
-vec4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
+mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread),
-                clamp(dot(s.v, h), MX_EPSILON, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread),
+                       s.weight * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), MX_EPSILON, 1.0));
 }
 
 // The same with `--integrator path`: wherever light meets the other side of the sphere as much is reflected as on its way in, f, since the
@@ -276,14 +301,14 @@ vec4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                   float film_ior)
 {
-    vec4 light = mx_ggx_transmitted(s, ior, i, turn);
+    mx_GgxLight light = mx_ggx_transmitted(s, ior, i, turn);
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
     vec3 inside = refract(-s.v, h, 1.0 / ior);
     vec3 turned = reflect(-s.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
-    vec3 f = mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
+    vec3 f = mx_fresnel(light.cosine, model, n, k, f90, exponent, film, film_ior);
     return (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
-         * mix(light.xyz, s.weight * u_envLightIntensity * 0.5 / s.v.z * mx_filtered_light(s.to_map * turned, facet.spread), f / (1.0 + f));
+         * light.weight * mix(light.color, mx_filtered_light(s.to_map * turned, facet.spread), f / (1.0 + f));
 }
 
 // Sample i of what the lobe reflects of all directions. A choice that all samples make alike stands here, where the compiler sees it.
@@ -295,10 +320,10 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn
     vec3 scale = mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior);
     if (option_environment == 1)
         return scale * mx_ggx_prefiltered(roughness, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-    vec4 light = mx_ggx_reflected(mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V), i, turn);
-    return scale * (film > 0.0 ? mx_fresnel_film(light.w, model, n, k, f90, exponent, film, film_ior)
-                               : mx_fresnel_bare(light.w, model, n, k, f90, exponent))
-         * light.xyz;
+    mx_GgxLight light = mx_ggx_reflected(mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V), i, turn);
+    return scale * (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
+                               : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent))
+         * light.weight * light.color;
 }
 
 // Sample i of what it refracts.
@@ -312,8 +337,8 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn,
     mx_GgxSamples samples = mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V);
     if (option_integrator == 1)
         return mx_ggx_solid(samples, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior);
-    vec4 light = mx_ggx_transmitted(samples, ior, i, turn);
-    return (1.0 - (film > 0.0 ? mx_fresnel_film(light.w, model, n, k, f90, exponent, film, film_ior)
-                              : mx_fresnel_bare(light.w, model, n, k, f90, exponent)))
-         * light.xyz;
+    mx_GgxLight light = mx_ggx_transmitted(samples, ior, i, turn);
+    return (1.0 - (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
+                              : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent)))
+         * light.weight * light.color;
 }

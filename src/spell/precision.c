@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * --precision mediump: the values that bear half floats, which have 11 bits and reach 65,504 (GLSL
+ * ES 3.00 demands 10 bits, and 16,384). These are the colours of a material: inputs and textures
+ * that are colours, and what arithmetic makes of them with each other and with shares, numbers from
+ * 0 to 1, and functions of one colour.
+ *
+ * All else stays whole: positions, directions, texture coordinates and roughness, whose small
+ * differences show; light, which may be brighter; and the results of other functions.
+ */
+#include "spell/spell.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum kind { NEITHER, SHARE, COLOR };
+
+/* Half floats keep the bits of numbers in this range, and of 0. */
+static bool is_moderate(float x)
+{
+    return x == 0.0f || (fabsf(x) >= 0x1p-10f && fabsf(x) <= 0x1p10f);
+}
+
+static enum kind kind_of_constant(const struct ir_graph *g, ir_ref ref)
+{
+    const union ir_word *words = ir_constant_words(g, ref);
+    unsigned count = ir_type_info(ir_type_of(g, ref))->components;
+    for (unsigned i = 0; i < count; i++)
+        if (!is_moderate(words[i].f))
+            return NEITHER;
+    return SHARE;
+}
+
+static bool ends_at(const char *text, double value)
+{
+    char *end;
+    return text && strtod(text, &end) == value && end != text;
+}
+
+/* True if the definition limits a number to the range from 0 to 1. */
+static bool is_share(const struct spell *spell, const struct shader_variable *variable)
+{
+    struct shader_ui ui = {0};
+    if (!spell->options->ui || variable->type != IR_TYPE_FLOAT || !variable->definition)
+        return false;
+    spell->options->ui(spell->options->user_data, variable, &ui);
+    return ends_at(ui.min, 0.0) && ends_at(ui.max, 1.0);
+}
+
+static bool is_half_texture(const struct spell *spell, const struct shader_variable *variable)
+{
+    const char *file = variable->file ? str_text(spell->shader->strings, variable->file) : "",
+               *ending = strrchr(file, '.');
+    bool is_bright = ending && (strcmp(ending, ".exr") == 0 || strcmp(ending, ".hdr") == 0);
+    return variable->type == IR_TYPE_SAMPLER && variable->colorspace && !is_bright;
+}
+
+static enum kind kind_of_variable(const struct spell *spell, const struct shader_variable *variable)
+{
+    if (variable->block == BLOCK_TEXTURES)
+        return is_half_texture(spell, variable) ? COLOR : NEITHER;
+    if (variable->block != BLOCK_PUBLIC_UNIFORMS)
+        return NEITHER;
+    if (variable->doc_type == STR_color3 || variable->doc_type == STR_color4)
+        return COLOR;
+    return is_share(spell, variable) ? SHARE : NEITHER;
+}
+
+/* Of arithmetic: a colour if an operand is one, and none is a value that needs all bits. */
+static enum kind kind_of_operands(const struct spell *spell, ir_ref ref, unsigned first)
+{
+    const struct ir_graph *g = spell->shader->graph;
+    enum kind kind = SHARE;
+    for (unsigned i = first; i < ir_get(g, ref)->num_args; i++) {
+        enum kind operand = spell->kinds[ir_arg(g, ref, i)];
+        if (operand == NEITHER)
+            return NEITHER;
+        kind = operand > kind ? operand : kind;
+    }
+    return kind;
+}
+
+static bool is_float(ir_type_id type)
+{
+    return type == IR_TYPE_FLOAT || type == IR_TYPE_VEC2 || type == IR_TYPE_VEC3
+           || type == IR_TYPE_VEC4;
+}
+
+static enum kind kind_of(const struct spell *spell, ir_ref ref)
+{
+    const struct ir_graph *g = spell->shader->graph;
+    const struct ir_node *node = ir_get(g, ref);
+    if (!is_float(node->type))
+        return node->op == IR_TEXTURE
+                   ? kind_of_variable(spell, &spell->shader->variables.items[node->attr])
+                   : NEITHER;
+    switch (node->op) {
+    case IR_CONST: return kind_of_constant(g, ref);
+    case IR_UNIFORM: return kind_of_variable(spell, &spell->shader->variables.items[node->attr]);
+    case IR_TEX: return spell->kinds[ir_arg(g, ref, 0)];
+    case IR_NEG:
+    case IR_ADD:
+    case IR_SUB:
+    case IR_MUL:
+    case IR_MIN:
+    case IR_MAX:
+    case IR_CLAMP:
+    case IR_MIX:
+    case IR_CONSTRUCT:
+    case IR_SWIZZLE: return kind_of_operands(spell, ref, 0);
+    case IR_SELECT: return kind_of_operands(spell, ref, 1);
+    case IR_CALL: /* of a colour alone: another colour space */
+        return node->num_args == 1 && spell->kinds[ir_arg(g, ref, 0)] == COLOR ? COLOR : NEITHER;
+    default: return NEITHER;
+    }
+}
+
+void spell_find_kinds(struct spell *spell)
+{
+    const struct ir_graph *g = spell->shader->graph;
+    if (!spell->options->halves || !spell_can(spell, CAP_MEDIUMP))
+        return;
+    spell->kinds = ARENA_ARRAY(spell->scratch, uint8_t, g->nodes.len);
+    for (ir_ref ref = 1; ref < g->nodes.len; ref++)
+        spell->kinds[ref] = (uint8_t)kind_of(spell, ref);
+}
+
+bool spell_is_half(const struct spell *spell, ir_ref ref)
+{
+    ir_type_id type = ir_type_of(spell->shader->graph, ref);
+    return spell->kinds && spell->kinds[ref] == COLOR
+           && (type == IR_TYPE_VEC3 || type == IR_TYPE_VEC4);
+}
+
+bool spell_is_half_variable(const struct spell *spell, const struct shader_variable *variable)
+{
+    return spell->kinds && kind_of_variable(spell, variable) == COLOR;
+}
