@@ -247,36 +247,35 @@ void main()
     vec3 Nf = faceforward(N, -V, N);
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    vec2 albedo = mx_ggx_albedo_fit(0.25, 0.25 / (cosine + 0.25), cosine);
-    float difference_2 = 1.0 / albedo.x - 1.0;
-    float milk_second_reflection_scale = difference_2 * 0.08571428 + 1.0;
-    float milk_second_reflection_throughput = max(1.0 - albedo.x * mix(0.04, 1.0, albedo.y)
-        * milk_second_reflection_scale, 0.0);
-    vec3 milk_medium_difference = milk_second_reflection_throughput * blended_coat_bare_throughput
-        - milk_second_reflection_throughput * blended_coat_bare_throughput_2;
-    vec3 milk_medium_decay = clamp((milk_second_reflection_throughput * blended_coat_bare_throughput_2
-        - milk_second_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0,
-        0.999);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cosine + 0.25071993), cosine);
+    float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
+    float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
+        * milk_reflection_scale, 0.0);
+    vec3 milk_medium_difference = milk_reflection_throughput * blended_coat_bare_throughput - milk_reflection_throughput
+        * blended_coat_bare_throughput_2;
+    vec3 milk_medium_decay = clamp((milk_reflection_throughput * blended_coat_bare_throughput_2
+        - milk_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
     vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
-    vec3 milk_medium_steady = milk_second_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
-    vec3 metal_second_reflection_scale = difference_2 * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
-    mx_GgxLobe lobe = mx_ggx_lobe(vec2(0.25), N, V);
+    vec3 milk_medium_steady = milk_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cosine + 0.29886922), cosine);
+    vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
+        + vec3(1.0);
+    mx_GgxLobe metal_reflection_lobe = mx_ggx_lobe(vec2(0.29886922), N, V);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
-    vec3 milk_bare_product = milk_second_reflection_throughput
+    vec3 milk_bare_product = milk_reflection_throughput
         * (milk_medium_transmitted / (vec3(1.0)
-        - min(mix(metal_constant, vec3(1.0), albedo.y) * albedo.x * metal_second_reflection_scale
-        * vec3(0.10193972, 0.102937125, 0.103155464), 0.999)) * vec3(0.895498, 0.89649165, 0.8967095));
-    vec3 metal_second_reflection_difference = blended_coat_bare_throughput * milk_bare_product
-        - blended_coat_bare_throughput_2 * milk_bare_product;
-    vec3 metal_second_reflection_decay = clamp((blended_coat_bare_throughput_2 * milk_bare_product
-        - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_second_reflection_difference, 1e-6), 0.0,
-        0.999);
-    vec3 metal_second_reflection_ratio = metal_second_reflection_difference
-        / (vec3(1.0) - metal_second_reflection_decay);
-    vec3 metal_second_reflection_steady = blended_coat_bare_throughput * milk_bare_product
-        - metal_second_reflection_ratio;
+        - min(mix(metal_constant, vec3(1.0), metal_reflection_albedo.y) * metal_reflection_albedo.x
+        * metal_reflection_scale * vec3(0.10193972, 0.102937125, 0.103155464), 0.999))
+        * vec3(0.895498, 0.89649165, 0.8967095));
+    vec3 metal_reflection_difference = blended_coat_bare_throughput * milk_bare_product - blended_coat_bare_throughput_2
+        * milk_bare_product;
+    vec3 metal_reflection_decay = clamp((blended_coat_bare_throughput_2 * milk_bare_product
+        - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
+    vec3 metal_reflection_ratio = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
+    vec3 metal_reflection_steady = blended_coat_bare_throughput * milk_bare_product - metal_reflection_ratio;
+    mx_GgxLobe milk_reflection_lobe = mx_ggx_lobe(vec2(0.25071993), N, V);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // metal_second_reflection, milk_second_reflection, milk_medium, coat_reflection
+        // metal_reflection, milk_reflection, milk_medium, coat_reflection
         int type = u_lightData[i].type;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float ratio_2 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
@@ -298,14 +297,14 @@ void main()
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
         vec3 milk_medium_product = milk_medium * milk_medium_2 / vec3(0.10193972, 0.102937125, 0.103155464)
             * milk_medium_weight;
-        float ggx_light = mx_ggx_light_2(lobe, V, L);
-        vec3 metal_second_reflection_weight = metal_second_reflection_steady + metal_second_reflection_ratio
-            * pow(metal_second_reflection_decay, vec3(way_2));
-        vec3 milk_second_reflection_response = milk_second_reflection_scale * ggx_light
-            * (fresnel * (difference + ratio * pow(clamped, vec3(way_2))));
-        vec3 sum = metal_second_reflection_scale
-            * (ggx_light * (mx_fresnel_schlick(cosine_2, metal_constant) * metal_second_reflection_weight))
-            + milk_second_reflection_response;
+        vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_ratio
+            * pow(metal_reflection_decay, vec3(way_2));
+        vec3 metal_reflection_product = mx_fresnel_schlick(cosine_2, metal_constant) * metal_reflection_weight;
+        vec3 metal_reflection_response = metal_reflection_scale
+            * (mx_ggx_light_2(metal_reflection_lobe, V, L) * metal_reflection_product);
+        vec3 milk_reflection_product = fresnel * (difference + ratio * pow(clamped, vec3(way_2)));
+        vec3 sum = metal_reflection_response + milk_reflection_scale * mx_ggx_light_2(milk_reflection_lobe, V, L)
+            * milk_reflection_product;
         vec3 product = u_lightData[i].color
             * (coat_reflection_response + (max(dot(L, Nf), 0.0) / 3.1415927 * milk_medium_product + sum));
         color += (type == 1 ? u_lightData[i].intensity : point_light_choice) * product;
@@ -316,31 +315,38 @@ void main()
         * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
     color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
         * milk_medium_product);
-    // metal_second_reflection, milk_second_reflection
-    vec3 metal_second_reflection_product = metal_second_reflection_scale
-        * (metal_second_reflection_steady + metal_second_reflection_ratio
-        * pow(metal_second_reflection_decay, vec3(way)));
-    mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(0.25), N, V);
-    vec3 milk_second_reflection_product = milk_second_reflection_scale * (difference + ratio * pow(clamped, vec3(way)));
+    // metal_reflection
+    vec3 metal_reflection_product = metal_reflection_scale
+        * (metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way)));
+    mx_GgxSamples metal_reflection_ggx_samples = mx_ggx_samples(vec2(0.29886922), N, V);
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        // metal_second_reflection, milk_second_reflection
-        mx_GgxLight light = mx_ggx_reflected(ggx_samples, i, turn);
-        vec3 metal_second_reflection_response = metal_second_reflection_product
+        mx_GgxLight light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
+        color += metal_reflection_product
             * (light.weight * (light.color * mx_fresnel_schlick(light.cosine, metal_constant)));
-        color += metal_second_reflection_response + milk_second_reflection_product
-            * (light.weight * (light.color * mx_fresnel_schlick(light.cosine, vec3(0.04))));
         turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+    }
+    // milk_reflection
+    vec3 milk_reflection_product = milk_reflection_scale * (difference + ratio * pow(clamped, vec3(way)));
+    mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(vec2(0.25071993), N, V);
+    vec2 turn_2 = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        mx_GgxLight milk_reflection_ggx_reflected = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
+        color += milk_reflection_product
+            * (milk_reflection_ggx_reflected.weight
+            * (milk_reflection_ggx_reflected.color
+            * mx_fresnel_schlick(milk_reflection_ggx_reflected.cosine, vec3(0.04))));
+        turn_2 = turn_2 * -0.7373689 + vec2(-turn_2.y, turn_2.x) * 0.6754903;
     }
     // coat_reflection
     mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), N, V);
-    vec2 turn_2 = vec2(1.0, 0.0);
+    vec2 turn_3 = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        mx_GgxLight coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_2);
+        mx_GgxLight coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
         vec3 coat_reflection_product = coat_reflection_ggx_reflected.color
             * mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, vec3(0.04));
         color += coat_reflection_product * (coat_reflection_scale * 0.5 * coat_reflection_ggx_reflected.weight);
-        turn_2 = turn_2 * -0.7373689 + vec2(-turn_2.y, turn_2.x) * 0.6754903;
+        turn_3 = turn_3 * -0.7373689 + vec2(-turn_3.y, turn_3.x) * 0.6754903;
     }
     out1 = vec4(color, 1.0);
 }
