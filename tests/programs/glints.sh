@@ -100,8 +100,8 @@ done
 check 'far away there is GGX' compare paint0.exr paint28.exr 0.98 1.02
 check 'near there is its mean' compare paint0.exr paint18.exr 0.85 1.15
 check 'glints are there' eval '! cmp -s paint0.exr paint18.exr'
-check 'traced' draw traced.exr paint28.mtlx Paint -m sphere --path-trace --paths 32
-check 'traced without' draw traced0.exr paint0.mtlx Paint -m sphere --path-trace --paths 32
+check 'traced' draw traced.exr paint28.mtlx Paint -m sphere -s 24 --path-trace --paths 64
+check 'traced without' draw traced0.exr paint0.mtlx Paint -m sphere -s 24 --path-trace --paths 64
 check 'is the same' compare traced0.exr traced.exr 0.98 1.02
 
 # Tints: an even one; one that follows the light; one that follows the view
@@ -128,7 +128,7 @@ done
 check 'light along the normal' compare plain0,0,-1.exr light0,0,-1.exr 0.96 1
 check 'slanted light' compare plain0.8,0,-0.6.exr light0.8,0,-0.6.exr 0.57 0.63
 check 'the view is along the normal' compare plain0.8,0,-0.6.exr view0.8,0,-0.6.exr 0.93 1
-check 'traced with a tint' draw traced.exr even.mtlx Paint -m sphere --path-trace --paths 32
+check 'traced with a tint' draw traced.exr even.mtlx Paint -m sphere -s 24 --path-trace --paths 64
 check 'takes its part, too' compare traced0.exr traced.exr 0.39 0.41
 
 finish glints
