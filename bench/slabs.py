@@ -145,7 +145,8 @@ def main():
     args = parser.parse_args()
     args.mxgen = args.mxgen.resolve()
     variants = {name: options.split() for name, _, options in (text.partition("=") for text in args.variant or [])} or VARIANTS
-    documents = sorted({path for folder in args.folders for path in (folder.rglob("*.mtlx") if folder.is_dir() else [folder])})
+    found = {path for folder in args.folders for path in (folder.rglob("*.mtlx") if folder.is_dir() else [folder])}
+    documents = sorted(path for path in found if path.is_file())
     results = []
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         for document, result in zip(documents, pool.map(lambda path: measure(args.mxgen, path, args.size, variants), documents)):

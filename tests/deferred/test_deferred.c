@@ -279,6 +279,45 @@ static void test_picture(struct bench *b, const char *element)
     close_drawing(&forward);
 }
 
+/* ---- Bands ---- */
+
+/* The error that areas of 8x8 pixels have in common: what an eye sees as bands. */
+static double error_of_areas(const float *a, const float *b)
+{
+    enum { AREA = 8 };
+    double sum = 0;
+    size_t count = 0;
+    for (size_t top = 0; top + AREA <= SIZE; top += AREA)
+        for (size_t left = 0; left + AREA <= SIZE; left += AREA) {
+            double mean[3] = {0};
+            for (size_t i = 0; i < AREA * AREA; ++i) {
+                size_t at = 4 * ((top + i / AREA) * SIZE + left + i % AREA);
+                for (size_t c = 0; c < 3; ++c)
+                    mean[c] += (displayed(a[at + c]) - displayed(b[at + c])) / (AREA * AREA);
+            }
+            for (size_t c = 0; c < 3; ++c, ++count)
+                sum += mean[c] * mean[c];
+        }
+    return sqrt(sum / (double)count);
+}
+
+/* Noise hides the bands of few bits. */
+static void test_bands(struct bench *b)
+{
+    static const char *const storages[] = {"dither", "round"};
+    struct drawing forward, deferred;
+    double errors[2] = {0};
+    bool good = draw(b, "Banded", NULL, UINT32_MAX, &forward);
+    for (size_t i = 0; i < 2; ++i) {
+        if (good && draw(b, "Banded", storages[i], UINT32_MAX, &deferred))
+            errors[i] = error_of_areas(forward.pixels, deferred.pixels);
+        close_drawing(&deferred);
+    }
+    printf("bands: error of areas with dither %.3f, without %.3f of 255\n", errors[0], errors[1]);
+    REQUIRE(errors[1] > 0 && errors[0] < 0.5 * errors[1]);
+    close_drawing(&forward);
+}
+
 /* ---- Payloads ---- */
 
 /* Pixels that face the viewer: edges differ, because a mesh has corners. */
@@ -549,6 +588,8 @@ int main(int argc, char **argv)
     if (open_document(&b, argv[2], "materials.mtlx"))
         for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
             test_picture(&b, others[i]);
+    if (b.document)
+        test_bands(&b);
     test_stack(&b);
     mxg_document_destroy(b.document);
     mxg_options_destroy(b.options);
