@@ -582,7 +582,8 @@ static const char *cast_of(const struct osl *osl, const struct lang_use *use, un
         return NULL;
     if (is_color)
         return have != OSL_ANY && have != OSL_COLOR ? "color" : NULL;
-    return is_no_vector(osl, use, index) && mixes_kinds(osl, use) ? "vector" : NULL;
+    bool is_ambiguous = use->type == IR_TYPE_VEC3 && mixes_kinds(osl, use);
+    return is_ambiguous && is_no_vector(osl, use, index) ? "vector" : NULL;
 }
 
 /* "dot(vector($0), $1)"; NULL: no operand needs a cast. */

@@ -146,14 +146,6 @@ struct closure_parts {
     VEC(struct closure_part) parts;
 };
 
-/* The lighting of a surface: surface.c. */
-struct closure_lit {
-    uint32_t color; /* index of the mutable variable; UINT32_MAX before its declaration */
-    ir_ref base;    /* initial value of the colour; 0 = black */
-    struct closure_light light; /* the current light; 0: unused so far */
-    struct closure_parts at[NUM_PLACES];
-};
-
 /*
  * displacement.c: moves the shaded point and the vertices, and returns the surface with the
  * displaced normal. Either may be 0.

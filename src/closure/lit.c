@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The light that a surface sends to the viewer: finds the contributions of its leaves, and writes
+ * them as effects:
+ *
+ *     color = emission
+ *     for each light: color += intensity · Σ w · eval
+ *     color += Σ w · environment + Σ w · transmission
+ *     for leaves that share samples, for each sample of the environment:
+ *         color += Σ w · environment + Σ w · transmission
+ *
+ * A leaf with a variable weight may have weight 0: its expensive part stands behind `if (weight >
+ * 0)`.
+ */
+#include "closure/emitter.h"
+
+#include <assert.h>
+
+void emitter_effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
+{
+    value = closure_in_loop(&e->copies, value);
+    shader_effect(e->shader, STAGE_PIXEL,
+                  (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+}
+
+static ir_ref add(struct emitter *e, ir_ref a, ir_ref b)
+{
+    if (!a || !b)
+        return a ? a : b;
+    return ir_op2(e->graph, IR_ADD, a, b);
+}
+
+ir_ref emitter_vec3(struct emitter *e, ir_ref value)
+{
+    return ir_convert(e->graph, IR_TYPE_VEC3, value);
+}
+
+/* The factor of light on a way through the media above; 0 = 1. */
+static ir_ref weight_along(struct emitter *e, const struct closure_leaf *leaf, ir_ref way)
+{
+    if (leaf->decay)
+        return closure_weight(e->shader, leaf, way);
+    return ir_const_is(e->graph, leaf->scalar, 1.0f)
+               ? leaf->color
+               : closure_mul(e->graph, leaf->color, leaf->scalar);
+}
+
+/* value · weight; 0 if the product vanishes. way: of the light, if media lie above. */
+static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value, ir_ref way)
+{
+    struct ir_graph *g = e->graph;
+    if (!value || ir_const_is(g, value, 0.0f))
+        return 0;
+    ir_push_origin_of(g, leaf->leaf);
+    ir_ref weight = weight_along(e, leaf, way);
+    closure_name(e->shader, weight, leaf->leaf, "weight");
+    value = closure_product(g, value, weight);
+    closure_name(e->shader, value, leaf->leaf, "response");
+    ir_pop_origin(g);
+    return value;
+}
+
+void emitter_declare_color(struct emitter *e)
+{
+    if (e->lit.color != UINT32_MAX)
+        return;
+    e->lit.color = shader_add_local(e->shader, STR_color, IR_TYPE_VEC3);
+    emitter_effect(e, EFFECT_VAR, e->lit.color,
+                   e->lit.base ? emitter_vec3(e, e->lit.base)
+                               : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
+}
+
+static void add_part(struct emitter *e, enum closure_place place, const struct closure_leaf *leaf,
+                     ir_ref value)
+{
+    if (value)
+        vec_push(e->shader->arena, &e->lit.at[place].parts,
+                 (struct closure_part){leaf->leaf, leaf->scalar, value, false, false});
+}
+
+static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
+{
+    assert(e->lit.color < e->shader->locals.len);
+    ir_push_origin_of(e->graph, value);
+    emitter_effect(e, EFFECT_ACCUMULATE, e->lit.color,
+                   emitter_vec3(e, closure_mul(e->graph, factor, value)));
+    ir_pop_origin(e->graph);
+}
+
+void emitter_comment(struct emitter *e, str_id text)
+{
+    shader_effect(e->shader, STAGE_PIXEL, (struct effect){.kind = EFFECT_COMMENT, .text = text});
+}
+
+/* Writes a comment such as "metal, reflection": the leaves of the next parts, each once. */
+static void comment_leaves(struct emitter *e, const struct closure_part *parts, uint32_t count)
+{
+    struct text names;
+    text_init(&names, e->shader->arena);
+    str_id last = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        str_id name = e->graph->origins.items[ir_get(e->graph, parts[i].leaf)->origin].name;
+        if (!name || name == last)
+            continue;
+        text_str(&names, names.len ? ", " : "");
+        text_str(&names, str_text(e->shader->strings, name));
+        last = name;
+    }
+    if (names.len)
+        emitter_comment(e, str_intern(e->shader->strings, names.data, names.len));
+}
+
+/* Parts [begin, end) as one statement; guard 0: unconditionally. */
+static void accumulate_parts(struct emitter *e, const struct closure_part *parts, uint32_t count,
+                             ir_ref guard, ir_ref factor)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref sum = 0;
+    for (uint32_t i = 0; i < count; i++)
+        sum = add(e, sum, parts[i].value);
+    comment_leaves(e, parts, count);
+    if (guard) {
+        ir_ref condition = ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f));
+        closure_name(e->shader, condition, parts->leaf, "visible");
+        emitter_effect(e, EFFECT_IF, 0, condition);
+    }
+    accumulate(e, factor, sum);
+    if (guard)
+        emitter_effect(e, EFFECT_END, 0, 0);
+}
+
+/*
+ * color += factor · Σ parts. Leaves without branch and loop share one line, which comes first:
+ * their weights need no registers in the loops. Neighbours with the same guard share a branch.
+ */
+static void accumulate_all(struct emitter *e, struct closure_parts *list, bool in_loop,
+                           ir_ref factor)
+{
+    struct closure_parts plain = {0}, dear = {0};
+    closure_find_guarded(e->shader, list, in_loop);
+    for (uint32_t i = 0; i < list->parts.len; i++) {
+        struct closure_part *part = &list->parts.items[i];
+        part->is_guarded &= !ir_is_const(e->graph, part->scalar);
+        bool is_plain = !part->is_guarded && !part->has_loop;
+        vec_push(e->shader->arena, is_plain ? &plain.parts : &dear.parts, *part);
+    }
+    if (plain.parts.len)
+        accumulate_parts(e, plain.parts.items, plain.parts.len, 0, factor);
+    for (uint32_t i = 0, end; i < dear.parts.len; i = end) {
+        const struct closure_part *first = &dear.parts.items[i];
+        for (end = i + 1; end < dear.parts.len && first->is_guarded; end++)
+            if (dear.parts.items[end].scalar != first->scalar)
+                break;
+        accumulate_parts(e, first, end - i, first->is_guarded ? first->scalar : 0, factor);
+    }
+}
+
+static bool has_function(const struct emitter *e, const struct closure_leaf *leaf,
+                         enum leaf_function which)
+{
+    return closure_has(e->shader, e->host, leaf->leaf, which);
+}
+
+static bool any_has(const struct emitter *e, const struct closure_list *list,
+                    enum leaf_function which)
+{
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        if (has_function(e, &list->leaves.items[i], which))
+            return true;
+    return false;
+}
+
+/* Flattens the closure for a context. `light`: the direction to the light. */
+static void flatten_for(struct emitter *e, ir_ref bsdf, enum source_context context,
+                        const ir_ref *light, struct closure_list *out)
+{
+    struct closure_host host = *e->host;
+    host.context = context;
+    host.light = light;
+    if (context == SOURCE_REFLECTION && e->lighting->two_sided)
+        host.way_in = light;
+    closure_flatten(e->shader, &host, bsdf, out);
+}
+
+/*
+ * True if the throughputs differ by context: portable leaves have one throughput, leaves in source
+ * one per context.
+ */
+static bool has_contexts(const struct emitter *e, const struct closure_list *list)
+{
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        if (closure_source(e->shader, list->leaves.items[i].leaf))
+            return true;
+    return false;
+}
+
+/*
+ * The leaves of `list` with their weights in another context: the same leaves, because only
+ * throughputs differ.
+ */
+static const struct closure_list *in_context(struct emitter *e, ir_ref bsdf,
+                                             enum source_context context, const ir_ref *light,
+                                             const struct closure_list *list,
+                                             struct closure_list *out)
+{
+    bool is_two_sided = context == SOURCE_REFLECTION && e->lighting->two_sided;
+    if (!bsdf || (!is_two_sided && !has_contexts(e, list)))
+        return list;
+    flatten_for(e, bsdf, context, light, out);
+    assert(out->leaves.len == list->leaves.len);
+    return out;
+}
+
+static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list,
+                           bool *emitted)
+{
+    if (!e->lighting->lights || !any_has(e, list, LEAF_EVAL))
+        return;
+    struct closure_list lit;
+    closure_sample_light(e->shader, e->host, &e->lit.light);
+    list = in_context(e, bsdf, SOURCE_REFLECTION, &e->lit.light.direction, list, &lit);
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        const struct closure_leaf *leaf = &list->leaves.items[i];
+        ir_ref way = leaf->decay ? closure_way(e->shader, e->host, e->lit.light.direction) : 0;
+        ir_ref value = weighted(
+            e, leaf,
+            closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction), way);
+        add_part(e, PLACE_LIGHT, leaf, value);
+        emitted[i] |= value != 0;
+    }
+}
+
+static bool add_surrounding_part(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
+{
+    ir_ref way = value && leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
+    value = weighted(e, leaf, value, way);
+    bool is_sampled = value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
+    add_part(e, is_sampled ? PLACE_SAMPLE : PLACE_WHOLE, leaf, value);
+    return value != 0;
+}
+
+/* Adds the part of the light from behind that passes a leaf straight on. */
+static bool add_through(struct emitter *e, const struct closure_leaf *leaf)
+{
+    ir_ref value = closure_through(e->shader, e->host, leaf->leaf);
+    if (!value)
+        return false;
+    ir_ref way = leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
+    value = weighted(e, leaf, closure_mul(e->graph, value, leaf->medium), way);
+    e->through = add(e, e->through, value ? emitter_vec3(e, value) : 0);
+    return value != 0;
+}
+
+/* Finds the values of whole functions, and the values per environment sample. */
+static void find_surrounding_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list,
+                                   bool *emitted)
+{
+    bool shows = e->lighting->environment, transmits_alpha = e->lighting->transmits_alpha;
+    if (!shows && !transmits_alpha)
+        return;
+    struct closure_list through;
+    const struct closure_list *behind =
+        any_has(e, list, LEAF_TRANSMISSION)
+            ? in_context(e, bsdf, SOURCE_TRANSMISSION, NULL, list, &through)
+            : list;
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        const struct closure_leaf *leaf = &list->leaves.items[i], *other = &behind->leaves.items[i];
+        ir_ref refracted = 0, reflected = 0;
+        if (!transmits_alpha)
+            refracted = closure_call(e->shader, e->host, other->leaf, LEAF_TRANSMISSION, NULL);
+        if (shows)
+            reflected = closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL);
+        emitted[i] |= add_surrounding_part(e, leaf, reflected);
+        if (transmits_alpha)
+            emitted[i] |= add_through(e, other);
+        else if (refracted)
+            emitted[i] |=
+                add_surrounding_part(e, other, closure_mul(e->graph, refracted, other->medium));
+    }
+}
+
+const bool *emitter_find_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list)
+{
+    bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list->leaves.len);
+    find_lit_parts(e, bsdf, list, emitted);
+    find_surrounding_parts(e, bsdf, list, emitted);
+    return emitted;
+}
+
+/* Only the first light has a shadow map: its factor is 1 in the later rounds of the loop. */
+static void loop_lights(struct emitter *e)
+{
+    ir_ref factor = e->lit.light.intensity;
+    uint32_t local = 0;
+    if (e->lighting->shadow) {
+        local = shader_add_local(e->shader, STR_occlusion, IR_TYPE_FLOAT);
+        emitter_effect(e, EFFECT_VAR, local, closure_shadow(e->shader, e->host));
+        factor = ir_op2(e->graph, IR_MUL, factor,
+                        ir_build(e->graph, IR_LOCAL, IR_TYPE_FLOAT, local, NULL, 0));
+    }
+    emitter_comment(e, STR_lights);
+    emitter_effect(e, EFFECT_LIGHTS, 0, 0);
+    closure_enter_loop(&e->copies, e->shader->num_light_loops++);
+    accumulate_all(e, &e->lit.at[PLACE_LIGHT], true, factor);
+    if (e->lighting->shadow)
+        emitter_effect(e, EFFECT_ASSIGN, local, ir_const_float(e->graph, 1.0f));
+    emitter_effect(e, EFFECT_END, 0, 0);
+}
+
+static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref factor)
+{
+    struct closure_turn turn = closure_turn_of_samples(e->shader, list);
+    emitter_effect(e, EFFECT_SAMPLES, 0, turn.first);
+    closure_enter_loop(&e->copies, e->shader->num_sample_loops++);
+    if (list->parts.len == 1)
+        accumulate(e, factor, list->parts.items[0].value);
+    else
+        accumulate_all(e, list, true, factor);
+    if (turn.next)
+        emitter_effect(e, EFFECT_NEXT, 0, turn.next);
+    emitter_effect(e, EFFECT_END, 0, 0);
+}
+
+/* The parts where a choice is true, or false. */
+static struct closure_parts chosen_parts(struct emitter *e, const struct closure_sample_loop *loop,
+                                         bool is_true)
+{
+    struct closure_copies copies = {.shader = e->shader};
+    struct closure_parts chosen = {0};
+    for (uint32_t i = 0; i < loop->list.parts.len; i++) {
+        struct closure_part part = loop->list.parts.items[i];
+        part.value = closure_chosen(&copies, part.value, loop->choice, is_true);
+        vec_push(e->shader->arena, &chosen.parts, part);
+    }
+    return chosen;
+}
+
+static void loop_samples_by_choice(struct emitter *e, struct closure_sample_loop *loop,
+                                   ir_ref factor)
+{
+    if (!loop->choice) {
+        loop_samples(e, &loop->list, factor);
+        return;
+    }
+    struct closure_parts sides[2] = {chosen_parts(e, loop, true), chosen_parts(e, loop, false)};
+    emitter_effect(e, EFFECT_IF, 0, loop->choice);
+    loop_samples(e, &sides[0], factor);
+    emitter_effect(e, EFFECT_ELSE, 0, 0);
+    loop_samples(e, &sides[1], factor);
+    emitter_effect(e, EFFECT_END, 0, 0);
+}
+
+/* True if a weight of the parts is not 0; 0: always. */
+static ir_ref is_any_visible(struct emitter *e, const struct closure_parts *list)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref any = 0;
+    for (uint32_t i = 0; i < list->parts.len; i++) {
+        const struct closure_part *part = &list->parts.items[i];
+        if (ir_is_const(g, part->scalar))
+            return 0;
+        ir_ref visible = ir_op2(g, IR_GT, part->scalar, ir_const_float(g, 0.0f));
+        closure_name(e->shader, visible, part->leaf, "visible");
+        any = any && any != visible ? ir_op2(g, IR_LOR, any, visible) : visible;
+    }
+    return any;
+}
+
+static void gather_samples(struct emitter *e, struct closure_sample_loop *loop, ir_ref factor)
+{
+    ir_ref visible = is_any_visible(e, &loop->list);
+    comment_leaves(e, loop->list.parts.items, loop->list.parts.len);
+    if (visible)
+        emitter_effect(e, EFFECT_IF, 0, visible);
+    loop_samples_by_choice(e, loop, factor);
+    if (visible)
+        emitter_effect(e, EFFECT_END, 0, 0);
+}
+
+void emitter_write_lit(struct emitter *e)
+{
+    bool has_lights = e->lit.light.intensity != 0,
+         has_samples = e->lit.at[PLACE_SAMPLE].parts.len > 0;
+    if (!has_lights && !has_samples && !e->lit.at[PLACE_WHOLE].parts.len)
+        return;
+    emitter_declare_color(e);
+    if (has_lights)
+        loop_lights(e);
+    bool has_environment = has_samples || e->lit.at[PLACE_WHOLE].parts.len;
+    ir_ref open = has_environment && e->lighting->occlusion
+                      ? closure_occlusion(e->shader, e->lighting->flips_v)
+                      : 0;
+    if (has_environment)
+        emitter_comment(e, STR_environment);
+    accumulate_all(e, &e->lit.at[PLACE_WHOLE], false, open);
+    struct closure_sample_loops samples = {0};
+    closure_find_sample_loops(e->shader, &e->lit.at[PLACE_SAMPLE], &samples);
+    for (uint32_t i = 0; i < samples.loops.len; i++)
+        gather_samples(e, &samples.loops.items[i], open);
+    e->shader->lit = true;
+}
+
+/* Light starts at the leaf, so its way in is 0. */
+static ir_ref emission_of(struct emitter *e, const struct closure_list *list)
+{
+    ir_ref sum = 0, at_rest = ir_const_float(e->graph, 0.0f);
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        ir_ref value =
+            closure_call(e->shader, e->host, list->leaves.items[i].leaf, LEAF_EMISSION, NULL);
+        value = weighted(e, &list->leaves.items[i], value, at_rest);
+        if (value)
+            shader_add_closure(e->shader, list->leaves.items[i].leaf);
+        sum = add(e, sum, value);
+    }
+    return sum;
+}
+
+ir_ref emitter_emission(struct emitter *e, ir_ref edf)
+{
+    struct closure_list list;
+    closure_flatten(e->shader, e->host, edf, &list);
+    return emission_of(e, &list);
+}
+
+void emitter_flatten(struct emitter *e, const struct closure_surface *s, struct closure_list *out)
+{
+    /* most environment light arrives at the mirror of the viewer's angle */
+    struct closure_host host = *e->host;
+    ir_ref view = e->lighting->two_sided ? closure_view(e->shader, e->host) : 0;
+    host.way_in = view ? &view : NULL;
+    host.context = SOURCE_INDIRECT;
+    closure_flatten(e->shader, &host, s->bsdf, out);
+    if (host.above)
+        closure_put_under(e->shader, &host, host.above, out);
+    e->lit.base = s->unlit ? emitter_vec3(e, s->unlit) : 0;
+    e->lit.base = add(e, e->lit.base, emitter_emission(e, s->edf));
+    e->lit.base = add(e, e->lit.base, emission_of(e, out));
+}
+
+void emitter_light_surface(struct emitter *e, const struct closure_surface *s)
+{
+    struct closure_list list;
+    emitter_flatten(e, s, &list);
+    const bool *emitted = emitter_find_parts(e, s->bsdf, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++)
+        if (emitted[i])
+            shader_add_closure(e->shader, list.leaves.items[i].leaf);
+}
+
+ir_ref emitter_color(struct emitter *e)
+{
+    if (e->lit.color != UINT32_MAX)
+        return ir_build(e->graph, IR_LOCAL, IR_TYPE_VEC3, e->lit.color, NULL, 0);
+    return e->lit.base ? emitter_vec3(e, e->lit.base)
+                       : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f);
+}
