@@ -37,7 +37,7 @@ static void note_verbatim_types(struct osl *osl, str_id text)
 {
     const char *source = str_text(osl->spell->shader->strings, text);
     for (size_t i = 0; i < NUM_STRUCTS; i++) {
-        if (!strstr(source, structs[i].name))
+        if (!(osl->types >> structs[i].type & 1) && !strstr(source, structs[i].name))
             continue;
         osl->types |= 1u << structs[i].type;
         if (structs[i].type == IR_TYPE_VEC2 || structs[i].type == IR_TYPE_VEC4)

@@ -45,7 +45,8 @@ static const struct {
     {IR_MAX, "max", "TT", false},      {IR_MAX, "max", "Tf", false},
     {IR_MIX, "mix", "TTf", false},     {IR_MIX, "mix", "TTT", false},
     {IR_CLAMP, "clamp", "TTT", false}, {IR_CLAMP, "clamp", "Tff", false},
-    {IR_POW, "pow", "TT", false},      {IR_NORMALIZE, "normalize", "T", false},
+    {IR_POW, "pow", "TT", false},      {IR_POW, "pow", "Tf", false},
+    {IR_ATAN2, "atan2", "TT", false},  {IR_NORMALIZE, "normalize", "T", false},
     {IR_DOT, "dot", "TT", true},       {IR_LENGTH, "length", "T", true},
 };
 

@@ -21,12 +21,16 @@ struct choice {
     unsigned fitness;
 };
 
-/* Parsed source for a target is portable, and serves where the target's own needs a prelude. */
+/*
+ * Parsed source for a target is portable, as is code of mxgen: both serve where the source of this
+ * target needs a prelude.
+ */
 static void consider(const struct builder *b, const struct implementation *impl,
                      struct choice *choice)
 {
     unsigned f = fitness(b, impl);
-    bool is_parsed = impl->kind == IMPL_EXPRESSION || impl->kind == IMPL_FUNCTION;
+    bool is_parsed =
+        impl->kind == IMPL_EXPRESSION || impl->kind == IMPL_FUNCTION || impl->kind == IMPL_DYNAMIC;
     if (!f && is_parsed && !choice->parsed)
         choice->parsed = impl;
     if (f > choice->fitness && build_uses_prelude(b, impl)) {

@@ -15,7 +15,8 @@ struct search {
     struct arena *arena;
     VEC(struct scan_word) used;
     VEC(struct scan_word) declared;
-    bool is_list; /* an expression is a list of members, whose type depends on the place */
+    bool has_structs; /* it computes with values that OSL has no operators for */
+    bool is_list;     /* an expression is a list of members, whose type depends on the place */
 };
 
 static bool is_helper(const struct source_language *language, const struct scan_word *word)
@@ -84,7 +85,13 @@ static void scan_implementation(struct search *s, const struct builder *b,
             scan_id(s, library_source(b->lib, files.items[i], NULL)->text);
         return;
     }
-    for (uint32_t i = 0; i < library_nodedef(b->lib, impl->nodedef)->num_outputs; i++) {
+    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
+    const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
+    for (unsigned i = 0; i < def->num_inputs + def->num_outputs; i++) {
+        ir_type_id type = build_type(b, ports[i].type);
+        s->has_structs |= type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4;
+    }
+    for (uint32_t i = 0; i < def->num_outputs; i++) {
         str_id text = layer->refs.items[verbatim->first_expression + i];
         const char *expression = str_text(s->strings, text);
         s->is_list |= expression[0] == '{' && expression[1] != '{';
@@ -107,7 +114,7 @@ bool build_uses_prelude(const struct builder *b, const struct implementation *im
     for (uint32_t i = 0; i < s.used.len; i++)
         if (!is_declared(&s, &s.used.items[i]))
             return true;
-    return s.is_list;
+    return s.is_list || s.has_structs;
 }
 
 const char *build_absent_name(const struct builder *b, const struct implementation *impl)
