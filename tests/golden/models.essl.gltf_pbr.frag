@@ -1,0 +1,554 @@
+#version 300 es
+// gltf_pbr · surfacematerial · mxgen 0.1 · essl · complete · 9 closures · 0 textures
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+
+struct mx_GgxLobe {
+    vec3 N;
+    float cosine;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    mat3 to_map;
+    vec3 stretch;
+    float area;
+    vec3 v;
+    float masking;
+    vec3 top;
+    float step;
+    float weight;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float shrink;
+    float spread;
+};
+uniform vec3 SR_gltf_pbr_base_color;
+uniform float SR_gltf_pbr_metallic;
+uniform float SR_gltf_pbr_roughness;
+uniform float SR_gltf_pbr_transmission;
+uniform float SR_gltf_pbr_specular;
+uniform vec3 SR_gltf_pbr_specular_color;
+uniform float SR_gltf_pbr_ior;
+uniform float SR_gltf_pbr_alpha;
+uniform int SR_gltf_pbr_alpha_mode;
+uniform float SR_gltf_pbr_alpha_cutoff;
+uniform float SR_gltf_pbr_iridescence;
+uniform float SR_gltf_pbr_iridescence_ior;
+uniform float SR_gltf_pbr_iridescence_thickness;
+uniform vec3 SR_gltf_pbr_sheen_color;
+uniform float SR_gltf_pbr_sheen_roughness;
+uniform float SR_gltf_pbr_clearcoat;
+uniform float SR_gltf_pbr_clearcoat_roughness;
+uniform vec3 SR_gltf_pbr_emissive;
+uniform float SR_gltf_pbr_emissive_strength;
+uniform float SR_gltf_pbr_anisotropy_strength;
+uniform float SR_gltf_pbr_anisotropy_rotation;
+uniform vec3 u_viewPosition;
+uniform int u_numActiveLightSources;
+uniform mat4 u_envMatrix;
+uniform int u_envRadianceMips;
+uniform int u_envRadianceSamples;
+uniform float u_envLightIntensity;
+uniform float u_alphaThreshold;
+uniform bool u_refractionTwoSided;
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+uniform LightData u_lightData[3];
+uniform sampler2D u_envRadiance;
+uniform sampler2D u_envIrradiance;
+in vec3 vd_positionWorld;
+in vec3 vd_normalWorld;
+in vec3 vd_tangentWorld;
+out vec4 out1;
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(const mat4 m, const float x, const float y)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
+}
+
+// A channel of one polarisation after interference.
+float mx_film_channel(const float a, const vec2 r, const float terms)
+{
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
+}
+
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(const float a, const vec2 r, const float d, const vec3 gauss)
+{
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+}
+
+float mx_film_z(const float a, const vec2 r, const float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(2.2084, 1.001122, -0.0066121)));
+}
+
+float mx_film_y(const float a, const vec2 r, const float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(1.7953, 1.000222, -0.0093046)));
+}
+
+float mx_film_x(const float a, const vec2 r, const float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, vec3(2.2399, 0.153868, -0.0045282)));
+}
+
+// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
+// film is lower.
+vec3 mx_film_turned(const vec3 f0, const vec3 f, const float ior)
+{
+    return (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * f, vec3(0.0)));
+}
+
+vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    vec3 r = -mx_film_turned(f0, f0, ior);
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * vec3(mx_film_x(a, vec2(r.x, 0.0), d), mx_film_y(a, vec2(r.y, 0.0), d),
+        mx_film_z(a, vec2(r.z, 0.0), d)), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick_facing(n, film, film_ior);
+    return n;
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    vec3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(const float cosine, const float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    vec2 a = cosine * vec2(1.0, ior * ior);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+// Rodrigues' formula; the axis has unit length.
+vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    vec3 H = V + L;
+    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
+{
+    float x = 1.0 - cosine;
+    return mix(f0, f90, x * x * x * x * x);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+{
+    vec2 x = vec2(cosine, ior * cosine);
+    vec2 u = vec2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour.
+vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    vec2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    vec3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, f90), ior);
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * (0.5 * vec3(mx_film_x(a.x, vec2(-r.x, 0.0), d) + mx_film_x(a.y, vec2(r.x, 0.0), d),
+        mx_film_y(a.x, vec2(-r.y, 0.0), d) + mx_film_y(a.y, vec2(r.y, 0.0), d), mx_film_z(a.x, vec2(-r.z, 0.0), d)
+        + mx_film_z(a.y, vec2(r.z, 0.0), d))), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, f90, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, f90);
+}
+
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
+{
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+}
+
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
+    vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, stretch.x * stretch.y, v,
+        lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+}
+
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 d, const float spread)
+{
+    return textureLod(u_envRadiance, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top, `top` = v + z.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
+{
+    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+}
+
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
+{
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    vec3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    float spread = shrink * dot(cap, cap);
+    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+}
+
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+vec4 mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return vec4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(s.to_map * l, facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+}
+
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    vec3 x = lobe.x;
+    mat3 frame = mat3(x, cross(lobe.N, x), lobe.N);
+    vec3 v = vec3((V * frame).xy, lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, stretch.x * stretch.y, v, lobe.masking, top, share * top.z,
+        share * (v.z + lobe.masking));
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
+{
+    vec3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light that comes through it and a solid sphere of an index behind it.
+vec4 mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 h = facet.h * sqrt(facet.shrink);
+    return vec4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), clamp(dot(s.v, h), 1e-8, 1.0));
+}
+
+void main()
+{
+    vec3 color = SR_gltf_pbr_emissive * SR_gltf_pbr_emissive_strength;
+    // lights
+    vec3 N = normalize(vd_normalWorld);
+    vec3 V = normalize(u_viewPosition - vd_positionWorld);
+    // SR_gltf_pbr
+    vec3 Nf = faceforward(N, -V, N);
+    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
+    vec3 fresnel_facing = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0),
+        0.0);
+    vec3 f90 = vec3(max(SR_gltf_pbr_specular, 0.0));
+    float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
+    vec2 specular_roughness = clamp(vec2(mix(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
+        * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
+    vec2 alpha = clamp(specular_roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
+    vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    vec3 product = mix(fresnel_facing, f90, albedo.y) * albedo.x;
+    float difference = 1.0 / albedo.x - 1.0;
+    vec3 reflection_scale = difference * mix(fresnel_facing, f90, 0.04761905) + vec3(1.0);
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
+    vec3 reflection_film_scale = mix(mx_fresnel_facing(fresnel_facing, SR_gltf_pbr_iridescence_thickness,
+        SR_gltf_pbr_iridescence_ior), f90, 0.04761905) * difference + vec3(1.0);
+    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
+    vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
+        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
+    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
+    float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
+        4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
+        / (sheen_rough + 0.2)), 0.0, 1.0);
+    float substrate_weight = coating_difference * (1.0 - sheen_weight * sheen_albedo);
+    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
+        SR_gltf_pbr_iridescence) * substrate_weight;
+    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
+    float diffuse_weight = dielectric_weight * (1.0 - SR_gltf_pbr_transmission);
+    vec3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), N, V);
+    float s = 1.0 / max(sheen_rough, 0.005);
+    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
+    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    vec3 fresnel_facing_2 = max(SR_gltf_pbr_base_color, 0.0);
+    vec3 metal_film_product = (difference
+        * mix(mx_fresnel_facing(fresnel_facing_2, SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior),
+        vec3(1.0), 0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
+    vec3 specular_tangent = mx_rotate3d(normalize(vd_tangentWorld),
+        radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
+    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
+    float metal_bare_weight = SR_gltf_pbr_metallic * (1.0 - SR_gltf_pbr_iridescence);
+    vec3 metal_bare_product = (difference * mix(fresnel_facing_2, vec3(1.0), 0.04761905) + vec3(1.0))
+        * (substrate_weight * metal_bare_weight);
+    bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
+    vec3 reflection_film_product = reflection_film_scale
+        * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
+    float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
+    vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // diffuse
+        int type = u_lightData[i].type;
+        vec3 d = u_lightData[i].position - vd_positionWorld;
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        vec3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        color += directional_light_light * (cos_l / 3.1415927 * diffuse_product);
+        // coating
+        float v_dot_l = dot(V, L);
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
+        if (SR_gltf_pbr_clearcoat > 0.0)
+            color += directional_light_light
+                * (SR_gltf_pbr_clearcoat * coating_scale
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
+        // fuzz
+        if (sheen_weight > 0.0) {
+            float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
+            float fuzz_product_2 = cos_l
+                * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
+                / 6.2831855);
+            color += directional_light_light
+                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
+        }
+        // metal_film
+        float ggx_light = mx_ggx_light_2(lobe, V, L);
+        if (metal_film_weight > 0.0)
+            color += directional_light_light
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing_2, vec3(1.0), SR_gltf_pbr_iridescence_thickness,
+                SR_gltf_pbr_iridescence_ior)));
+        // metal_bare
+        if (metal_bare_weight > 0.0)
+            color += directional_light_light
+                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing_2, vec3(1.0))));
+        // reflection_film
+        if (reflection_film_visible)
+            color += directional_light_light
+                * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, SR_gltf_pbr_iridescence_thickness,
+                SR_gltf_pbr_iridescence_ior)));
+        // reflection
+        if (reflection_weight > 0.0)
+            color += directional_light_light
+                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90)));
+    }
+    // environment
+    // fuzz
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    if (sheen_weight > 0.0)
+        color += fuzz_product * part * (sheen_albedo * u_envLightIntensity);
+    // diffuse
+    if (diffuse_weight > 0.0)
+        color += u_envLightIntensity * (diffuse_product * part);
+    // coating
+    if (SR_gltf_pbr_clearcoat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), N, V);
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            vec4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (SR_gltf_pbr_clearcoat * coating_scale
+                * mx_fresnel_dielectric(coating_light.w, 1.5));
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // metal_film, metal_bare, reflection_film, reflection
+    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
+    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+        if (SR_gltf_pbr_iridescence_thickness > 0.0) {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product
+                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0),
+                        SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior) * metal_film_ggx_reflected.xyz);
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0)));
+                // reflection_film
+                if (reflection_film_visible)
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90,
+                        SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior));
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90));
+                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film, metal_bare
+                vec4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                vec3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, vec3(1.0))
+                    * metal_film_ggx_reflected.xyz;
+                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
+                // reflection_film
+                vec3 reflection_product_2 = metal_film_ggx_reflected.xyz
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90);
+                if (reflection_film_visible)
+                    color += reflection_film_product * reflection_product_2;
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product * reflection_product_2;
+                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
+    }
+    // refraction
+    if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
+        vec3 refraction_tint = fresnel_facing_2 * (u_refractionTwoSided ? fresnel_facing_2 : vec3(1.0));
+        vec3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+        vec2 turn = vec2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            vec4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
+            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_gltf_pbr_ior))
+                * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // opacity
+    float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
+    float opacity = 1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3 > SR_gltf_pbr_alpha_mode
+        ? SR_gltf_pbr_alpha : 0.0;
+    if (opacity < u_alphaThreshold)
+        discard;
+    out1 = vec4(opacity * color, opacity);
+}

@@ -1,0 +1,611 @@
+// gltf_pbr · surfacematerial · mxgen 0.1 · hlsl · complete · 9 closures · 0 textures
+// shader model 6.0
+
+struct mx_GgxLobe {
+    float3 N;
+    float cosine;
+    float3 x;
+    float2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    float3x3 to_map;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float3 top;
+    float step;
+    float weight;
+};
+struct mx_GgxFacet {
+    float3 h;
+    float shrink;
+    float spread;
+};
+cbuffer PublicUniforms : register(b1)
+{
+    float3 SR_gltf_pbr_base_color : packoffset(c0);
+    float SR_gltf_pbr_metallic : packoffset(c0.w);
+    float SR_gltf_pbr_roughness : packoffset(c1);
+    float SR_gltf_pbr_transmission : packoffset(c1.y);
+    float SR_gltf_pbr_specular : packoffset(c1.z);
+    float3 SR_gltf_pbr_specular_color : packoffset(c2);
+    float SR_gltf_pbr_ior : packoffset(c2.w);
+    float SR_gltf_pbr_alpha : packoffset(c3);
+    int SR_gltf_pbr_alpha_mode : packoffset(c3.y);
+    float SR_gltf_pbr_alpha_cutoff : packoffset(c3.z);
+    float SR_gltf_pbr_iridescence : packoffset(c3.w);
+    float SR_gltf_pbr_iridescence_ior : packoffset(c4);
+    float SR_gltf_pbr_iridescence_thickness : packoffset(c4.y);
+    float3 SR_gltf_pbr_sheen_color : packoffset(c5);
+    float SR_gltf_pbr_sheen_roughness : packoffset(c5.w);
+    float SR_gltf_pbr_clearcoat : packoffset(c6);
+    float SR_gltf_pbr_clearcoat_roughness : packoffset(c6.y);
+    float3 SR_gltf_pbr_emissive : packoffset(c7);
+    float SR_gltf_pbr_emissive_strength : packoffset(c7.w);
+    float SR_gltf_pbr_anisotropy_strength : packoffset(c8);
+    float SR_gltf_pbr_anisotropy_rotation : packoffset(c8.y);
+};
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    int u_envRadianceMips : packoffset(c17);
+    int u_envRadianceSamples : packoffset(c17.y);
+    float u_envLightIntensity : packoffset(c17.z);
+    float u_alphaThreshold : packoffset(c17.w);
+    bool u_refractionTwoSided : packoffset(c18);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+Texture2D u_envRadiance : register(t3);
+SamplerState u_envRadiance_sampler : register(s3);
+Texture2D u_envIrradiance : register(t4);
+SamplerState u_envIrradiance_sampler : register(s4);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
+{
+    mx_GgxLobe made;
+    made.N = N;
+    made.cosine = cosine;
+    made.x = x;
+    made.alpha = alpha;
+    made.masking = masking;
+    return made;
+}
+
+mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 top,
+    float step, float weight)
+{
+    mx_GgxSamples made;
+    made.to_map = to_map;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.top = top;
+    made.step = step;
+    made.weight = weight;
+    return made;
+}
+
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
+{
+    mx_GgxFacet made;
+    made.h = h;
+    made.shrink = shrink;
+    made.spread = spread;
+    return made;
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+// A channel of one polarisation after interference.
+float mx_film_channel(float a, float2 r, float terms)
+{
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
+}
+
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(float a, float2 r, float d, float3 gauss)
+{
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+}
+
+float mx_film_z(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
+}
+
+float mx_film_y(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.7953, 1.000222, -0.0093046)));
+}
+
+float mx_film_x(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, float3(2.2399, 0.153868, -0.0045282)));
+}
+
+// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
+// film is lower.
+float3 mx_film_turned(float3 f0, float3 f, float ior)
+{
+    return (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * f, 0.0));
+}
+
+float3 mx_film_schlick_facing(float3 f0, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float3 r = -mx_film_turned(f0, f0, ior);
+    return clamp(mul(float3(mx_film_x(a, float2(r.x, 0.0), d), mx_film_y(a, float2(r.y, 0.0), d),
+        mx_film_z(a, float2(r.z, 0.0), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel_facing(float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick_facing(n, film, film_ior);
+    return n;
+}
+
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, float3(0.0, 0.0, 0.0), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float3 slope = cross(V + L, lobe.N) / lobe.alpha.x;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float2 a = cosine * float2(1.0, ior * ior);
+    float2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+// Rodrigues' formula; the axis has unit length.
+float3 mx_rotate3d(float3 v, float angle, float3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light_2(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float3 H = V + L;
+    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
+{
+    float x = 1.0 - cosine;
+    return lerp(f0, f90, x * x * x * x * x);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour.
+float3 mx_film_schlick(float cosine, float3 f0, float3 f90, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, f90), ior);
+    return clamp(mul(0.5 * float3(mx_film_x(a.x, float2(-r.x, 0.0), d) + mx_film_x(a.y, float2(r.x, 0.0), d),
+        mx_film_y(a.x, float2(-r.y, 0.0), d) + mx_film_y(a.y, float2(r.y, 0.0), d), mx_film_z(a.x, float2(-r.z, 0.0), d)
+        + mx_film_z(a.y, float2(r.z, 0.0), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float3 f90, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, f90, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, f90);
+}
+
+// The point of the picture for a unit direction in it.
+float2 mx_map_point(float3 d)
+{
+    float2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+}
+
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
+    float3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    float3 v = float3(float2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, stretch.x
+        * stretch.y, v, lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+}
+
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float spread)
+{
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top, `top` = v + z.
+float3 mx_ggx_cap(float2 around, float depth, float3 top)
+{
+    return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+}
+
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
+{
+    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    float3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    float spread = shrink * dot(cap, cap);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+}
+
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return float4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(mul(l, s.to_map), facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+}
+
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3 x = lobe.x;
+    float3x3 frame = float3x3(x, cross(lobe.N, x), lobe.N);
+    float3 v = float3(mul(frame, V).xy, lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, stretch.x * stretch.y, v, lobe.masking, top,
+        share * top.z, share * (v.z + lobe.masking));
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light that comes through it and a solid sphere of an index behind it.
+float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 h = facet.h * sqrt(facet.shrink);
+    return float4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread),
+        clamp(dot(s.v, h), 1e-8, 1.0));
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    float3 color = SR_gltf_pbr_emissive * SR_gltf_pbr_emissive_strength;
+    // lights
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
+    // SR_gltf_pbr
+    float3 Nf = faceforward(N, -V, N);
+    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
+    float3 fresnel_facing = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0),
+        0.0);
+    float3 f90 = (float3)max(SR_gltf_pbr_specular, 0.0);
+    float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
+    float2 specular_roughness = clamp(float2(lerp(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
+        * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
+    float2 alpha = clamp(specular_roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float3 product = lerp(fresnel_facing, f90, albedo.y) * albedo.x;
+    float difference = 1.0 / albedo.x - 1.0;
+    float3 reflection_scale = difference * lerp(fresnel_facing, f90, 0.04761905) + float3(1.0, 1.0, 1.0);
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, float3(0.33333334, 0.33333334, 0.33333334));
+    float iridescence_thickness = SR_gltf_pbr_iridescence_thickness;
+    float iridescence_ior = SR_gltf_pbr_iridescence_ior;
+    float3 reflection_film_scale = lerp(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior), f90,
+        0.04761905) * difference + float3(1.0, 1.0, 1.0);
+    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
+    float2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
+        * (lerp(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
+    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
+    float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
+        / (sheen_rough + 0.2)), 0.0, 1.0);
+    float substrate_weight = coating_difference * (1.0 - sheen_weight * sheen_albedo);
+    float body_weight = lerp(reflection_throughput, 1.0
+        - dot(product * reflection_film_scale, float3(0.33333334, 0.33333334, 0.33333334)), SR_gltf_pbr_iridescence)
+        * substrate_weight;
+    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
+    float diffuse_weight = dielectric_weight * (1.0 - SR_gltf_pbr_transmission);
+    float3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_lobe, N, V);
+    float s = 1.0 / max(sheen_rough, 0.005);
+    float3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
+    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    float3 fresnel_facing_2 = max(SR_gltf_pbr_base_color, 0.0);
+    float3 metal_film_product = (difference
+        * lerp(mx_fresnel_facing(fresnel_facing_2, iridescence_thickness, iridescence_ior), float3(1.0, 1.0, 1.0),
+        0.04761905) + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
+    float3 specular_tangent = mx_rotate3d(normalize(vd.tangentWorld),
+        radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
+    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
+    float metal_bare_weight = SR_gltf_pbr_metallic * (1.0 - SR_gltf_pbr_iridescence);
+    float3 metal_bare_product = (difference * lerp(fresnel_facing_2, float3(1.0, 1.0, 1.0), 0.04761905)
+        + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_bare_weight);
+    bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
+    float3 reflection_film_product = reflection_film_scale
+        * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
+    float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
+    float3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // diffuse
+        int type = u_lightData[i].type;
+        float3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        color += directional_light_light * (cos_l / 3.1415927 * diffuse_product);
+        // coating
+        float v_dot_l = dot(V, L);
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
+        if (SR_gltf_pbr_clearcoat > 0.0)
+            color += directional_light_light
+                * (SR_gltf_pbr_clearcoat * coating_scale
+                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5)));
+        // fuzz
+        if (sheen_weight > 0.0) {
+            float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
+            float fuzz_product_2 = cos_l
+                * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
+                / 6.2831855);
+            color += directional_light_light
+                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
+        }
+        // metal_film
+        float ggx_light = mx_ggx_light_2(lobe, V, L);
+        if (metal_film_weight > 0.0)
+            color += directional_light_light
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0), iridescence_thickness, iridescence_ior)));
+        // metal_bare
+        if (metal_bare_weight > 0.0)
+            color += directional_light_light
+                * (metal_bare_product * (ggx_light
+                * mx_fresnel_schlick(cosine, fresnel_facing_2, float3(1.0, 1.0, 1.0))));
+        // reflection_film
+        if (reflection_film_visible)
+            color += directional_light_light
+                * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, iridescence_thickness, iridescence_ior)));
+        // reflection
+        if (reflection_weight > 0.0)
+            color += directional_light_light
+                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90)));
+    }
+    // environment
+    // fuzz
+    float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+    if (sheen_weight > 0.0)
+        color += fuzz_product * part * (sheen_albedo * u_envLightIntensity);
+    // diffuse
+    if (diffuse_weight > 0.0)
+        color += u_envLightIntensity * (diffuse_product * part);
+    // coating
+    if (SR_gltf_pbr_clearcoat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_lobe, N, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (SR_gltf_pbr_clearcoat * coating_scale
+                * mx_fresnel_dielectric(coating_light.w, 1.5));
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // metal_film, metal_bare, reflection_film, reflection
+    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
+    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+        if (iridescence_thickness > 0.0) {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product
+                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, float3(1.0, 1.0, 1.0),
+                        iridescence_thickness, iridescence_ior) * metal_film_ggx_reflected.xyz);
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2, float3(1.0, 1.0, 1.0)));
+                // reflection_film
+                if (reflection_film_visible)
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90, iridescence_thickness,
+                        iridescence_ior));
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90));
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film, metal_bare
+                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                float3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing_2,
+                    float3(1.0, 1.0, 1.0)) * metal_film_ggx_reflected.xyz;
+                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
+                // reflection_film
+                float3 reflection_product_2 = metal_film_ggx_reflected.xyz
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, f90);
+                if (reflection_film_visible)
+                    color += reflection_film_product * reflection_product_2;
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product * reflection_product_2;
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
+    }
+    // refraction
+    if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
+        float3 refraction_tint = fresnel_facing_2 * (u_refractionTwoSided ? fresnel_facing_2 : float3(1.0, 1.0, 1.0));
+        float3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
+            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, SR_gltf_pbr_ior))
+                * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // opacity
+    float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
+    float opacity = 1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3 > SR_gltf_pbr_alpha_mode
+        ? SR_gltf_pbr_alpha : 0.0;
+    if (opacity < u_alphaThreshold)
+        discard;
+    out1 = float4(opacity * color, opacity);
+}

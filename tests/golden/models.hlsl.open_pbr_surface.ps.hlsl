@@ -1,0 +1,799 @@
+// open_pbr_surface · surfacematerial · mxgen 0.1 · hlsl · complete · 12 closures · 0 textures
+// shader model 6.0
+
+struct mx_GgxLobe {
+    float3 N;
+    float cosine;
+    float3 x;
+    float2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    float3x3 to_map;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float3 top;
+    float step;
+    float weight;
+};
+struct mx_GgxFacet {
+    float3 h;
+    float shrink;
+    float spread;
+};
+cbuffer PublicUniforms : register(b1)
+{
+    float SR_open_pbr_surface_base_weight : packoffset(c0);
+    float3 SR_open_pbr_surface_base_color : packoffset(c0.y);
+    float SR_open_pbr_surface_base_diffuse_roughness : packoffset(c1);
+    float SR_open_pbr_surface_base_metalness : packoffset(c1.y);
+    float SR_open_pbr_surface_specular_weight : packoffset(c1.z);
+    float3 SR_open_pbr_surface_specular_color : packoffset(c2);
+    float SR_open_pbr_surface_specular_roughness : packoffset(c2.w);
+    float SR_open_pbr_surface_specular_ior : packoffset(c3);
+    float SR_open_pbr_surface_specular_roughness_anisotropy : packoffset(c3.y);
+    float SR_open_pbr_surface_transmission_weight : packoffset(c3.z);
+    float3 SR_open_pbr_surface_transmission_color : packoffset(c4);
+    float SR_open_pbr_surface_transmission_depth : packoffset(c4.w);
+    float3 SR_open_pbr_surface_transmission_scatter : packoffset(c5);
+    float SR_open_pbr_surface_subsurface_weight : packoffset(c5.w);
+    float3 SR_open_pbr_surface_subsurface_color : packoffset(c6);
+    float SR_open_pbr_surface_subsurface_radius : packoffset(c6.w);
+    float3 SR_open_pbr_surface_subsurface_radius_scale : packoffset(c7);
+    float SR_open_pbr_surface_subsurface_scatter_anisotropy : packoffset(c7.w);
+    float SR_open_pbr_surface_fuzz_weight : packoffset(c8);
+    float3 SR_open_pbr_surface_fuzz_color : packoffset(c8.y);
+    float SR_open_pbr_surface_fuzz_roughness : packoffset(c9);
+    float SR_open_pbr_surface_coat_weight : packoffset(c9.y);
+    float3 SR_open_pbr_surface_coat_color : packoffset(c10);
+    float SR_open_pbr_surface_coat_roughness : packoffset(c10.w);
+    float SR_open_pbr_surface_coat_roughness_anisotropy : packoffset(c11);
+    float SR_open_pbr_surface_coat_ior : packoffset(c11.y);
+    float SR_open_pbr_surface_coat_darkening : packoffset(c11.z);
+    float SR_open_pbr_surface_thin_film_weight : packoffset(c11.w);
+    float SR_open_pbr_surface_thin_film_thickness : packoffset(c12);
+    float SR_open_pbr_surface_thin_film_ior : packoffset(c12.y);
+    float SR_open_pbr_surface_emission_luminance : packoffset(c12.z);
+    float3 SR_open_pbr_surface_emission_color : packoffset(c13);
+    float SR_open_pbr_surface_geometry_opacity : packoffset(c13.w);
+    bool SR_open_pbr_surface_geometry_thin_walled : packoffset(c14);
+};
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    int u_envRadianceMips : packoffset(c17);
+    int u_envRadianceSamples : packoffset(c17.y);
+    float u_envLightIntensity : packoffset(c17.z);
+    float u_alphaThreshold : packoffset(c17.w);
+    bool u_refractionTwoSided : packoffset(c18);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+Texture2D u_envRadiance : register(t3);
+SamplerState u_envRadiance_sampler : register(s3);
+Texture2D u_envIrradiance : register(t4);
+SamplerState u_envIrradiance_sampler : register(s4);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
+{
+    mx_GgxLobe made;
+    made.N = N;
+    made.cosine = cosine;
+    made.x = x;
+    made.alpha = alpha;
+    made.masking = masking;
+    return made;
+}
+
+mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 top,
+    float step, float weight)
+{
+    mx_GgxSamples made;
+    made.to_map = to_map;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.top = top;
+    made.step = step;
+    made.weight = weight;
+    return made;
+}
+
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
+{
+    mx_GgxFacet made;
+    made.h = h;
+    made.shrink = shrink;
+    made.spread = spread;
+    return made;
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float2 a = cosine * float2(1.0, ior * ior);
+    float2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+// OpenPBR Surface specification, "Microfacet model".
+float2 mx_open_pbr_anisotropy(float roughness, float anisotropy)
+{
+    float aspect = 1.0 - anisotropy;
+    return roughness * roughness * sqrt(2.0 / (1.0 + aspect * aspect)) * float2(1.0, aspect);
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+// A channel of one polarisation after interference.
+float mx_film_channel(float a, float2 r, float terms)
+{
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
+}
+
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(float a, float2 r, float d, float3 gauss)
+{
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+}
+
+float mx_film_x(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, float3(2.2399, 0.153868, -0.0045282)));
+}
+
+// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+float2 mx_film_amplitude(float2 x, float2 u)
+{
+    return float2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
+}
+
+// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+float2 mx_fresnel_refract(float cosine, float re, float im)
+{
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
+    return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
+}
+
+float mx_film_y(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.7953, 1.000222, -0.0093046)));
+}
+
+float mx_film_z(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
+}
+
+// Facing the viewer both polarisations are alike.
+float3 mx_film_index_facing(float3 re, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float2 across = float2(1.0, 0.0);
+    float3 r = re / (ior * ior);
+    float3 i = float3(0.0, 0.0, 0.0) / (ior * ior);
+    return clamp(mul(float3(mx_film_x(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.x, i.x)), d),
+        mx_film_y(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.y, i.y)), d),
+        mx_film_z(a, mx_film_amplitude(float2(1.0, 0.0), mx_fresnel_refract(1.0, r.z, i.z)), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel_facing(float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index_facing(n * n, film, film_ior);
+    return (float3)mx_fresnel_dielectric(1.0, n.x);
+}
+
+// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+float2 mx_sheen_transform(float c, float r)
+{
+    return float2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c)
+        * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+}
+
+// Into the tangent space around N with x along the unit tangent `x`, and out of it.
+float3 mx_enter_frame(float3 w, float3 N, float3 x)
+{
+    return float3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
+}
+
+// Unit tangent along X.
+float3 mx_tangent(float3 N, float3 X)
+{
+    return normalize(X - dot(X, N) * N);
+}
+
+float mx_sheen_zeltner(float3 N, float3 V, float3 L, float c, float r)
+{
+    float2 m = mx_sheen_transform(c, r);
+    float3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
+    float3 w = float3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
+    float scale = m.x / dot(w, w);
+    return max(w.z, 0.0) / 3.1415927 * scale * scale;
+}
+
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float3 H = V + L;
+    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
+// film is lower.
+float3 mx_film_turned(float3 f0, float3 f, float ior)
+{
+    return (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * f, 0.0));
+}
+
+float3 mx_film_schlick_facing(float3 f0, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float3 r = -mx_film_turned(f0, f0, ior);
+    return clamp(mul(float3(mx_film_x(a, float2(r.x, 0.0), d), mx_film_y(a, float2(r.y, 0.0), d),
+        mx_film_z(a, float2(r.z, 0.0), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel_facing_2(float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick_facing(n, film, film_ior);
+    return n;
+}
+
+float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
+{
+    float x = 1.0 - cosine;
+    float x3 = x * x * x;
+    return lerp(f0, float3(1.0, 1.0, 1.0), x3 * x * x) - bend * (cosine * x3 * x3);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour.
+float3 mx_film_schlick(float cosine, float3 f0, float3 bend, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, bend), ior);
+    return clamp(mul(0.5 * float3(mx_film_x(a.x, float2(-r.x, 0.0), d) + mx_film_x(a.y, float2(r.x, 0.0), d),
+        mx_film_y(a.x, float2(-r.y, 0.0), d) + mx_film_y(a.y, float2(r.y, 0.0), d), mx_film_z(a.x, float2(-r.z, 0.0), d)
+        + mx_film_z(a.y, float2(r.z, 0.0), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, k, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, k);
+}
+
+// A film on a permittivity.
+float3 mx_film_index(float cosine, float3 re, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float2 across = float2(c, 0.0);
+    float2 below = float2(re.x, 0.0) / (ior * ior);
+    float2 u = mx_fresnel_refract(c, below.x, below.y);
+    float x = mx_film_x(a.x, mx_film_amplitude(across, u), d) + mx_film_x(a.y, mx_film_amplitude(c * below, u), d);
+    below = float2(re.y, 0.0) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float y = mx_film_y(a.x, mx_film_amplitude(across, u), d) + mx_film_y(a.y, mx_film_amplitude(c * below, u), d);
+    below = float2(re.z, 0.0) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float z = mx_film_z(a.x, mx_film_amplitude(across, u), d) + mx_film_z(a.y, mx_film_amplitude(c * below, u), d);
+    return clamp(mul(0.5 * float3(x, y, z),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n * n, film, film_ior);
+    return (float3)mx_fresnel_dielectric(cosine, n.x);
+}
+
+float3 mx_subsurface_light(float3 falloff, float cos_l)
+{
+    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
+    float3 light = float3(0.0, 0.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    float2 middle = float2(0.9987955, 0.04906767);
+    while (middle.x > 0.0) {
+        float d = middle.y;
+        float3 e = exp(falloff * d);
+        float3 profile = (e + e * e * e) / d;
+        float along = cos_l * (1.0 - 2.0 * d * d);
+        float across = sin_l * (2.0 * d * middle.x);
+        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
+        sum += 2.0 * profile;
+        middle = mul(middle, float2x2(0.9951847, 0.09801714, -0.09801714, 0.9951847));
+    }
+    return light / (3.1415927 * sum);
+}
+
+// Directional albedo of Fujii's lobe.
+float mx_fujii_albedo(float cosine, float r)
+{
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine) + 0.6666667
+        * (sine / cosine * (1.0 - sine * sine * sine) - sine);
+    return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
+}
+
+// The point of the picture for a unit direction in it.
+float2 mx_map_point(float3 d)
+{
+    float2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+}
+
+// Albedo of what the lobe scatters more than once, relative to `color`.
+float3 mx_fujii_multiple(float3 color, float mean)
+{
+    return color * mean / (1.0 - color * max(1.0 - mean, 0.0));
+}
+
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3 x = lobe.x;
+    float3x3 frame = float3x3(x, cross(lobe.N, x), lobe.N);
+    float3 v = float3(mul(frame, V).xy, lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, stretch.x * stretch.y, v, lobe.masking, top,
+        share * top.z, share * (v.z + lobe.masking));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+}
+
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float spread)
+{
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top, `top` = v + z.
+float3 mx_ggx_cap(float2 around, float depth, float3 top)
+{
+    return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+}
+
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
+{
+    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    float3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    float spread = shrink * dot(cap, cap);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+}
+
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return float4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(mul(l, s.to_map), facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light that comes through it and a solid sphere of an index behind it.
+float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 h = facet.h * sqrt(facet.shrink);
+    return float4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread),
+        clamp(dot(s.v, h), 1e-8, 1.0));
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    float coat_weight = SR_open_pbr_surface_coat_weight;
+    float coat_ior = SR_open_pbr_surface_coat_ior;
+    float coat_front = coat_ior * 4.0 / ((coat_ior + 1.0) * (coat_ior + 1.0));
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
+    float absolute = abs(dot(N, V));
+    float3 color = SR_open_pbr_surface_emission_luminance
+        * (SR_open_pbr_surface_emission_color
+        * (1.0 - coat_weight + SR_open_pbr_surface_coat_color
+        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+    // lights
+    float3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
+    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
+    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
+    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
+    float ior_relative = lerp(SR_open_pbr_surface_specular_ior,
+        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
+    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
+        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
+    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
+    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
+    float2 roughness = mx_open_pbr_anisotropy(lerp(SR_open_pbr_surface_specular_roughness,
+        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
+        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(absolute, 1e-8);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float product = lerp(fresnel_bare, 1.0, albedo.y) * albedo.x;
+    float difference = 1.0 / albedo.x - 1.0;
+    float reflection_scale = difference * lerp(fresnel_bare, 1.0, 0.04761905) + 1.0;
+    float3 reflection_throughput = (float3)(1.0 - product * reflection_scale);
+    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
+    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
+    float3 reflection_film_scale = lerp(mx_fresnel_facing((float3)ior, film_thickness, thin_film_ior),
+        float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
+    float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
+    float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
+    float x = (cos_v - r * (r * (r * (1.7932 - r * (r * 0.95943)) - 1.14885) - 0.193854) / (r + 0.046391)) / width;
+    float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
+    float fuzz_product = r * (r * (r * 0.119681 - 0.0207818) + 0.000654023);
+    float fuzz_product_2 = SR_open_pbr_surface_fuzz_weight
+        * max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
+    float coating_fresnel_bare = mx_fresnel_dielectric(1.0, coat_ior);
+    float2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
+        SR_open_pbr_surface_coat_roughness_anisotropy);
+    float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
+    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
+    float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    float coating_scale = lerp(coating_fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coated_weight = (1.0 - fuzz_product_2)
+        * (1.0 - coat_weight * (lerp(coating_fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
+    float3 substrate_darkened_weight = coated_weight
+        * clamp(lerp(float3(1.0, 1.0, 1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0);
+    float coat_escape = coat_front / (coat_ior * coat_ior);
+    float3 darkening = coat_escape / (float3(1.0, 1.0, 1.0)
+        - lerp(lerp(SR_open_pbr_surface_base_color, SR_open_pbr_surface_subsurface_color,
+        SR_open_pbr_surface_subsurface_weight), SR_open_pbr_surface_base_color * SR_open_pbr_surface_specular_weight,
+        SR_open_pbr_surface_base_metalness) * (1.0 - coat_escape));
+    float3 substrate_weight = substrate_darkened_weight
+        * clamp(lerp(float3(1.0, 1.0, 1.0), darkening, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
+    float3 body_weight = lerp(reflection_throughput, float3(1.0, 1.0, 1.0) - product * reflection_film_scale,
+        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
+    float3 sheet_front_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0,
+        1.0)));
+    float3 Nf = faceforward(N, -V, N);
+    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
+    float2 ab = base_diffuse_roughness * base_diffuse_roughness * float2(-0.5, 0.45)
+        / (base_diffuse_roughness * base_diffuse_roughness + float2(0.33, 0.09)) + float2(1.0, 0.0);
+    float3 sheet_back_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
+        1.0)));
+    float limited_cos_v = min(cos_v, 1.0);
+    float3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
+    float coating_product = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
+    float3 X = normalize(vd.tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
+    float metal_film_weight = SR_open_pbr_surface_specular_weight
+        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
+    float3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
+    float3 metal_film_product = (difference
+        * lerp(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), float3(1.0, 1.0, 1.0), 0.04761905)
+        + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
+    float3 schlick_bend = lerp(fresnel_facing, float3(1.0, 1.0, 1.0), 0.4626644)
+        * (float3(1.0, 1.0, 1.0) - limited_specular_color) * 17.651384;
+    float metal_bare_weight = SR_open_pbr_surface_specular_weight
+        * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
+    float3 metal_bare_product = (difference * lerp(fresnel_facing, float3(1.0, 1.0, 1.0), 0.04761905)
+        + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_bare_weight);
+    bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
+    float3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
+        * (reflection_film_scale * limited_specular_color);
+    float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
+    float3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
+    float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
+    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
+    float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
+        / (scaled_curvature * max(SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale,
+        0.1));
+    float3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
+    float diffuse_weight = SR_open_pbr_surface_base_weight
+        * (opaque_weight * (1.0 - SR_open_pbr_surface_subsurface_weight));
+    float3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
+    float3 diffuse_product = base_positive * (body_weight * diffuse_weight);
+    float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
+    float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
+    float3 fujii_multiple = base_positive * mean / (float3(1.0, 1.0, 1.0) - base_positive * max(1.0 - mean, 0.0));
+    float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
+    float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
+    float diffuse_greater_2 = max(1.0 - mean, 1e-8);
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // sheet_front, sheet_back
+        int type = u_lightData[i].type;
+        float3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        float v_dot_l = dot(V, L);
+        float s = v_dot_l - cos_v * cos_l;
+        float greater = max(cos_l, cos_v);
+        float3 sheet_front_response = sheet_front_product * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += directional_light_light
+            * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
+        // fuzz
+        if (SR_open_pbr_surface_fuzz_weight > 0.0)
+            color += directional_light_light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3);
+        // coating
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
+        if (coat_weight > 0.0)
+            color += directional_light_light
+                * (coating_product * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior)));
+        // metal_film
+        float ggx_light = mx_ggx_light(lobe, V, L);
+        if (metal_film_weight > 0.0)
+            color += directional_light_light
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)));
+        // metal_bare
+        if (metal_bare_weight > 0.0)
+            color += directional_light_light
+                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend)));
+        // reflection_film
+        if (reflection_film_visible)
+            color += directional_light_light
+                * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, (float3)ior, film_thickness, thin_film_ior)));
+        // reflection
+        if (reflection_weight > 0.0)
+            color += directional_light_light * (reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
+        // scatter
+        if (scatter_weight > 0.0)
+            color += directional_light_light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+        // diffuse
+        if (diffuse_weight > 0.0) {
+            float diffuse_s = s / greater;
+            float3 diffuse_product_2 = fujii_multiple
+                * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l, base_diffuse_roughness), 1e-8)
+                / diffuse_greater_2);
+            color += directional_light_light
+                * (diffuse_product * (cos_l / 3.1415927
+                * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum + diffuse_product_2)));
+        }
+    }
+    // environment
+    // fuzz, sheet_front, scatter
+    float envLightIntensity = u_envLightIntensity;
+    float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+    float2 fit = base_diffuse_roughness * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076)
+        + base_diffuse_roughness * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
+    float3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    float3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
+    color += envLightIntensity * (scatter_product * part) + sum;
+    // sheet_back
+    if (scaled_sheet_weight > 0.0)
+        color += envLightIntensity * (sheet_back_product
+            * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+            mx_map_point(normalize(mul(float4(-Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz);
+    // diffuse
+    if (diffuse_weight > 0.0)
+        color += envLightIntensity * (lerp(mx_fujii_multiple(base_positive, mean), float3(1.0, 1.0, 1.0),
+            diffuse_fujii_albedo) * (diffuse_product * part));
+    // coating
+    if (coat_weight > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, X, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (coating_product * mx_fresnel_dielectric(coating_light.w, coat_ior));
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // metal_film, metal_bare, reflection_film, reflection
+    mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
+    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+        if (film_thickness > 0.0) {
+            float3 reflection_film_vector = (float3)(ior * ior);
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product
+                        * (mx_film_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend, film_thickness,
+                        thin_film_ior) * metal_film_ggx_reflected.xyz);
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing, schlick_bend));
+                // reflection_film
+                if (reflection_film_visible)
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.xyz
+                        * mx_film_index(metal_film_ggx_reflected.w, reflection_film_vector, film_thickness,
+                        thin_film_ior));
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.xyz * mx_fresnel_dielectric(metal_film_ggx_reflected.w, ior));
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal_film
+                float4 metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                float3 metal_bare_product_2 = mx_fresnel_schlick(metal_film_ggx_reflected.w, fresnel_facing,
+                    schlick_bend) * metal_film_ggx_reflected.xyz;
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product * metal_bare_product_2;
+                // metal_bare
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product * metal_bare_product_2;
+                // reflection_film
+                float3 reflection_product_2 = metal_film_ggx_reflected.xyz
+                    * mx_fresnel_dielectric(metal_film_ggx_reflected.w, ior);
+                if (reflection_film_visible)
+                    color += reflection_film_product * reflection_product_2;
+                // reflection
+                if (reflection_weight > 0.0)
+                    color += reflection_product * reflection_product_2;
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
+    }
+    // refraction
+    if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
+        float3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? float3(1.0, 1.0, 1.0)
+            : SR_open_pbr_surface_transmission_color, 0.0);
+        float3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
+            / SR_open_pbr_surface_transmission_depth;
+        float3 refraction_product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
+            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : float3(0.0, 0.0, 0.0))) * tint;
+        float3 refraction_product_2 = (u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0)) * refraction_product;
+        float3 refraction_product_3 = body_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight)
+            * refraction_product_2;
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+            color += refraction_product_3
+                * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, ior)) * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // opacity
+    if (SR_open_pbr_surface_geometry_opacity < u_alphaThreshold)
+        discard;
+    out1 = float4(SR_open_pbr_surface_geometry_opacity * color, SR_open_pbr_surface_geometry_opacity);
+}

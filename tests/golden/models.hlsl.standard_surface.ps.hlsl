@@ -1,0 +1,676 @@
+// standard_surface · surfacematerial · mxgen 0.1 · hlsl · complete · 9 closures · 0 textures
+// shader model 6.0
+
+struct mx_GgxLobe {
+    float3 N;
+    float cosine;
+    float3 x;
+    float2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    float3x3 to_map;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float3 top;
+    float step;
+    float weight;
+};
+struct mx_GgxFacet {
+    float3 h;
+    float shrink;
+    float spread;
+};
+cbuffer PublicUniforms : register(b1)
+{
+    float SR_standard_surface_base : packoffset(c0);
+    float3 SR_standard_surface_base_color : packoffset(c0.y);
+    float SR_standard_surface_diffuse_roughness : packoffset(c1);
+    float SR_standard_surface_metalness : packoffset(c1.y);
+    float SR_standard_surface_specular : packoffset(c1.z);
+    float3 SR_standard_surface_specular_color : packoffset(c2);
+    float SR_standard_surface_specular_roughness : packoffset(c2.w);
+    float SR_standard_surface_specular_IOR : packoffset(c3);
+    float SR_standard_surface_specular_anisotropy : packoffset(c3.y);
+    float SR_standard_surface_specular_rotation : packoffset(c3.z);
+    float SR_standard_surface_transmission : packoffset(c3.w);
+    float3 SR_standard_surface_transmission_color : packoffset(c4);
+    float SR_standard_surface_transmission_extra_roughness : packoffset(c4.w);
+    float SR_standard_surface_subsurface : packoffset(c5);
+    float3 SR_standard_surface_subsurface_color : packoffset(c5.y);
+    float3 SR_standard_surface_subsurface_radius : packoffset(c6);
+    float SR_standard_surface_subsurface_scale : packoffset(c6.w);
+    float SR_standard_surface_sheen : packoffset(c7);
+    float3 SR_standard_surface_sheen_color : packoffset(c7.y);
+    float SR_standard_surface_sheen_roughness : packoffset(c8);
+    float SR_standard_surface_coat : packoffset(c8.y);
+    float3 SR_standard_surface_coat_color : packoffset(c9);
+    float SR_standard_surface_coat_roughness : packoffset(c9.w);
+    float SR_standard_surface_coat_anisotropy : packoffset(c10);
+    float SR_standard_surface_coat_rotation : packoffset(c10.y);
+    float SR_standard_surface_coat_IOR : packoffset(c10.z);
+    float SR_standard_surface_coat_affect_color : packoffset(c10.w);
+    float SR_standard_surface_coat_affect_roughness : packoffset(c11);
+    float SR_standard_surface_thin_film_thickness : packoffset(c11.y);
+    float SR_standard_surface_thin_film_IOR : packoffset(c11.z);
+    float SR_standard_surface_emission : packoffset(c11.w);
+    float3 SR_standard_surface_emission_color : packoffset(c12);
+    float3 SR_standard_surface_opacity : packoffset(c13);
+    bool SR_standard_surface_thin_walled : packoffset(c13.w);
+};
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    int u_envRadianceMips : packoffset(c17);
+    int u_envRadianceSamples : packoffset(c17.y);
+    float u_envLightIntensity : packoffset(c17.z);
+    float u_alphaThreshold : packoffset(c17.w);
+    bool u_refractionTwoSided : packoffset(c18);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+Texture2D u_envRadiance : register(t3);
+SamplerState u_envRadiance_sampler : register(s3);
+Texture2D u_envIrradiance : register(t4);
+SamplerState u_envIrradiance_sampler : register(s4);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
+{
+    mx_GgxLobe made;
+    made.N = N;
+    made.cosine = cosine;
+    made.x = x;
+    made.alpha = alpha;
+    made.masking = masking;
+    return made;
+}
+
+mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 top,
+    float step, float weight)
+{
+    mx_GgxSamples made;
+    made.to_map = to_map;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.top = top;
+    made.step = step;
+    made.weight = weight;
+    return made;
+}
+
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
+{
+    mx_GgxFacet made;
+    made.h = h;
+    made.shrink = shrink;
+    made.spread = spread;
+    return made;
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float2 a = cosine * float2(1.0, ior * ior);
+    float2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+// A channel of one polarisation after interference.
+float mx_film_channel(float a, float2 r, float terms)
+{
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return a * a + even + 2.0 * (even - t) * terms;
+}
+
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
+float mx_film_terms(float a, float2 r, float d, float3 gauss)
+{
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+}
+
+float mx_film_z(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
+}
+
+// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+float2 mx_film_amplitude(float2 x, float2 u)
+{
+    return float2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
+}
+
+// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+float2 mx_fresnel_refract(float cosine, float re, float im)
+{
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
+    return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
+}
+
+float mx_film_y(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.7953, 1.000222, -0.0093046)));
+}
+
+float mx_film_x(float a, float2 r, float d)
+{
+    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, r, d, float3(2.2399, 0.153868, -0.0045282)));
+}
+
+// Facing the viewer both polarisations are alike.
+float3 mx_film_index_facing(float3 re, float3 im, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float2 across = float2(1.0, 0.0);
+    float3 r = re / (ior * ior);
+    float3 i = im / (ior * ior);
+    return clamp(mul(float3(mx_film_x(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.x, i.x)), d),
+        mx_film_y(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.y, i.y)), d),
+        mx_film_z(a, mx_film_amplitude(float2(1.0, 0.0), mx_fresnel_refract(1.0, r.z, i.z)), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel_facing(float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index_facing(n * n, float3(0.0, 0.0, 0.0), film, film_ior);
+    return (float3)mx_fresnel_dielectric(1.0, n.x);
+}
+
+// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
+float2 mx_roughness_anisotropy(float roughness, float anisotropy)
+{
+    float squared = clamp(roughness * roughness, 1e-8, 1.0);
+    float aspect = sqrt(1.0 - clamp(anisotropy, 0.0, 0.98));
+    return float2(min(squared / aspect, 1.0), squared * aspect);
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+// Rodrigues' formula; the axis has unit length.
+float3 mx_rotate3d(float3 v, float angle, float3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float3 H = V + L;
+    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float cos_h = lobe.cosine + dot(lobe.N, L);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = dot(slope, slope) + cos_h * cos_h;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
+// over it, hence factors.
+void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out float3 extinction)
+{
+    float3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
+    float3 greatest = (1.0 + s) / (1.0 - s);
+    ior = lerp(greatest, (1.0 - s * s) / (1.0 + s * s), edge_color);
+    extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
+}
+
+// |(x + iy - u - iv) / (x + iy + u + iv)|^2
+float mx_fresnel_ratio(float2 x, float2 u)
+{
+    return dot(x - u, x - u) / dot(x + u, x + u);
+}
+
+// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
+// perpendicular part, the permittivity times the cosine in the parallel part.
+float mx_fresnel_conductor(float cosine, float re, float im)
+{
+    float2 u = mx_fresnel_refract(cosine, re, im);
+    return 0.5 * (mx_fresnel_ratio(float2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * float2(re, im), u));
+}
+
+// One channel after the other, which needs a third of the registers.
+float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
+{
+    return float3(mx_fresnel_conductor(cosine, re.x, im.x), mx_fresnel_conductor(cosine, re.y, im.y),
+        mx_fresnel_conductor(cosine, re.z, im.z));
+}
+
+float3 mx_fresnel_facing(float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index_facing(n, k, film, film_ior);
+    return mx_fresnel_conductor(1.0, n, k);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a permittivity.
+float3 mx_film_index(float cosine, float3 re, float3 im, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float2 across = float2(c, 0.0);
+    float2 below = float2(re.x, im.x) / (ior * ior);
+    float2 u = mx_fresnel_refract(c, below.x, below.y);
+    float x = mx_film_x(a.x, mx_film_amplitude(across, u), d) + mx_film_x(a.y, mx_film_amplitude(c * below, u), d);
+    below = float2(re.y, im.y) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float y = mx_film_y(a.x, mx_film_amplitude(across, u), d) + mx_film_y(a.y, mx_film_amplitude(c * below, u), d);
+    below = float2(re.z, im.z) / (ior * ior);
+    u = mx_fresnel_refract(c, below.x, below.y);
+    float z = mx_film_z(a.x, mx_film_amplitude(across, u), d) + mx_film_z(a.y, mx_film_amplitude(c * below, u), d);
+    return clamp(mul(0.5 * float3(x, y, z),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, k, film, film_ior);
+    return mx_fresnel_conductor(cosine, n, k);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n * n, float3(0.0, 0.0, 0.0), film, film_ior);
+    return (float3)mx_fresnel_dielectric(cosine, n.x);
+}
+
+float3 mx_subsurface_light(float3 falloff, float cos_l)
+{
+    float sin_l = sqrt(max(1.0 - cos_l * cos_l, 0.0));
+    float3 light = float3(0.0, 0.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    float2 middle = float2(0.9987955, 0.04906767);
+    while (middle.x > 0.0) {
+        float d = middle.y;
+        float3 e = exp(falloff * d);
+        float3 profile = (e + e * e * e) / d;
+        float along = cos_l * (1.0 - 2.0 * d * d);
+        float across = sin_l * (2.0 * d * middle.x);
+        light += profile * (max(along - across, 0.0) + max(along + across, 0.0));
+        sum += 2.0 * profile;
+        middle = mul(middle, float2x2(0.9951847, 0.09801714, -0.09801714, 0.9951847));
+    }
+    return light / (3.1415927 * sum);
+}
+
+// The point of the picture for a unit direction in it.
+float2 mx_map_point(float3 d)
+{
+    float2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return float2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+}
+
+// The frame of a round lobe has V above its x.
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3 x = lobe.x;
+    float3x3 frame = float3x3(x, cross(lobe.N, x), lobe.N);
+    float3 v = float3(mul(frame, V).xy, lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, stretch.x * stretch.y, v, lobe.masking, top,
+        share * top.z, share * (v.z + lobe.masking));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
+// of the reflection model.
+float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+}
+
+// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
+// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 d, float spread)
+{
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        max(0.25 * log2(spread * spread / dot(d.xz, d.xz)) + float(u_envRadianceMips) - 1.17425, 0.0)).xyz;
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top, `top` = v + z.
+float3 mx_ggx_cap(float2 around, float depth, float3 top)
+{
+    return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+}
+
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
+// by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
+{
+    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    float3 h = cap * s.stretch;
+    float shrink = 1.0 / dot(h, h);
+    float spread = shrink * dot(cap, cap);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+}
+
+// The light that the facet of sample i reflects, and in the fourth component the cosine at it.
+float4 mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float cosine = dot(s.v, facet.h);
+    float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return float4(s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l)
+        * mx_filtered_light(mul(l, s.to_map), facet.spread), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light that comes through it and a solid sphere of an index behind it.
+float4 mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 h = facet.h * sqrt(facet.shrink);
+    return float4(s.weight * u_envLightIntensity * 0.5 / s.v.z
+        * mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread),
+        clamp(dot(s.v, h), 1e-8, 1.0));
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    float coat = SR_standard_surface_coat;
+    float coat_IOR = SR_standard_surface_coat_IOR;
+    float coat_front = coat_IOR * 4.0 / ((coat_IOR + 1.0) * (coat_IOR + 1.0));
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
+    float absolute = abs(dot(N, V));
+    float3 color = SR_standard_surface_emission
+        * (SR_standard_surface_emission_color
+        * (1.0 - coat + SR_standard_surface_coat_color
+        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+    // lights
+    float3 vector_coat_gamma = (float3)(SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
+    float specular_IOR = SR_standard_surface_specular_IOR;
+    float thin_film_thickness = SR_standard_surface_thin_film_thickness;
+    float thin_film_IOR = SR_standard_surface_thin_film_IOR;
+    float coat_blur = SR_standard_surface_coat_roughness * (coat * SR_standard_surface_coat_affect_roughness);
+    float2 roughness = mx_roughness_anisotropy(lerp(SR_standard_surface_specular_roughness, 1.0, coat_blur),
+        SR_standard_surface_specular_anisotropy);
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(absolute, 1e-8);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
+    float3 reflection_scale = lerp(mx_fresnel_facing((float3)specular_IOR, thin_film_thickness, thin_film_IOR),
+        float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
+    float fresnel_bare = mx_fresnel_dielectric(1.0, coat_IOR);
+    float2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
+    float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
+    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
+    float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    float coating_scale = lerp(fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_difference = 1.0 - coat
+        * (lerp(fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float3 clamped_coat_tint = clamp(lerp(float3(1.0, 1.0, 1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
+    float3 body_weight = (float3(1.0, 1.0, 1.0) - reflection_scale
+        * (SR_standard_surface_specular * (lerp(mx_fresnel_dielectric(1.0, specular_IOR), 1.0, albedo.y) * albedo.x)))
+        * (coating_difference * clamped_coat_tint);
+    float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
+        / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
+    float fuzz_throughput = 1.0 - SR_standard_surface_sheen * sheen_albedo;
+    float dielectric_weight = 1.0 - SR_standard_surface_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_standard_surface_transmission);
+    float3 diffuse_weight = body_weight * (fuzz_throughput
+        * (SR_standard_surface_base * (opaque_weight * (1.0 - SR_standard_surface_subsurface))));
+    float3 diffuse_product = pow(max(SR_standard_surface_base_color, 0.0), vector_coat_gamma) * diffuse_weight;
+    float3 Nf = faceforward(N, -V, N);
+    float r2 = SR_standard_surface_diffuse_roughness * SR_standard_surface_diffuse_roughness;
+    float2 ab = r2 * float2(-0.5, 0.45) / (r2 + float2(0.33, 0.09)) + float2(1.0, 0.0);
+    float s = 1.0 / max(SR_standard_surface_sheen_roughness, 0.005);
+    float3 fuzz_product = SR_standard_surface_sheen_color * (body_weight * (SR_standard_surface_sheen * opaque_weight));
+    float3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
+    float thin = float(SR_standard_surface_thin_walled);
+    float translucent_weight = thin * (SR_standard_surface_subsurface * opaque_weight);
+    float3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
+    float3 tangent_direction = normalize(vd.tangentWorld);
+    float3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
+    bool metal_visible = SR_standard_surface_metalness > 0.0;
+    float3 metal_ior, metal_extinction;
+    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
+        * SR_standard_surface_specular_color, metal_ior, metal_extinction);
+    float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
+    float3 im = metal_extinction * (metal_ior * 2.0);
+    float3 metal_scale = difference * lerp(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR),
+        float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0);
+    float3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
+    float3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
+    bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
+    float3 reflection_weight = clamped_coat_tint
+        * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
+    float3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
+    float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
+    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
+    float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
+        / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
+    float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        // fuzz, translucent, diffuse
+        int type = u_lightData[i].type;
+        float3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float spot_light_choice = type == 3
+            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+            * ratio : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float3 directional_light_light = u_lightData[i].color
+            * (type == 1 ? u_lightData[i].intensity : point_light_choice);
+        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        float v_dot_l = dot(V, L);
+        float3 diffuse_response = diffuse_product
+            * (cos_l / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l, 0.0) / max(cos_l, cos_v)));
+        float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
+        float fuzz_product_2 = cos_l * ((s + 2.0)
+            * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
+        float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
+        color += directional_light_light
+            * (diffuse_response + (fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product));
+        // coating
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
+        if (coat > 0.0)
+            color += directional_light_light
+                * (coat * coating_scale * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_IOR)));
+        // metal
+        float ggx_light = mx_ggx_light(lobe, V, L);
+        if (metal_visible)
+            color += directional_light_light
+                * (metal_product * (ggx_light * mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR)));
+        // reflection
+        if (reflection_visible)
+            color += directional_light_light
+                * (reflection_product * (ggx_light
+                * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR)));
+        // scatter
+        if (scatter_weight > 0.0)
+            color += directional_light_light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+    }
+    // environment
+    // fuzz, scatter, diffuse
+    float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+    float2 fit = SR_standard_surface_diffuse_roughness
+        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
+        * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
+    float3 diffuse_response = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    float3 fuzz_response = fuzz_product * part * (sheen_albedo * u_envLightIntensity);
+    color += diffuse_response + (fuzz_response + u_envLightIntensity * (scatter_product * part));
+    // translucent
+    if (translucent_weight > 0.0)
+        color += u_envLightIntensity * (translucent_product
+            * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+            mx_map_point(normalize(mul(float4(-Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz);
+    // coating
+    if (coat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.xyz * (coat * coating_scale * mx_fresnel_dielectric(coating_light.w, coat_IOR));
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // metal, reflection
+    if (metal_visible || reflection_visible) {
+        mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
+        if (thin_film_thickness > 0.0) {
+            float3 reflection_vector = (float3)(specular_IOR * specular_IOR);
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal
+                float4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                if (metal_visible)
+                    color += metal_product
+                        * (mx_film_index(metal_ggx_reflected.w, re, im, thin_film_thickness, thin_film_IOR)
+                        * metal_ggx_reflected.xyz);
+                // reflection
+                if (reflection_visible)
+                    color += reflection_product
+                        * (metal_ggx_reflected.xyz
+                        * mx_film_index(metal_ggx_reflected.w, reflection_vector, float3(0.0, 0.0, 0.0),
+                        thin_film_thickness, thin_film_IOR));
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                // metal
+                float4 metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                if (metal_visible)
+                    color += metal_product
+                        * (mx_fresnel_conductor(metal_ggx_reflected.w, re, im) * metal_ggx_reflected.xyz);
+                // reflection
+                if (reflection_visible)
+                    color += reflection_product
+                        * (metal_ggx_reflected.xyz * mx_fresnel_dielectric(metal_ggx_reflected.w, specular_IOR));
+                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            }
+        }
+    }
+    // refraction
+    if (SR_standard_surface_transmission * dielectric_weight > 0.0) {
+        float3 tint = max(SR_standard_surface_transmission_color, 0.0);
+        float3 refraction_tint = tint * (u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0));
+        float3 refraction_product = refraction_tint
+            * (body_weight * (SR_standard_surface_transmission * dielectric_weight));
+        float transmission_blurred = lerp(clamp(SR_standard_surface_specular_roughness
+            + SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
+        mx_GgxSamples samples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
+            SR_standard_surface_specular_anisotropy), N, specular_tangent, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_envRadianceSamples; ++i) {
+            float4 refraction_ggx_transmitted = mx_ggx_transmitted(samples, specular_IOR, i, turn);
+            color += refraction_product * ((1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.w, specular_IOR))
+                * refraction_ggx_transmitted.xyz);
+            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+        }
+    }
+    // opacity
+    float opacity_grey = dot(SR_standard_surface_opacity, float3(0.2722287, 0.6740818, 0.0536895));
+    if (opacity_grey < u_alphaThreshold)
+        discard;
+    out1 = float4(opacity_grey * color, opacity_grey);
+}

@@ -1,0 +1,77 @@
+#version 450
+// distances · output · mxgen 0.1 · glsl · reduced · 0 closures · 0 textures
+
+in VertexData {
+    vec2 texcoord_0;
+} vd;
+out vec4 out1;
+
+// The three least distances, in order, after one more is seen.
+vec3 mx_insert_distance(const vec3 nearest, const float d)
+{
+    if (d < nearest.x)
+        return vec3(d, nearest.xy);
+    if (d < nearest.y)
+        return vec3(nearest.x, d, nearest.y);
+    return vec3(nearest.xy, min(nearest.z, d));
+}
+
+uint mx_hash_final(const uint x, const uint y, const uint z)
+{
+    uint a = x;
+    uint b = y;
+    uint c = z;
+    c ^= b;
+    c -= b << 14 | b >> 18;
+    a ^= c;
+    a -= c << 11 | c >> 21;
+    b ^= a;
+    b -= a << 25 | a >> 7;
+    c ^= b;
+    c -= b << 16 | b >> 16;
+    a ^= c;
+    a -= c << 4 | c >> 28;
+    b ^= a;
+    b -= a << 14 | a >> 18;
+    c ^= b;
+    c -= b << 24 | b >> 8;
+    return c;
+}
+
+vec3 mx_cellnoise_vec3(const vec2 p)
+{
+    vec2 cell = floor(p);
+    int x = int(cell.x);
+    int y = int(cell.y);
+    return vec3(float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u)) / 4.2949673e9,
+        float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928585u)) / 4.2949673e9,
+        float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928586u)) / 4.2949673e9);
+}
+
+// Returns the nearest point, and the squared distances to the three nearest.
+vec2 mx_worley(const vec2 p, out vec3 distances)
+{
+    vec2 cell = floor(p);
+    vec2 f = p - cell;
+    vec2 nearest = vec2(0.0);
+    distances = vec3(1000000.0);
+    for (int x = -1; x <= 1; ++x) {
+        for (int y = -1; y <= 1; ++y) {
+            vec2 neighbor = vec2(float(x), float(y));
+            vec2 offset = neighbor + (mx_cellnoise_vec3(cell + neighbor).xy - vec2(0.5)) + vec2(0.5) - f;
+            float d = dot(offset, offset);
+            if (d < distances.x)
+                nearest = offset;
+            distances = mx_insert_distance(distances, d);
+        }
+    }
+    return p + nearest;
+}
+
+void main()
+{
+    // NG
+    vec3 cells_distances;
+    vec2 cells = mx_worley(vd.texcoord_0, cells_distances);
+    out1 = vec4(sqrt(cells_distances).xy, 0.0, 1.0);
+}
