@@ -4,8 +4,8 @@
 
     bench/slabs.py build/mxgen FOLDER... [--size 64] [--jobs 2] [--variant "NAME=OPTIONS"]...
 
-Draws the first renderable of each document where the options change its shader. Prints a row for each model of shading, then the worst
-documents. --variant takes the place of slabs and one closure: --variant "occluding=--layering occluding"."""
+Draws the first renderable of each document where the options change its shader. Prints each document as soon as it is drawn, then a
+row for each model of shading, the worst documents, and the parts of materials that no slab stands for. --variant takes the place of slabs and one closure: --variant "occluding=--layering occluding"."""
 
 import argparse
 import collections
@@ -88,6 +88,13 @@ def model_of(document):
     return "Lama" if "<Lama" in text else "BSDF nodes"
 
 
+def misfit_of(mxgen, document):
+    """The part of a material that no slab stands for, as the deferred pipeline names it; "" if slabs stand for all."""
+    made = run(mxgen, document, "--target", "vulkan", "--interface", "reduced", "--stdout", "--pipeline", "deferred", "--slabs")
+    part = re.search(r"its part '(.*?)' is no slab", made.stderr)
+    return part[1] if part else ""
+
+
 def measure(mxgen, document, size, variants):
     """The differences by variant; None for a document that mxgen does not draw."""
     with tempfile.TemporaryDirectory() as folder:
@@ -95,7 +102,7 @@ def measure(mxgen, document, size, variants):
         draw = [mxgen, "render", document, "--quiet", "--size", size, "--missing-texture", "checker", "--mesh", "sphere"]
         if run(*draw, "-o", folder / "whole.ppm").returncode:
             return None
-        result = {}
+        result = {"misfit": misfit_of(mxgen, document)}
         source = source_of(mxgen, document)
         for name, options in variants.items():
             if source and source == source_of(mxgen, document, *options):
@@ -105,6 +112,27 @@ def measure(mxgen, document, size, variants):
             failed = run(*draw, *options, "-o", picture).returncode
             result[name] = None if failed else compare(folder / "whole.ppm", picture)
         return result
+
+
+def tell(document, result, variants):
+    """A line about a document, at once."""
+    values = " ".join("-" if result[name] is None else f"{result[name]:.2f}" for name in variants) if result else "not drawn"
+    print(f"{values} {document}" + (f" ({result['misfit']} is no slab)" if result and result["misfit"] else ""), flush=True)
+
+
+def print_models(results, variants):
+    models = collections.defaultdict(list)
+    for document, result in results:
+        if result:
+            models[model_of(document)].append(result)
+    print("| model | documents | all slabs |", " | ".join(f"{name}: median | worst" for name in variants), "|")
+    print("| --- | --- | --- |", " | ".join("--- | ---" for _ in variants), "|")
+    for model, rows in sorted(models.items()):
+        columns = []
+        for name in variants:
+            values = [result[name] for result in rows if result[name] is not None]
+            columns += [f"{statistics.median(values):.2f}", f"{max(values):.2f}"] if values else ["-", "-"]
+        print(f"| `{model}` | {len(rows)} | {sum(not row['misfit'] for row in rows)} |", " | ".join(columns), "|")
 
 
 def main():
@@ -118,25 +146,20 @@ def main():
     args.mxgen = args.mxgen.resolve()
     variants = {name: options.split() for name, _, options in (text.partition("=") for text in args.variant or [])} or VARIANTS
     documents = sorted({path for folder in args.folders for path in (folder.rglob("*.mtlx") if folder.is_dir() else [folder])})
+    results = []
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
-        results = list(zip(documents, pool.map(lambda path: measure(args.mxgen, path, args.size, variants), documents)))
-    models = collections.defaultdict(list)
-    for document, result in results:
-        if result:
-            models[model_of(document)].append((document, result))
-    print("| model | documents |", " | ".join(f"{name}: median | worst" for name in variants), "|")
-    print("| --- | --- |", " | ".join("--- | ---" for _ in variants), "|")
-    for model, rows in sorted(models.items()):
-        columns = []
-        for name in variants:
-            values = [result[name] for _, result in rows if result[name] is not None]
-            columns += [f"{statistics.median(values):.2f}", f"{max(values):.2f}"] if values else ["-", "-"]
-        print(f"| `{model}` | {len(rows)} |", " | ".join(columns), "|")
+        for document, result in zip(documents, pool.map(lambda path: measure(args.mxgen, path, args.size, variants), documents)):
+            tell(document, result, variants)
+            results.append((document, result))
+    print_models(results, variants)
     for name in variants:
         rows = [(result[name], document) for document, result in results if result and result[name] is not None]
         for value, document in sorted(rows, reverse=True)[:12]:
             print(f"{name}: {value:.2f} {document}")
         print(f"{name}: {sum(result[name] is None for _, result in results if result)} documents cannot be drawn so")
+    misfits = collections.Counter(result["misfit"] for _, result in results if result and result["misfit"])
+    for part, count in misfits.most_common():
+        print(f"no slab stands for '{part}': {count} documents")
 
 
 if __name__ == "__main__":

@@ -15,15 +15,16 @@ static bool fail(struct passes *passes, const char *id, const char *reason)
     return false;
 }
 
-/* How the passes run. Lighting and the debug view exclude each other. */
+/* How the passes run. A picture has the passes of one use. */
+enum use { LIGHTS, SHOWS, LIGHTS_RAYS };
 static const struct {
     const char *name;
     int which; /* -1: all tiles */
-    bool lights, shows;
+    enum use use;
 } runs[] = {
-    {"classify", -1, true, false},     {"compose", 0, true, false},
-    {"light_simple", 1, true, false},  {"light_single", 2, true, false},
-    {"light_complex", 3, true, false}, {"show", -1, false, true},
+    {"classify", -1, LIGHTS},        {"compose", 0, LIGHTS},       {"light_simple", 1, LIGHTS},
+    {"light_single", 2, LIGHTS},     {"light_complex", 3, LIGHTS}, {"show", -1, SHOWS},
+    {"light_rays", -1, LIGHTS_RAYS},
 };
 
 /* Makes the text of a pass; false: with the first message. */
@@ -42,7 +43,21 @@ static bool generate(struct passes *passes, const struct passes_setup *setup, ui
     return fail(passes, "render-failed", mxg_status_string(status));
 }
 
-/* Makes pass `index` of the library and adds it to the device. */
+/* Adds a pass to the device. */
+static bool add_pass(struct passes *passes, const struct passes_setup *setup,
+                     struct pass_part *part, const char *text, int which)
+{
+    if (!compile_compute(text, &part->compiled))
+        return fail(passes, "bad-shader",
+                    part->compiled.num_messages ? part->compiled.messages[0].text
+                                                : "the pass does not compile");
+    const struct compiled_stage *code = &part->compiled.stages[MXG_STAGE_PIXEL];
+    const struct stored_pass pass = {code->words, code->num_words, &part->bind.draw, which};
+    return stored_add_pass(passes->stored, &pass)
+           || fail(passes, setup->gpu->id, setup->gpu->reason);
+}
+
+/* Makes pass `index` of the library. */
 static bool open_pass(struct passes *passes, const struct passes_setup *setup, uint32_t index,
                       int which)
 {
@@ -50,25 +65,26 @@ static bool open_pass(struct passes *passes, const struct passes_setup *setup, u
     if (!generate(passes, setup, index, &part->result))
         return false;
     part->bind = (struct bind){.result = part->result, .scene = setup->scene, .is_opaque = true};
-    if (!compile_compute(mxg_result_source(part->result, MXG_STAGE_PIXEL, NULL), &part->compiled))
-        return fail(passes, "bad-shader",
-                    part->compiled.num_messages ? part->compiled.messages[0].text
-                                                : "the pass does not compile");
     if (!bind_shader(&part->bind))
         return fail(passes, part->bind.id, part->bind.reason);
-    const struct compiled_stage *code = &part->compiled.stages[MXG_STAGE_PIXEL];
-    const struct stored_pass pass = {code->words, code->num_words, &part->bind.draw, which};
-    return stored_add_pass(passes->stored, &pass)
-           || fail(passes, setup->gpu->id, setup->gpu->reason);
+    return add_pass(passes, setup, part, mxg_result_source(part->result, MXG_STAGE_PIXEL, NULL),
+                    which);
+}
+
+static bool open_hits(struct passes *passes, const struct passes_setup *setup)
+{
+    passes->payloads = stored_hold_rays(passes->stored);
+    return (passes->payloads || fail(passes, setup->gpu->id, setup->gpu->reason))
+           && add_pass(passes, setup, &passes->parts[passes->num_parts++], setup->hits, -1);
 }
 
 static bool open_passes(struct passes *passes, const struct passes_setup *setup)
 {
-    bool shows = setup->shown != UINT32_MAX, good = true;
+    enum use use = setup->hits ? LIGHTS_RAYS : setup->shown != UINT32_MAX ? SHOWS : LIGHTS;
+    bool good = !setup->hits || open_hits(passes, setup);
     for (size_t r = 0; good && r < sizeof runs / sizeof *runs; ++r)
         for (uint32_t i = 0; good && i < mxg_num_passes(); ++i)
-            if (strcmp(mxg_pass_name(i), runs[r].name) == 0
-                && (shows ? runs[r].shows : runs[r].lights))
+            if (runs[r].use == use && strcmp(mxg_pass_name(i), runs[r].name) == 0)
                 good = open_pass(passes, setup, i, runs[r].which);
     return good;
 }
@@ -108,7 +124,7 @@ bool passes_aim(struct passes *passes)
 {
     struct stored_frame frame;
     for (uint32_t i = 0; i < passes->num_parts; ++i)
-        if (!bind_scene(&passes->parts[i].bind))
+        if (passes->parts[i].result && !bind_scene(&passes->parts[i].bind))
             return fail(passes, passes->parts[i].bind.id, passes->parts[i].bind.reason);
     fill_frame(passes, &frame);
     stored_update(passes->stored, &frame);

@@ -20,7 +20,8 @@ struct passes {
     struct stored *stored; /* NULL: nothing is stored */
     const struct scene *scene;
     uint32_t width, height;
-    uint32_t shown; /* number of a view; UINT32_MAX: pictures are lit */
+    uint32_t shown;     /* number of a view; UINT32_MAX: pictures are lit */
+    uint32_t *payloads; /* words of rays, row by row; NULL: there are none */
     struct pass_part parts[STORED_MAX_PASSES];
     uint32_t num_parts;
     const char *id;
@@ -35,6 +36,8 @@ struct passes_setup {
     struct gpu *gpu;
     struct draw_canvas *canvas;
     uint32_t width, height, words, shown;
+    /* a compute shader that writes rays with payloads, which are lit; NULL: materials are stored */
+    const char *hits;
 };
 
 /* false: see passes->reason. Zeroes `out` first. Call passes_close in any case, after the canvas

@@ -5,7 +5,20 @@
 #include <string.h>
 
 /* The bindings of set 1, as the passes name them (src/deferred/passes.c). */
-enum { STORED_IMAGE, WORD_0, WORD_1, WORD_2, DEPTH, COLOR, LIT, TILES, FRAME, NUM_BINDINGS };
+enum {
+    STORED_IMAGE,
+    WORD_0,
+    WORD_1,
+    WORD_2,
+    DEPTH,
+    COLOR,
+    LIT,
+    TILES,
+    FRAME,
+    PAYLOADS,
+    RAYS,
+    NUM_BINDINGS
+};
 
 static const VkDescriptorType types[NUM_BINDINGS] = {
     [STORED_IMAGE] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
@@ -17,6 +30,8 @@ static const VkDescriptorType types[NUM_BINDINGS] = {
     [LIT] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
     [TILES] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     [FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+    [PAYLOADS] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    [RAYS] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
 };
 
 struct frame { /* as the passes declare it */
@@ -39,6 +54,7 @@ struct stored {
     const struct gpu_image *lit, *depth;
     struct gpu_image color, targets[STORED_TARGETS], words;
     struct gpu_buffer tiles, frame;
+    struct gpu_buffer payloads, rays; /* of stored_hold_rays */
     VkSampler sampler;
     VkDescriptorSetLayout empty_layout, set_layout;
     VkDescriptorPool pool;
@@ -121,10 +137,20 @@ static VkImageView view_of(const struct stored *stored, uint32_t binding)
     }
 }
 
-static void write_set(struct stored *stored)
+static const struct gpu_buffer *buffer_of(const struct stored *stored, uint32_t binding)
 {
-    for (uint32_t i = 0; i < NUM_BINDINGS; ++i) {
-        const struct gpu_buffer *from = i == TILES ? &stored->tiles : &stored->frame;
+    switch (binding) {
+    case TILES: return &stored->tiles;
+    case PAYLOADS: return &stored->payloads;
+    case RAYS: return &stored->rays;
+    default: return &stored->frame;
+    }
+}
+
+static void write_set(struct stored *stored, uint32_t first, uint32_t end)
+{
+    for (uint32_t i = first; i < end; ++i) {
+        const struct gpu_buffer *from = buffer_of(stored, i);
         const VkDescriptorBufferInfo buffer = {from->buffer, 0, VK_WHOLE_SIZE};
         VkDescriptorImageInfo image = {.sampler = stored->sampler,
                                        .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
@@ -155,8 +181,20 @@ static bool create_set(struct stored *stored)
         || !gpu_check(stored->gpu, vkAllocateDescriptorSets(device, &info, &stored->set),
                       "making a descriptor set"))
         return false;
-    write_set(stored);
+    write_set(stored, 0, PAYLOADS);
     return true;
+}
+
+uint32_t *stored_hold_rays(struct stored *stored)
+{
+    size_t pixels = (size_t)stored->width * stored->height;
+    VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    if (!gpu_create_buffer(stored->gpu, usage, NULL, pixels * STORED_PAYLOAD_SIZE,
+                           &stored->payloads)
+        || !gpu_create_buffer(stored->gpu, usage, NULL, pixels * 8 * sizeof(float), &stored->rays))
+        return NULL;
+    write_set(stored, PAYLOADS, NUM_BINDINGS);
+    return stored->payloads.mapped;
 }
 
 struct stored *stored_open(struct gpu *gpu, uint32_t width, uint32_t height, uint32_t words,
@@ -196,6 +234,8 @@ void stored_close(struct stored *stored)
     vkDestroyDescriptorSetLayout(gpu->device, stored->set_layout, NULL);
     vkDestroyDescriptorSetLayout(gpu->device, stored->empty_layout, NULL);
     vkDestroySampler(gpu->device, stored->sampler, NULL);
+    gpu_destroy_buffer(gpu, &stored->rays);
+    gpu_destroy_buffer(gpu, &stored->payloads);
     gpu_destroy_buffer(gpu, &stored->frame);
     gpu_destroy_buffer(gpu, &stored->tiles);
     gpu_destroy_image(gpu, &stored->words);

@@ -10,6 +10,7 @@
 #include "render/inputs.h"
 
 enum { STORED_TARGETS = 3, STORED_CLASSES = 4, STORED_TILE = 8, STORED_MAX_PASSES = 8 };
+enum { STORED_PAYLOAD_SIZE = 64 }; /* bytes of a ray */
 
 /* A compute pass. Its draw has no code. */
 struct stored_pass {
@@ -34,6 +35,11 @@ struct stored_frame {
 struct stored *stored_open(struct gpu *gpu, uint32_t width, uint32_t height, uint32_t words,
                            const struct gpu_image *color, const struct gpu_image *depth);
 void stored_close(struct stored *stored);
+/*
+ * Makes room for the payload of a ray per pixel, which a pass writes and another one lights. The
+ * words of all payloads, row by row, as the last frame wrote them. NULL: see gpu->reason.
+ */
+uint32_t *stored_hold_rays(struct stored *stored);
 bool stored_add_pass(struct stored *stored, const struct stored_pass *pass);
 
 /* Set 1 of the material passes and of the compute passes. */

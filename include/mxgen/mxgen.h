@@ -740,8 +740,8 @@ typedef struct mxg_shader_info {
      */
     const char *function, *function_type;
     /*
-     * Words of 32 bits that it stores per pixel, at most, for the passes of the deferred pipeline
-     * (docs/deferred.md); 0: it lights itself.
+     * Words of 32 bits that it stores per pixel, at most, for the passes of the deferred pipeline,
+     * or that its payload has (docs/deferred.md); 0: it lights itself.
      */
     uint32_t stored_words;
     uint32_t layout; /* of stored words: equal in all materials and passes that fit together */

@@ -53,19 +53,23 @@ static void check_combination(struct generation *g, const struct combination *c)
         tell_clash(g, option, c->value, other, c->other_value, c->why);
 }
 
-/* OpenGL has compute stages from version 4.3 on. */
+/* What stores closures needs unsigned words: OpenGL has all of it, with compute stages, from 4.3
+ * on. */
 static void check_target(struct generation *g)
 {
     const struct target *target = g->result->target;
-    const char *version = g->options[OPTION_version].text, *pipeline = option_key(OPTION_pipeline);
-    if (has_value(g, OPTION_pipeline, "forward"))
+    const char *version = g->options[OPTION_version].text;
+    bool packs = generation_packs(g);
+    const char *option = option_key(packs ? OPTION_form : OPTION_pipeline),
+               *value = packs ? "payload" : pipeline_of(g);
+    if (!packs && has_value(g, OPTION_pipeline, "forward"))
         return;
     if (!(target->caps & CAP_STORES))
-        tell_clash(g, pipeline, pipeline_of(g), "target", target->name,
-                   "only the targets vulkan and glsl have the passes");
+        tell_clash(g, option, value, "target", target->name,
+                   "only the targets vulkan and glsl store closures");
     else if (*version && strcmp(version, "430") < 0)
-        tell_clash(g, pipeline, pipeline_of(g), option_key(OPTION_version), version,
-                   "the passes need compute stages, from 430 on");
+        tell_clash(g, option, value, option_key(OPTION_version), version,
+                   "stored closures need compute stages, from 430 on");
 }
 
 bool generation_check_combinations(struct generation *g)

@@ -6,24 +6,32 @@
 
 #include <assert.h>
 
+bool generation_packs(const struct generation *g)
+{
+    return g->options[OPTION_form].number == FORM_PAYLOAD && !g->is_pass;
+}
+
 bool generation_stores(const struct generation *g)
 {
-    return g->options[OPTION_pipeline].number == PIPELINE_DEFERRED && !g->is_pass && !g->misfit;
+    bool is_deferred = g->options[OPTION_pipeline].number == PIPELINE_DEFERRED;
+    return generation_packs(g) || (is_deferred && !g->is_pass && !g->misfit);
 }
 
 struct deferred_layout generation_storage(const struct option_value *options,
-                                          const struct target *target)
+                                          const struct target *target, bool is_payload)
 {
     return (struct deferred_layout){
-        .storage = (enum deferred_storage)options[OPTION_storage].number,
+        .storage =
+            is_payload ? STORAGE_ROUND : (enum deferred_storage)options[OPTION_storage].number,
         .set = (uint32_t)options[OPTION_binding_set].number + 1,
         .sets = target->caps & CAP_SETS,
+        .is_payload = is_payload,
     };
 }
 
 void generation_defer(struct generation *g)
 {
-    g->result->storage = generation_storage(g->options, g->result->target);
+    g->result->storage = generation_storage(g->options, g->result->target, generation_packs(g));
     g->result->shader.is_stored = g->stored != CLASS_EMPTY;
     if (g->stored == CLASS_COMPLEX) {
         g->above = deferred_above(&g->result->shader);
@@ -34,12 +42,13 @@ void generation_defer(struct generation *g)
     if (generation_stores(g)) {
         g->closure_host.store = deferred_store;
         g->closure_host.store_data = &g->result->storage;
+        g->closure_host.stores_all = generation_packs(g);
     }
 }
 
 void generation_hide_misfits(struct generation *g)
 {
-    if (generation_stores(g) && g->options[OPTION_slabs].number)
+    if (generation_stores(g) && (generation_packs(g) || g->options[OPTION_slabs].number))
         g->root = build_without_hidden(g->builder, g->root);
 }
 
@@ -65,7 +74,7 @@ static void draw_forward(struct generation *g, ir_ref misfit)
 bool generation_can_store(struct generation *g)
 {
     ir_ref misfit = generation_stores(g) ? deferred_misfit(&g->result->shader, g->root) : 0;
-    if (misfit && g->options[OPTION_slabs].number)
+    if (misfit && !generation_packs(g) && g->options[OPTION_slabs].number)
         draw_forward(g, misfit);
     else if (misfit)
         report_misfit(g, misfit);
@@ -93,6 +102,8 @@ void generation_tell_forward(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
     const struct document *doc = &g->document->layer.doc;
+    if (generation_packs(g))
+        return;
     assert(!shader->closures.len || g->result->storage.storage == STORAGE_FLOAT
            || shader->stored_words * SLAB_WORD_BYTES <= g->result->slabs.after.bytes);
     if (shader->stored_words && shader->closures.len > DEFERRED_MAX_CLOSURES)

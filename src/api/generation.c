@@ -109,7 +109,7 @@ static void set_build_options(struct generation *g)
         .list_user_data = context->resolver.user_data,
         .texture_fault = stdio_texture_fault,
         .texture_user_data = g->result->object.context,
-        .integrator = o[OPTION_integrator].number != 0,
+        .integrator = o[OPTION_integrator].number != 0 || generation_packs(g),
         .keeps_absent = o[OPTION_layering].number == LAYERING_OCCLUDING,
         .stored = g->stored != CLASS_EMPTY,
         .marks_slabs = generation_stores(g),
@@ -188,7 +188,8 @@ static void name_shader(struct generation *g)
         shader->source_language = t->source;
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
     shader->scatters = g->options[OPTION_integrator].number == 2;
-    shader->is_function = g->options[OPTION_form].number != 0;
+    shader->is_function = g->options[OPTION_form].number != FORM_PROGRAM;
+    shader->has_rays = shader->scatters || generation_packs(g) || g->lights_rays;
     shader->picks = g->options[OPTION_slots].number != 0;
     shader->reserved = g->options[OPTION_reserved].list.items;
     shader->num_reserved = g->options[OPTION_reserved].list.len;
@@ -380,17 +381,22 @@ static bool cannot_fail(const struct generation *g)
            && closure_is_surface(&g->result->shader, g->root);
 }
 
-/* A path tracer writes the values of the first hit, where the light is not yet known. */
-static void report_closure_aovs(struct generation *g)
+/*
+ * A path tracer writes the values of the first hit, where the light is not yet known; a payload has
+ * no values beside its closure.
+ */
+static void report_lost_aovs(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
+    bool packs = generation_packs(g);
     for (uint32_t i = 0; i < shader->aovs.len; i++)
         if (shader->aovs.items[i].is_output && shader->aovs.items[i].element
-            && shader->aovs.items[i].type == IR_TYPE_BSDF)
+            && (packs || (shader->scatters && shader->aovs.items[i].type == IR_TYPE_BSDF)))
             diag_add(diags_of(g), DIAG_ID_aov_left_out,
                      doc_place(&g->document->layer.doc, shader->aovs.items[i].element),
                      str_text(shader->strings, shader->aovs.items[i].name),
-                     "a path tracer does not tell the light of one closure apart");
+                     packs ? "a payload holds one closure"
+                           : "a path tracer does not tell the light of one closure apart");
 }
 
 bool generation_emit(struct generation *g)
@@ -404,14 +410,17 @@ bool generation_emit(struct generation *g)
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
+    if (generation_packs(g) && !closure_is_surface(&g->result->shader, g->root)) {
+        generation_report_not_renderable(g, "a payload holds a surface");
+        return false;
+    }
     generation_hide_misfits(g);
     if (!generation_budget_slabs(g) || !generation_can_store(g))
         return false;
     generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
-    if (g->result->shader.scatters)
-        report_closure_aovs(g);
+    report_lost_aovs(g);
     if (!is_emitted)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
@@ -471,7 +480,8 @@ static bool check_outputs(struct generation *g)
                  shader->first_of_block[BLOCK_OUTPUTS + 1] - shader->first_of_block[BLOCK_OUTPUTS],
              limit = (uint32_t)g->options[OPTION_max_outputs].number;
     struct text list;
-    if (!shader->aovs.len || shader->scatters || g->result->target->closures || num <= limit)
+    if (!shader->aovs.len || shader->scatters || generation_packs(g) || g->result->target->closures
+        || num <= limit)
         return true;
     text_init(&list, &g->scratch);
     uint32_t last = g->element;

@@ -74,6 +74,7 @@ struct generation {
     bool cancelled;
     bool is_pass;               /* a pass of the deferred pipeline that belongs to no material */
     enum deferred_class stored; /* a pass that lights stored closures; CLASS_EMPTY: a material */
+    bool lights_rays;           /* a pass that lights payloads */
     ir_ref misfit; /* a closure that is no slab, so the material is drawn forward; 0: none */
     struct closure_above above;
     void *user_data; /* for the caller's `steps` */
@@ -113,11 +114,16 @@ bool generation_spell(struct generation *g);  /* source */
 /* replaces the last two steps */
 bool generation_make_network(struct generation *g); /* network.c */
 
+/* The option `form`. */
+enum generation_form { FORM_PROGRAM, FORM_FUNCTION, FORM_PAYLOAD };
+
 /* deferred.c: the deferred pipeline. */
 /* True for the material pass of a material. */
 bool generation_stores(const struct generation *g);
+/* True for a function that packs a surface into a payload. */
+bool generation_packs(const struct generation *g);
 struct deferred_layout generation_storage(const struct option_value *options,
-                                          const struct target *target);
+                                          const struct target *target, bool is_payload);
 /* Sets the hooks of the closures' host. */
 void generation_defer(struct generation *g);
 /* Warns about a material whose shader lights itself; reports one with too many closures. */

@@ -26,7 +26,7 @@ static void write_pass(struct generation *g, enum deferred_pass pass)
     const char *version = g->options[OPTION_version].text;
     result->is_pass = true;
     result->pass = pass;
-    result->storage = generation_storage(g->options, result->target);
+    result->storage = generation_storage(g->options, result->target, g->lights_rays);
     text_init(&text, &result->object.arena);
     deferred_write_pass(pass, &result->storage, *version ? version : result->target->versions[0],
                         g->stored ? &result->shader : NULL, stage->text, &text);
@@ -40,6 +40,7 @@ static void generate(struct generation *g)
     const enum deferred_pass pass = *(const enum deferred_pass *)g->user_data;
     g->is_pass = true;
     g->stored = deferred_pass_class(pass);
+    g->lights_rays = pass == PASS_LIGHT_RAYS;
     if (g->stored)
         generation_run_all(g);
     else

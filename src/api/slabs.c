@@ -53,11 +53,11 @@ bool generation_slab_features(struct generation *g, uint32_t *out_off)
 static struct slab_budget budget_of(const struct generation *g)
 {
     return (struct slab_budget){
-        .max_closures = (uint32_t)g->options[OPTION_max_closures].number,
+        .max_closures = generation_packs(g) ? 1 : (uint32_t)g->options[OPTION_max_closures].number,
         .max_bytes = (uint32_t)g->options[OPTION_max_bytes].number,
         .max_error = g->options[OPTION_max_error].real,
         .off = g->build_options.slab_features_off,
-        .recognises = g->options[OPTION_slabs].number != 0,
+        .recognises = g->options[OPTION_slabs].number != 0 || generation_packs(g),
     };
 }
 

@@ -41,6 +41,20 @@ static void put_resource(const mxg_result *result, uint32_t index, struct json *
     json_close(json, '}');
 }
 
+static const char *name_of(const mxg_result *result)
+{
+    if (result->is_pass)
+        return deferred_pass_name(result->pass);
+    return result->storage.is_payload ? "payload" : "material";
+}
+
+/* A material writes the first one, and a payload is handed on by the host. */
+static bool has_resource(const mxg_result *result, uint32_t index)
+{
+    return result->is_pass ? deferred_reads(result->pass, index)
+                           : index == 0 && !result->storage.is_payload;
+}
+
 void result_storage(void *user_data, struct json *json)
 {
     const mxg_result *result = user_data;
@@ -49,15 +63,15 @@ void result_storage(void *user_data, struct json *json)
         return;
     json_key(json, "deferred");
     json_open(json, '{');
-    json_put_text(json, "pass", result->is_pass ? deferred_pass_name(result->pass) : "material");
+    json_put_text(json, "pass", name_of(result));
     json_put_number(json, "layout", deferred_layout_number(&result->storage));
     if (result->is_pass && deferred_is_indirect(result->pass))
         json_put_text(json, "class", deferred_element(deferred_pass_class(result->pass)));
     json_put_nonzero(json, "words", words);
     json_key(json, "resources");
     json_open(json, '[');
-    for (uint32_t i = 0; i < (result->is_pass ? mxg_num_pass_resources() : 1); i++)
-        if (!result->is_pass || deferred_reads(result->pass, i))
+    for (uint32_t i = 0; i < mxg_num_pass_resources(); i++)
+        if (has_resource(result, i))
             put_resource(result, i, json);
     json_close(json, ']');
     json_close(json, '}');

@@ -360,6 +360,8 @@ ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, 
 
 /* slab.c: the lobes of a slab at a place, by the definition ND_slab_lobes of the library. */
 ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place);
+/* With a mark, where the surface is stored. */
+ir_ref build_marked_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place);
 /* slabs_host.slab_of: by the library's definition ND_slab_of_ and the name of the leaf's function.
  */
 ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely);

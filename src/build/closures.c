@@ -29,6 +29,11 @@ static ir_ref slab_lobes(void *user_data, const ir_ref *inputs, const struct sla
     return build_slab_lobes(user_data, inputs, place);
 }
 
+static ir_ref marked_lobes(void *user_data, const ir_ref *inputs, const struct slab_place *place)
+{
+    return build_marked_lobes(user_data, inputs, place);
+}
+
 static ir_ref slab_of(void *user_data, ir_ref leaf, bool is_top, bool loosely)
 {
     return build_slab_of(user_data, leaf, is_top, loosely);
@@ -51,6 +56,7 @@ static struct slabs_host slabs_host(struct builder *b, const struct closure_host
 ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, ir_ref root)
 {
     struct slabs_host host = slabs_host(b, closures);
+    host.lobes = marked_lobes; /* only the walk ends in storage */
     return slabs_walk(b->shader, &host, root);
 }
 

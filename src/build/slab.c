@@ -74,7 +74,12 @@ static ir_ref apply(struct builder *b, uint32_t id, const ir_ref *inputs,
 
 ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place)
 {
-    ir_ref lobes = apply(b, build_slab_definition(b), inputs, place);
+    return apply(b, build_slab_definition(b), inputs, place);
+}
+
+ir_ref build_marked_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place)
+{
+    ir_ref lobes = build_slab_lobes(b, inputs, place);
     if (!b->options->marks_slabs)
         return lobes;
     ir_ref args[2] = {apply(b, definition(b, "ND_slab_mark"), inputs, place), lobes};

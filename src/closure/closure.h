@@ -43,17 +43,25 @@ struct closure_above {
 };
 
 struct closure_list;
+
+/* A surface to store. */
+struct closure_stored {
+    ir_ref bsdf;
+    const struct closure_list *list; /* its leaves */
+    ir_ref emission;                 /* vec3; 0: black */
+    ir_ref alpha;                    /* 0: 1 */
+    bool premultiplied;              /* the weights have the alpha */
+};
+
 struct closure_host {
     void *user_data;
     const struct closure_above *above; /* NULL: nothing */
-    /*
-     * Takes a surface with its leaves and what it emits (vec3; 0: black), instead of lighting them.
-     * NULL: surfaces are lit.
-     */
-    void (*store)(struct shader *shader, const struct closure_host *host, ir_ref bsdf,
-                  const struct closure_list *list, ir_ref emission);
+    /* Takes a surface instead of lighting it. NULL: surfaces are lit. */
+    void (*store)(struct shader *shader, const struct closure_host *host,
+                  const struct closure_stored *surface);
     const void *store_data;
-    bool only_cuts; /* draws nothing of a surface but the holes that its opacity cuts */
+    bool stores_all; /* also surfaces that can be seen through, and none of their AOVs */
+    bool only_cuts;  /* draws nothing of a surface but the holes that its opacity cuts */
     struct closure_point *point;
     /*
      * the question that throughputs answer, and the direction to the light for

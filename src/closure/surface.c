@@ -170,6 +170,15 @@ void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
     }
 }
 
+static void store_surface(struct emitter *e, const struct closure_surface *s, bool is_whole)
+{
+    struct closure_list list;
+    e->shader->alpha = draws_all(e, s->alpha) ? ALPHA_OPAQUE : is_whole ? ALPHA_MASK : ALPHA_BLEND;
+    emitter_flatten(e, s, &list);
+    const struct closure_stored stored = {s->bsdf, &list, e->lit.base, s->alpha, s->premultiplied};
+    e->host->store(e->shader, e->host, &stored);
+}
+
 static void emit_surface(struct emitter *e, ir_ref root)
 {
     bool is_stack = root && ir_get(e->graph, root)->op == IR_SLOTS;
@@ -196,11 +205,8 @@ static void emit_surface(struct emitter *e, ir_ref root)
         return;
     }
     bool is_whole = draws_all(e, s.alpha) || is_cut(e, s.alpha);
-    if (e->host->store && is_whole && !has_aov_outputs(e)) {
-        struct closure_list list;
-        e->shader->alpha = draws_all(e, s.alpha) ? ALPHA_OPAQUE : ALPHA_MASK;
-        emitter_flatten(e, &s, &list);
-        e->host->store(e->shader, e->host, s.bsdf, &list, e->lit.base);
+    if (e->host->store && (e->host->stores_all || (is_whole && !has_aov_outputs(e)))) {
+        store_surface(e, &s, is_whole);
         return;
     }
     emitter_light_surface(e, &s);
@@ -249,7 +255,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
                         .host = host,
                         .lighting = lighting,
                         .lit = {.color = UINT32_MAX}};
-    if (root && shader->scatters)
+    if (root && shader->has_rays)
         root = closure_differentials(shader, root);
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
         root = ir_arg(e.graph, root, 3) ? ir_arg(e.graph, root, 3)

@@ -11,7 +11,10 @@
 
 #include "closure/closure.h"
 
-enum { DEFERRED_MAX_CLOSURES = 16 }; /* of a pixel: word 1 has four bits for their number */
+enum {
+    DEFERRED_MAX_CLOSURES = 16, /* of a pixel: word 1 has four bits for their number */
+    DEFERRED_PAYLOAD_WORDS = 16 /* of a ray: MX_PAYLOAD_WORDS in passes/record.glsl */
+};
 
 /* The option `pipeline`. */
 enum deferred_pipeline { PIPELINE_FORWARD, PIPELINE_DEFERRED, PIPELINE_DEPTH };
@@ -22,8 +25,9 @@ enum deferred_storage { STORAGE_DITHER, STORAGE_ROUND, STORAGE_FLOAT };
 /* What the texts of all passes need to agree. */
 struct deferred_layout {
     enum deferred_storage storage;
-    uint32_t set; /* of the resources below */
-    bool sets;    /* the target has descriptor sets */
+    uint32_t set;    /* of the resources below */
+    bool sets;       /* the target has descriptor sets */
+    bool is_payload; /* of a ray, in place of a pixel */
 };
 
 /* A hash of the storage: materials and passes with equal ones fit together. */
@@ -31,10 +35,11 @@ uint32_t deferred_layout_number(const struct deferred_layout *layout);
 
 /*
  * closure_host.store, whose store_data is a deferred_layout: the effects that write the closures of
- * a surface. Each slab has a mark (build_options.marks_slabs). Sets shader->stored_words.
+ * a surface, or that pack its only one. Each slab has a mark (build_options.marks_slabs). Sets
+ * shader->stored_words.
  */
-void deferred_store(struct shader *shader, const struct closure_host *host, ir_ref bsdf,
-                    const struct closure_list *list, ir_ref emission);
+void deferred_store(struct shader *shader, const struct closure_host *host,
+                    const struct closure_stored *surface);
 
 /* A closure that is no slab below a root, before the walk; 0: there is none. */
 ir_ref deferred_misfit(const struct shader *shader, ir_ref root);
@@ -53,6 +58,7 @@ enum deferred_pass {
     PASS_SINGLE,
     PASS_COMPLEX,
     PASS_SHOW,
+    PASS_LIGHT_RAYS, /* over payloads, not pixels */
     NUM_PASSES
 };
 const char *deferred_pass_name(enum deferred_pass pass);

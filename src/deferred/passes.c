@@ -28,6 +28,10 @@ static const struct {
      {"frame", "uniform", "std140",
       "mat4 from (x, y, depth, 1) in pixels to the world; uvec4 width, height, tiles in a row, "
       "tiles; uvec4 debug view, 0, 0, 0"}},
+    {"MX_PAYLOADS", {"payloads", "buffer", "std430", "16 words for each pixel, row by row"}},
+    {"MX_RAYS",
+     {"rays", "buffer", "std430",
+      "vec4 point and vec4 direction back along the ray, in the world, for each pixel"}},
 };
 #define NUM_RESOURCES (sizeof resources / sizeof *resources)
 
@@ -44,6 +48,7 @@ static const struct {
     [PASS_SINGLE] = {"light_single", CLASS_SINGLE, true, deferred_light, 0x1ff},
     [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, true, deferred_light, 0x1ff},
     [PASS_SHOW] = {"show", CLASS_EMPTY, false, deferred_show, 0x14f},
+    [PASS_LIGHT_RAYS] = {"light_rays", CLASS_COMPLEX, false, deferred_light_rays, 0x740},
 };
 
 bool deferred_resource(uint32_t index, struct deferred_resource *out)
@@ -122,7 +127,7 @@ void deferred_write_storage(const struct deferred_layout *layout, struct text *o
 uint32_t deferred_layout_number(const struct deferred_layout *layout)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t storage = (uint32_t)layout->storage;
+    uint32_t storage = (uint32_t)layout->storage | (uint32_t)layout->is_payload << 8;
     for (const char *const *line = deferred_record; *line; line++)
         h = hash_stable(h, *line, strlen(*line));
     h = hash_stable(h, &storage, sizeof storage);
@@ -134,7 +139,7 @@ static const char *stream_value(const char *name)
 {
     static const struct {
         const char *name, *value;
-    } values[] = {{"positionWorld", "point"}, {"normalWorld", "top"}};
+    } values[] = {{"positionWorld", "point"}, {"normalWorld", "top"}, {"viewWorld", "mx_view"}};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         if (strcmp(values[i].name, name) == 0)
             return values[i].value;
@@ -170,7 +175,7 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
     /* only the pass that makes the lists writes them */
     text_fmt(out, "#define MX_TILES_ACCESS %s\n", pass == PASS_CLASSIFY ? "" : "readonly");
     deferred_write_storage(layout, out);
-    deferred_write_lines(deferred_read, out);
+    deferred_write_lines(pass == PASS_LIGHT_RAYS ? deferred_unpack : deferred_read, out);
     deferred_write_lines(deferred_frame, out);
     if (surface)
         write_fill(surface, out);

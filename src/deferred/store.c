@@ -7,7 +7,8 @@
  *     stored = mx_finish_closures(stored)
  *     out1 = vec4(emission, 1)
  *
- * The functions stand in passes/write.glsl, which goes into the shader as its own source.
+ * The functions stand in passes/write.glsl, which goes into the shader as its own source. A payload
+ * has those of passes/pack.glsl instead, and its words are the outputs.
  */
 #include "deferred/deferred.h"
 
@@ -37,8 +38,8 @@ ir_ref deferred_misfit(const struct shader *shader, ir_ref root)
 }
 
 /* A call of a function of write.glsl: the number of closures that are stored after it. */
-static ir_ref call(struct shader *shader, const char *name, uint32_t source, const ir_ref *args,
-                   unsigned n)
+static ir_ref call(struct shader *shader, const char *name, ir_type_id type, uint32_t source,
+                   const ir_ref *args, unsigned n)
 {
     uint32_t first = shader->source_refs.len;
     vec_push(shader->arena, &shader->source_refs, source);
@@ -49,7 +50,7 @@ static ir_ref call(struct shader *shader, const char *name, uint32_t source, con
         ir_add_callee(shader->graph, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
                                                         .index = shader->verbatim.len - 1,
                                                         .name = verbatim.function});
-    return ir_build(shader->graph, IR_VERBATIM, IR_TYPE_INT, callee, args, n);
+    return ir_build(shader->graph, IR_VERBATIM, type, callee, args, n);
 }
 
 static void assign(struct shader *shader, enum effect_kind kind, uint32_t index, ir_ref value)
@@ -218,7 +219,7 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
         args[n++] = value_of(g, leaf->leaf, i, is_whole);
     find_weights(shader, leaf, spreads, args + n);
     assign(shader, EFFECT_ASSIGN, local,
-           call(shader, "mx_store_closure", source, args, n + NUM_WEIGHTS));
+           call(shader, "mx_store_closure", IR_TYPE_INT, source, args, n + NUM_WEIGHTS));
     shader_add_closure(shader, leaf->leaf);
 }
 
@@ -228,7 +229,7 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     struct source_fault fault;
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
-    deferred_write_lines(deferred_write, &text);
+    deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
     uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),
                                         NULL, 0, &fault);
     assert(source != UINT32_MAX);
@@ -247,26 +248,83 @@ static void write_color(struct shader *shader, ir_ref emission)
     assign(shader, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
 }
 
-void deferred_store(struct shader *shader, const struct closure_host *host, ir_ref bsdf,
-                    const struct closure_list *list, ir_ref emission)
+/* The end of a material pass. */
+static void finish_pass(struct shader *shader, uint32_t source, uint32_t local, ir_ref emission)
+{
+    ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
+    assign(shader, EFFECT_ASSIGN, local,
+           call(shader, "mx_finish_closures", IR_TYPE_INT, source, &stored, 1));
+    write_color(shader, emission);
+}
+
+/* ---- Payloads ---- */
+
+/* A surface whose weights and emission have its opacity. */
+static void premultiply(struct shader *shader, const struct closure_stored *surface,
+                        struct closure_list *marks, ir_ref *emission)
+{
+    struct ir_graph *g = shader->graph;
+    if (!surface->alpha || surface->premultiplied)
+        return;
+    for (uint32_t i = 0; i < marks->leaves.len; i++) {
+        ir_ref *scalar = &marks->leaves.items[i].scalar;
+        *scalar = ir_op2(g, IR_MUL, *scalar, surface->alpha);
+    }
+    if (*emission)
+        *emission = times(g, *emission, surface->alpha);
+}
+
+/* The end of a payload function: an output per word. */
+static void finish_payload(struct shader *shader, uint32_t source, uint32_t local, ir_ref emission,
+                           ir_ref alpha)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref stored = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
+    ir_ref args[3] = {stored, emission ? ir_convert(g, IR_TYPE_VEC3, emission) : 0, alpha};
+    if (!emission)
+        args[1] = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    if (!alpha)
+        args[2] = ir_const_float(g, 1.0f);
+    assign(shader, EFFECT_ASSIGN, local,
+           call(shader, "mx_finish_payload", IR_TYPE_INT, source, args, 3));
+    for (int i = 0; i < DEFERRED_PAYLOAD_WORDS; i++) {
+        struct text name;
+        text_init(&name, shader->arena);
+        text_fmt(&name, "word_%d", i);
+        str_id word = str_intern(shader->strings, name.data, name.len);
+        ir_ref place[2] = {stored, ir_const_int(g, i)};
+        assign(shader, EFFECT_OUTPUT, shader_output(shader, word, IR_TYPE_UINT),
+               call(shader, "mx_payload_word", IR_TYPE_UINT, source, place, 2));
+    }
+}
+
+/* ---- Entry ---- */
+
+void deferred_store(struct shader *shader, const struct closure_host *host,
+                    const struct closure_stored *surface)
 {
     struct closure_list spread = {0};
     struct closure_host spreading = *host;
     const struct deferred_layout *layout = host->store_data;
     uint32_t source = add_source(shader, layout);
+    ir_ref emission = surface->emission;
     spreading.spreads = true;
-    closure_flatten(shader, &spreading, bsdf, &spread);
+    closure_flatten(shader, &spreading, surface->bsdf, &spread);
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
     assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
-    struct closure_list marks = marks_of(shader, bsdf, list);
+    struct closure_list marks = marks_of(shader, surface->bsdf, surface->list);
+    if (layout->is_payload)
+        premultiply(shader, surface, &marks, &emission);
     shader->closures.len = 0; /* lights of slabs are no closures of their own here */
     for (uint32_t i = 0; i < marks.leaves.len; i++) {
         const struct closure_leaf *leaf = &marks.leaves.items[i];
         store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
                    layout->storage == STORAGE_FLOAT);
     }
-    shader->stored_words = count_words(shader, &marks, layout->storage);
-    ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
-    assign(shader, EFFECT_ASSIGN, local, call(shader, "mx_finish_closures", source, &stored, 1));
-    write_color(shader, emission);
+    shader->stored_words =
+        layout->is_payload ? DEFERRED_PAYLOAD_WORDS : count_words(shader, &marks, layout->storage);
+    if (layout->is_payload)
+        finish_payload(shader, source, local, emission, surface->alpha);
+    else
+        finish_pass(shader, source, local, emission);
 }

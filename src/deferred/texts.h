@@ -3,12 +3,17 @@
 #ifndef MXG_DEFERRED_TEXTS_H
 #define MXG_DEFERRED_TEXTS_H
 
-extern const char *const deferred_record[],
-    *const deferred_write[], *const deferred_read[], *const deferred_frame[],
-                                                         *const deferred_classify[],
-                                                             *const deferred_light[],
-                                                                 *const deferred_compose[],
-                                                                     *const deferred_show[],
-                                                                         *const deferred_closures[];
+extern const char *const deferred_record[];
+extern const char *const deferred_write[];
+extern const char *const deferred_read[];
+extern const char *const deferred_frame[];
+extern const char *const deferred_classify[];
+extern const char *const deferred_light[];
+extern const char *const deferred_compose[];
+extern const char *const deferred_show[];
+extern const char *const deferred_pack[];
+extern const char *const deferred_unpack[];
+extern const char *const deferred_light_rays[];
+extern const char *const deferred_closures[];
 
 #endif

@@ -303,7 +303,9 @@ struct shader {
     uint32_t num_light_loops, num_sample_loops; /* so far; each has its own lights or samples */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
-    /* words that it stores per pixel, at most; 0: it lights itself. Deferred pipeline. */
+    /* rays find its points: the view and the changes to the next pixel are vertex data */
+    bool has_rays;
+    /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
     uint32_t stored_words;
     bool has_passes; /* several programs draw its surface: positions are equal to the bit */
     bool is_stored;  /* a function of the deferred pipeline, for a closure from storage */

@@ -7,7 +7,7 @@ source "$(dirname "$(realpath "$0")")/common.sh"
 # ---- passes ----
 
 check "passes" "$mxgen" pipeline passes
-for name in classify compose light_simple light_single light_complex show; do
+for name in classify compose light_simple light_single light_complex show light_rays; do
     check "$name" test -s "passes/$name.comp" -a -s "passes/$name.json"
 done
 check "passes for OpenGL" "$mxgen" pipeline gl --target glsl
@@ -40,7 +40,8 @@ number() { sed -n "s/.*\"$2\": \([0-9]*\).*/\1/p" "$1" | head -1; }
 check "materials" "$mxgen" "$examples/deferred.mtlx" --target vulkan --pipeline deferred --interface reduced --reflect -o materials
 fits() {
     local file
-    for file in materials/[!L]*.json materials/Lantern.json materials/Lacquered.json passes/*.json; do
+    for file in materials/[!L]*.json materials/Lantern.json materials/Lacquered.json passes/[!l]*.json \
+        passes/light_[!r]*.json; do
         [ "$(number "$file" layout)" = "$(number passes/show.json layout)" ] || { echo "$file"; return 1; }
     done
 }
@@ -101,6 +102,39 @@ check "what only glows" as_slabs -e Flat --interface reduced
 check "passes do not become slabs" "$mxgen" pipeline slabs --slabs --max-closures 1
 check "but stay as they are" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'
 
+# ---- payloads of rays ----
+
+payload() { "$mxgen" models.mtlx -e "$1" --target "$2" --form payload --interface reduced --reflect -o rays >out 2>&1; }
+# A closest-hit shader around the function of a payload, with zeros as vertex data.
+wrap() {
+    python3 - "$@" <<'X'
+import json, sys
+stage, source, reflection = sys.argv[1:]
+variables = next((block["variables"] for block in json.load(open(reflection))["blocks"] if block["name"] == "VertexData"), [])
+arguments = ", ".join(f"{variable['type']}(0)" for variable in variables)
+head = {"rchit": "#version 460\n#extension GL_EXT_ray_tracing : require\n", "comp": "#version 430\n"}[stage]
+out = {"rchit": "layout(location = 0) rayPayloadInEXT Surface payload;\n",
+       "comp": "layout(local_size_x = 1) in;\nlayout(std430) buffer Out { Surface payload; };\n"}[stage]
+print(head + open(source).read() + out + f"void main() {{ payload = surface({arguments}); }}")
+X
+}
+for material in Paint Glass Flat; do
+    check "payload of $material" payload $material vulkan
+    check "has 64 bytes" eval '[ "$(number rays/$material.json words)" = 16 ] && [ "$(grep -c "uint word_" rays/$material.frag)" = 16 ]'
+    check "fits the pass over rays" eval '[ "$(number rays/$material.json layout)" = "$(number passes/light_rays.json layout)" ]'
+    if command -v glslangValidator >/dev/null; then
+        wrap rchit rays/$material.frag rays/$material.json >hit.rchit
+        check "is for hit shaders" glslangValidator -V --target-env vulkan1.2 -o code.spv hit.rchit
+    fi
+done
+check "a payload for OpenGL" payload Paint glsl
+if command -v glslangValidator >/dev/null; then
+    wrap comp rays/Paint.frag rays/Paint.json >hit.comp
+    check "compiles" glslangValidator hit.comp
+fi
+check "one slab of many" eval '"$mxgen" "$examples/slabs.mtlx" -e WrappedSilk --form payload --target vulkan --stdout -q >wrapped &&
+    [ "$(grep -c "stored = mx_store_closure" wrapped)" = 1 ]'
+
 # ---- what is an error ----
 
 cat >other.mtlx <<'X'
@@ -114,6 +148,10 @@ reports() {
     shift
     exits 1 "$@" && grep -q "\[$id\]" err
 }
+check "a payload for HLSL" reports options-clash "$mxgen" models.mtlx -e Paint --form payload --target hlsl -o other
+check "a payload of a path tracer" reports option-without-effect "$mxgen" models.mtlx -e Paint --form payload --integrator path --target vulkan
+echo '<materialx version="1.39"><constant name="c" type="color3"/></materialx>' >value.mtlx
+check "a payload of a value" reports not-renderable "$mxgen" value.mtlx -e c --form payload --target vulkan -o other
 check "a closure that is no slab" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --pipeline deferred -o other
 {
     echo '<materialx version="1.39"><slab name="s0" type="BSDF"/>'

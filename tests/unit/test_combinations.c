@@ -24,7 +24,8 @@ static const struct setting {
 } settings[] = {
     {"pipeline", "pipeline", {"forward", "deferred", "depth"}},
     {"integrator", "integrator", {"raster", "path", "scatter"}},
-    {"form", "form", {"program", "function"}},
+    {"form", "form", {"program", "function", "payload"}},
+    {"storage", "storage", {"dither", "round", "float"}},
     {"slots", "slots", {"blend", "stochastic"}},
     {"transparency", "transparency", {"auto", "opaque", "mask", "blend"}},
     {"transmission", "transmission", {"refraction", "opacity"}},

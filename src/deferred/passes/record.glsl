@@ -23,6 +23,8 @@ const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FU
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
 const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its own, 2: the last such word, 3: the one before it
 
+const int MX_PAYLOAD_WORDS = 16; // of a ray
+
 // The words of a closure.
 struct MxRecord
 {
@@ -177,6 +179,12 @@ uint mx_anisotropy_word(MxClosure c, vec3 normal)
     mx_across(normal, x, y);
     float turn = atan(dot(c.tangent, y), dot(c.tangent, x)) / 3.14159265;
     return amount == 0u ? 0u : uint(round(fract(turn) * 4096.0)) & 0xfffu | amount << 12u;
+}
+
+// The class of a pixel or ray with one closure that has these features.
+uint mx_class_of(uint has)
+{
+    return (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
 }
 
 // All words of a closure but its normal, which the caller chooses. stored_normal: as it will be read.

@@ -135,7 +135,7 @@ int mx_finish_closures(int stored)
     if (stored == 0)
         return 0;
     uint has = mx_pending.core >> 20u;
-    uint class_ = stored > 1 || (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
+    uint class_ = stored > 1 ? MX_COMPLEX : mx_class_of(has);
 #if MX_STORAGE == 2
     mx_put_whole(mx_whole);
 #else

@@ -1,0 +1,33 @@
+// Lights the payload of a ray per pixel by the function surface(), which stands above with mx_fill().
+
+layout(MX_PAYLOADS, std430) readonly buffer MxPayloads
+{
+    MxPayload mx_payloads[];
+};
+layout(MX_RAYS, std430) readonly buffer MxRays
+{
+    MxRay mx_rays[];
+};
+layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
+
+// Light that leaves the hit along the ray, and its opacity. Ray generation shaders may call it.
+vec4 mx_light_payload(MxPayload payload, MxRay ray)
+{
+    vec4 lit = mx_emission_of(payload);
+    if (payload.words[0] >> 28u == MX_EMPTY)
+        return lit;
+    MxClosure closure = mx_open_payload(payload);
+    mx_view = ray.view.xyz;
+    mx_fill(closure, ray.point.xyz, closure.normal);
+    surface();
+    return vec4(lit.xyz + out1.xyz, lit.w);
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (mx_is_outside(pixel))
+        return;
+    uint at = uint(pixel.y) * mx_size.x + uint(pixel.x);
+    imageStore(mx_lit, pixel, mx_light_payload(mx_payloads[at], mx_rays[at]));
+}
