@@ -432,12 +432,12 @@ static const struct lang_pieces *store_swizzle_form(struct osl *osl, const struc
 /* "vector4 with_component(vector4 v, int i, float part)", or with another column of a matrix. */
 static const struct lang_pieces *store_index_form(struct osl *osl, const struct lang_use *use)
 {
-    const char *type = osl_type(osl, use->type), *part = osl_type(osl, use->operands[2]);
     bool is_matrix = use->type < IR_NUM_TYPES && ir_type_is_matrix(use->type);
-    unsigned count = is_matrix ? ir_type_info(use->type)->columns : components(use->type);
-    struct text text;
     if (!is_matrix && !osl_is_struct(use->type))
         return NULL; /* v[i] = … of arrays and of three components */
+    const char *type = osl_type(osl, use->type), *part = osl_type(osl, use->operands[2]);
+    unsigned count = is_matrix ? ir_type_info(use->type)->columns : components(use->type);
+    struct text text;
     text_init(&text, osl->spell->scratch);
     text_fmt(&text, "%s with_part(%s whole, int i, %s part)\n{\n    %s result = whole;\n", type,
              type, part, type);

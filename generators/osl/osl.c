@@ -32,12 +32,27 @@ static const struct {
 };
 enum { NUM_STRUCTS = sizeof structs / sizeof *structs };
 
-/* The types that verbatim source needs; only its text shows them. */
+/* The types, and operations on them, that verbatim source needs; only its text shows them. */
 static void note_verbatim_types(struct osl *osl, str_id text)
 {
-    for (size_t i = 0; i < NUM_STRUCTS; i++)
-        if (strstr(str_text(osl->spell->shader->strings, text), structs[i].name))
-            osl->types |= 1u << structs[i].type;
+    const char *source = str_text(osl->spell->shader->strings, text);
+    for (size_t i = 0; i < NUM_STRUCTS; i++) {
+        if (!(osl->types >> structs[i].type & 1) && !strstr(source, structs[i].name))
+            continue;
+        osl->types |= 1u << structs[i].type;
+        if (structs[i].type == IR_TYPE_VEC2 || structs[i].type == IR_TYPE_VEC4)
+            osl_add_struct_functions(osl, structs[i].type, source);
+    }
+}
+
+static void note_helper_types(struct osl *osl)
+{
+    const struct spell *spell = osl->spell;
+    uint64_t helpers = shader_stage_helpers(spell->shader, spell->stage, spell->scratch);
+    for (unsigned i = 0; helpers >> i; i++)
+        for (size_t k = 0; k < NUM_STRUCTS && helpers >> i & 1; k++)
+            if (strstr(shader_helper_text(spell->shader, i), structs[k].name))
+                osl->types |= 1u << structs[k].type;
 }
 
 /* Writes the structs and helpers that the rest of the file needs, above it. */
@@ -56,6 +71,7 @@ static void write_declarations(struct osl *osl)
     }
     for (uint32_t i = 0; i < sources.len; i++)
         note_verbatim_types(osl, spell->shader->sources.items[sources.items[i]].text);
+    note_helper_types(osl);
     for (size_t i = 0; i < NUM_STRUCTS; i++)
         if (osl->types >> structs[i].type & 1)
             SPELL(spell, structs[i].text, "\n");
@@ -164,6 +180,7 @@ const struct target target_osl = {
             | CAP_METADATA,
     .closures = &osl_closures,
     .network = &osl_network,
+    .source = &osl_source,
     .syntax = &osl_syntax,
     .position = "P",
     .stage_suffix = {"displacement.osl", "osl"},

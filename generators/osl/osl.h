@@ -53,6 +53,11 @@ static inline bool osl_is_struct(ir_type_id type)
            && type != IR_TYPE_VEC3;
 }
 
+/* source.c */
+extern const struct source_language osl_source;
+/* Adds the operators and functions of a struct that a text may need. */
+void osl_add_struct_functions(struct osl *osl, ir_type_id type, const char *text);
+
 /* kinds.c */
 void osl_find_kinds(struct osl *osl);
 /* "color"; NULL: the usual name of its type */

@@ -288,6 +288,16 @@ bool build_has_tokens(const struct builder *b, elem_id node);
 const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
 /* The implementation of a definition for the target; NULL: there is none. */
 const struct implementation *build_best_implementation(struct builder *b, uint32_t nodedef);
+
+/* prelude.c */
+
+/*
+ * True if source for the target uses names that MaterialX's generator puts above it, without
+ * declaring them.
+ */
+bool build_uses_prelude(const struct builder *b, const struct implementation *impl);
+/* The first such name that mxgen has no helper for; NULL: there is none. */
+const char *build_absent_name(const struct builder *b, const struct implementation *impl);
 /*
  * The definition of a node for a type: "ND_constant_color3" for "constant"; LIBRARY_NONE if the
  * library has none.

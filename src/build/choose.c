@@ -16,13 +16,28 @@ static unsigned fitness(const struct builder *b, const struct implementation *im
     return library_is_portable(b->lib, impl) ? 1 : 0;
 }
 
+struct choice {
+    const struct implementation *best, *needy, *parsed;
+    unsigned fitness;
+};
+
+/*
+ * Parsed source for a target is portable, as is code of mxgen: both serve where the source of this
+ * target needs a prelude.
+ */
 static void consider(const struct builder *b, const struct implementation *impl,
-                     const struct implementation **best, unsigned *best_fitness)
+                     struct choice *choice)
 {
     unsigned f = fitness(b, impl);
-    if (f > *best_fitness) {
-        *best = impl;
-        *best_fitness = f;
+    bool is_parsed =
+        impl->kind == IMPL_EXPRESSION || impl->kind == IMPL_FUNCTION || impl->kind == IMPL_DYNAMIC;
+    if (!f && is_parsed && !choice->parsed)
+        choice->parsed = impl;
+    if (f > choice->fitness && build_uses_prelude(b, impl)) {
+        choice->needy = choice->needy ? choice->needy : impl;
+    } else if (f > choice->fitness) {
+        choice->best = impl;
+        choice->fitness = f;
     }
 }
 
@@ -31,24 +46,25 @@ const struct implementation *build_best_implementation(struct builder *b, uint32
     const struct implementation *code = code_implementation(b, nodedef);
     if (code)
         return code;
-    const struct implementation *best = NULL;
-    unsigned best_fitness = 0;
+    struct choice choice = {0};
     /* Higher layers first: a document's implementation wins over the library's of equal fitness. */
     for (const struct library *layer = b->lib; layer; layer = layer->base) {
         for (uint32_t i = library_first_override(layer, nodedef); i != LIBRARY_NONE;) {
             const struct implementation *impl = library_impl(b->lib, i, NULL);
             assert(impl->nodedef == nodedef);
-            consider(b, impl, &best, &best_fitness);
+            consider(b, impl, &choice);
             i = impl->next;
         }
     }
     for (uint32_t i = library_nodedef(b->lib, nodedef)->first_impl; i != LIBRARY_NONE;) {
         const struct implementation *impl = library_impl(b->lib, i, NULL);
         assert(impl->nodedef == nodedef);
-        consider(b, impl, &best, &best_fitness);
+        consider(b, impl, &choice);
         i = impl->next;
     }
-    return best;
+    if (choice.best || !choice.needy)
+        return choice.best;
+    return choice.parsed ? choice.parsed : choice.needy;
 }
 
 static void report_deferred(struct builder *b, const struct implementation *impl)

@@ -45,6 +45,20 @@ static void report_use(const struct source_call *c)
                  build_text(c->b, doc_element(doc, node)->name));
 }
 
+static void report_absent(const struct source_call *c, const char *name)
+{
+    struct builder *b = c->b;
+    struct text what;
+    text_init(&what, b->arena);
+    if (*name == '{')
+        text_str(&what, "members in braces, which have no type here");
+    else
+        text_fmt(&what, "'%s' of MaterialX's mx_funcs.h, which mxgen does not have", name);
+    diag_add(b->diags, DIAG_ID_absent_prelude, doc_place(&b->lib->doc, c->impl->element),
+             build_text(b, c->impl->name), text_cstr(&what));
+    report_use(c);
+}
+
 /* Reports source that mxgen cannot call, with the reason why it is not portable. */
 static void report_unusable(const struct source_call *c, const struct port *port)
 {
@@ -139,6 +153,7 @@ static bool same_sources(const struct shader *shader, const struct shader_verbat
 static uint32_t add_verbatim(const struct source_call *c, const struct shader_verbatim *v)
 {
     struct shader *shader = c->b->shader;
+    shader_index_helpers(shader);
     for (uint32_t i = 0; i < shader->verbatim.len; i++) {
         const struct shader_verbatim *have = &shader->verbatim.items[i];
         if (have->function == v->function && have->expression == v->expression
@@ -527,9 +542,12 @@ void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *result
     c.frame = frame;
     const struct port *unusable = unusable_port(&c);
     struct shader_verbatim v = {0};
+    const char *absent = unusable ? NULL : build_absent_name(b, c.impl);
     if (unusable)
         report_unusable(&c, unusable);
-    if (unusable || !add_files(&c, &v)) {
+    if (absent)
+        report_absent(&c, absent);
+    if (unusable || absent || !add_files(&c, &v)) {
         fail(&c, results);
         return;
     }

@@ -112,7 +112,7 @@ static const struct shader_token *add_token(struct shader *shader, const struct 
 
 /* ---- Helpers ---- */
 
-static void index_helpers(struct shader *shader)
+void shader_index_helpers(struct shader *shader)
 {
     const struct source_language *language = shader->source_language;
     if (!language || shader->helper_table.num)
@@ -274,7 +274,7 @@ uint32_t shader_add_source(struct shader *shader, str_id text, const uint32_t *i
     for (uint32_t i = 0; i < shader->sources.len; i++)
         if (shader->sources.items[i].text == text)
             return i;
-    index_helpers(shader);
+    shader_index_helpers(shader);
     struct reader r = {.shader = shader, .source = {.text = text, .num_includes = num_includes}};
     r.source.first_function = shader->source_functions.len;
     struct scan scan;

@@ -35,7 +35,8 @@ struct source_language {
     const struct source_helper *helpers;
     const struct source_token *tokens; /* beside the names of uniforms and streams */
     const char *const *derivatives;    /* functions that need adjacent pixels */
-    uint8_t num_helpers, num_tokens, num_derivatives;
+    const char *const *absent;         /* names that source may expect, and no helper has */
+    uint8_t num_helpers, num_tokens, num_derivatives, num_absent;
 };
 
 /* The structs that functions of source take and give. */
@@ -104,6 +105,9 @@ struct shader_token {
     const char *text; /* NULL: */
     uint32_t variable;
 };
+
+/* Makes the helpers known, before the first source or expression. */
+void shader_index_helpers(struct shader *shader);
 
 /* The type of a struct in the shader's graph. */
 ir_type_id shader_source_struct(struct shader *shader, enum source_struct which);

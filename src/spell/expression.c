@@ -6,6 +6,7 @@
 #include "spell/spell.h"
 
 #include <assert.h>
+#include <ctype.h>
 
 /*
  * Structs and arrays of the graph have their own ids. The struct of the portable functions with the
@@ -146,23 +147,7 @@ static int read_operand(const char **p)
     return index;
 }
 
-/* Writes the expression of verbatim source, with an operand in parentheses for each {{i}}. */
-static void write_verbatim(struct spell *spell, ir_ref ref, str_id expression)
-{
-    const char *p = str_text(spell->shader->strings, expression);
-    text_char(spell->out, '(');
-    while (*p) {
-        int index = read_operand(&p);
-        if (index < 0) {
-            text_char(spell->out, *p++);
-            continue;
-        }
-        assert((uint32_t)index < ir_get(spell->shader->graph, ref)->num_args);
-        spell_expression(spell, ir_arg(spell->shader->graph, ref, (uint32_t)index),
-                         LANG_PREC_POSTFIX);
-    }
-    text_char(spell->out, ')');
-}
+static void write_verbatim(struct spell *spell, ir_ref ref, str_id expression);
 
 static const char *callee_name(const struct spell *spell, ir_ref call)
 {
@@ -264,6 +249,59 @@ static void write_form(struct spell *spell, const struct ir_node *node,
         spell_text(spell, ".xy"); /* the third component is the number of layers */
     if (parentheses)
         text_char(spell->out, ')');
+}
+
+/*
+ * Writes ".x" of an operand that is no variable, in a language where only variables have parts;
+ * false: the text after the operand needs no such form.
+ */
+static bool write_part(struct spell *spell, ir_ref ref, uint32_t index, const char **text)
+{
+    const struct ir_graph *graph = spell->shader->graph;
+    ir_ref operand = ir_arg(graph, ref, index);
+    ir_type_id type = ir_type_of(graph, operand);
+    static const char parts[] = "xyzw";
+    const char *p = *text,
+               *letter = p[0] == '.' && p[1] && !isalnum((unsigned char)p[2]) && p[2] != '_'
+                             ? strchr(parts, p[1])
+                             : NULL;
+    if (!letter || !spell->lang_names.form || is_named(spell, operand) || type >= IR_NUM_TYPES)
+        return false;
+    struct ir_node part = {.op = IR_SWIZZLE,
+                           .type = ir_type_info(type)->scalar,
+                           .num_args = 1,
+                           .first_arg = ir_get(graph, ref)->first_arg + index,
+                           .attr = 1u << 8 | (uint32_t)(letter - parts)};
+    struct lang_use use = {.op = IR_SWIZZLE,
+                           .type = part.type,
+                           .attr = part.attr,
+                           .operands = &type,
+                           .num_operands = 1};
+    const struct lang_pieces *form = spell->lang_names.form(spell->lang_names.user_data, &use);
+    if (form)
+        write_form(spell, &part, form, LANG_PREC_POSTFIX);
+    *text += form ? 2 : 0;
+    return form != NULL;
+}
+
+/* Writes the expression of verbatim source, with an operand in parentheses for each {{i}}. */
+static void write_verbatim(struct spell *spell, ir_ref ref, str_id expression)
+{
+    const char *p = str_text(spell->shader->strings, expression);
+    text_char(spell->out, '(');
+    while (*p) {
+        int index = read_operand(&p);
+        if (index < 0) {
+            text_char(spell->out, *p++);
+            continue;
+        }
+        assert((uint32_t)index < ir_get(spell->shader->graph, ref)->num_args);
+        if (write_part(spell, ref, (uint32_t)index, &p))
+            continue;
+        spell_expression(spell, ir_arg(spell->shader->graph, ref, (uint32_t)index),
+                         LANG_PREC_POSTFIX);
+    }
+    text_char(spell->out, ')');
 }
 
 /* Writes the current light, a member of it, or its number. */

@@ -57,7 +57,7 @@ def place(source, case, probe):
     for text, value in WORDS.items():
         source = source.replace(text, value)
     # at the point, not over the pixel, which is a quarter of the image
-    source = re.sub(r'("missingcolor", (?:color\([^()]*\)|\w+)|"missingalpha", missing.w|"alpha", alpha)\)', r'\1, "width", 0, "interp", "linear")', source)
+    source = re.sub(r'("missingcolor",\s+(?:color\([^()]*\)|\w+)|"missingalpha",\s+missing.w|"alpha",\s+alpha)\)', r'\1, "width", 0, "interp", "linear")', source)
     source = source.replace('"interp", interp, ', "").replace('", swrap', '", "periodic"').replace('", twrap', '", "periodic"')
     source = re.sub(r'"(s|t|)wrap", "\w+"', r'"\1wrap", "periodic"', source) # as the reference has it
     head, _, body = source.rpartition("\nshader ")
