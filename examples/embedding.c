@@ -62,6 +62,24 @@ static void list_materials(const mxg_document *document)
     }
 }
 
+static void list_inputs(const mxg_document *document, mxg_element node)
+{
+    mxg_element_info info = MXG_INIT(mxg_element_info);
+    mxg_document_element(document, node, &info);
+    printf("%s %s\n", info.category, info.name);
+    for (mxg_element input = info.first_child; input; input = info.next) {
+        mxg_value value = MXG_INIT(mxg_value);
+        mxg_connection connection = MXG_INIT(mxg_connection);
+        mxg_element_info source = MXG_INIT(mxg_element_info);
+        mxg_document_element(document, input, &info);
+        if (mxg_document_value(document, input, &value) == MXG_OK)
+            printf("  %s = %s\n", info.name, value.text);
+        else if (mxg_document_connection(document, input, &connection) == MXG_OK
+                 && mxg_document_element(document, connection.source, &source) == MXG_OK)
+            printf("  %s reads %s\n", info.name, source.name);
+    }
+}
+
 /* ---- Programs ---- */
 
 /* *out is set also after an error: it has the diagnostics. */
@@ -271,6 +289,7 @@ static bool run(struct host *h)
     if (build(h) != MXG_OK || generate(h, h->document, false, &h->program) != MXG_OK)
         return false;
     list_materials(h->document);
+    list_inputs(h->document, mxg_document_find(h->document, "SR"));
     compile(h->program);
     print_bindings(h->program);
     explain_private_uniforms();

@@ -79,6 +79,8 @@ sed '1,/<\/materialx>/d' out >polished.mtlx
 check 'writes what it built' eval 'sed "/<\/materialx>/q" out | "$mxgen" --target vulkan --stdout - | grep -q noise'
 check 'and what it edited' eval '"$mxgen" --target vulkan --stdout polished.mtlx >edited && [ -s edited ] && ! grep -q noise edited'
 check 'embedding' exits 0 "${program[embedding]}"
+check 'reads a value' grep -qx '  metalness = 1' out
+check 'follows a connection' grep -qx '  base_color reads Wood' out
 check 'tells blocks with sizes' grep -q '^PublicUniforms: set 0, binding 1, [1-9][0-9]* bytes$' out
 check 'tells an input that is compiled in' grep -q '^compiled in: vector2 Wood/uvtiling = 4.0, 4.0$' out
 check 'keeps its program for a value' grep -q '^change 1, 1 values$' out
