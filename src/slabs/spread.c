@@ -49,7 +49,7 @@ static ir_ref greatest(struct ir_graph *g, ir_ref color)
 static ir_ref presence(struct ir_graph *g, const ir_ref *in)
 {
     ir_ref zero = num(g, 0.0f), one = num(g, 1.0f);
-    ir_ref bend = mul(g, greatest(g, in[SLAB_f0]), num(g, 50.0f));
+    ir_ref f0 = greatest(g, in[SLAB_f0]), bend = mul(g, f0, num(g, 50.0f));
     bend = ir_op3(g, IR_CLAMP, bend, zero, one);
     ir_ref is_open = ir_op2(g, IR_GT, greatest(g, in[SLAB_mean_free_path]), zero);
     return ir_op3(g, IR_SELECT, is_open, bend, zero);
