@@ -56,7 +56,12 @@ uint mx_noise_of(uint channel)
 // A number from 0 to 1 in eighths of the steps of its bits.
 uint mx_eighths(float value, uint bits)
 {
-    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + 0.5);
+#if MX_STORAGE == 0
+    const float nearest = 0.5; // noise has no middle, so this is where its mean is right
+#else
+    const float nearest = 0.0; // half a step comes later
+#endif
+    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
 }
 
 uint mx_cut(float value, uint bits, uint channel)
