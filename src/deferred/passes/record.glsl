@@ -33,25 +33,40 @@ struct MxRecord
 
 // ---- numbers of few bits ---------------------------------------------------------------------------------------------
 
-// From 0 to below 1: what is added before a number is cut off.
-float mx_noise = 0.5;
+// From 0 to 7 eighths: what is added before a number is cut off. A constant number costs one addition.
+uint mx_noise = 4u;
 
 void mx_start_noise(vec2 pixel)
 {
 #if MX_STORAGE == 0
-    mx_noise = fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); // Jimenez 2014, interleaved gradient noise
+    mx_noise = uint(8.0 * fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))))); // Jimenez 2014, interleaved gradient noise
 #endif
+}
+
+// Channels differ by 5 eighths, near the golden ratio.
+uint mx_noise_of(uint channel)
+{
+#if MX_STORAGE == 0
+    return mx_noise + 5u * channel & 7u;
+#else
+    return mx_noise;
+#endif
+}
+
+// A number from 0 to 1 in eighths of the steps of its bits.
+uint mx_eighths(float value, uint bits)
+{
+#if MX_STORAGE == 0
+    const float nearest = 0.5; // noise has no middle, so this is where its mean is right
+#else
+    const float nearest = 0.0; // half a step comes later
+#endif
+    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
 }
 
 uint mx_cut(float value, uint bits, uint channel)
 {
-    float most = float((1u << bits) - 1u);
-#if MX_STORAGE == 0
-    float noise = fract(mx_noise + 0.618034 * float(channel));
-#else
-    float noise = 0.5;
-#endif
-    return uint(min(floor(clamp(value, 0.0, 1.0) * most + noise), most));
+    return mx_eighths(value, bits) + mx_noise_of(channel) >> 3u;
 }
 
 float mx_uncut(uint word, uint shift, uint bits)
@@ -59,10 +74,12 @@ float mx_uncut(uint word, uint shift, uint bits)
     return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
 }
 
-// 7, 7 and 6 bits.
+// 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
 uint mx_cut_color(vec3 color)
 {
-    return mx_cut(color.x, 7u, 0u) | mx_cut(color.y, 7u, 1u) << 7u | mx_cut(color.z, 6u, 2u) << 14u;
+    uint eighths = mx_eighths(color.x, 7u) | mx_eighths(color.y, 7u) << 10u | mx_eighths(color.z, 6u) << 20u;
+    eighths += mx_noise_of(0u) | mx_noise_of(1u) << 10u | mx_noise_of(2u) << 20u;
+    return eighths >> 3u & 0x7fu | (eighths >> 13u & 0x7fu) << 7u | (eighths >> 23u & 0x3fu) << 14u;
 }
 
 vec3 mx_uncut_color(uint word)
