@@ -52,7 +52,7 @@ static mxg_result *generate(struct bench *b, const char *path, mxg_document **ou
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
     desc.options = b->options;
-    mxg_result *result;
+    mxg_result *result = NULL;
     if (mxg_document_load(b->context, mxg_library_builtin(b->context), path, out_document) != MXG_OK
         || mxg_generate(b->context, *out_document, &desc, &result) != MXG_OK)
         fail("%s does not generate", path);
