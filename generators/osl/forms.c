@@ -332,6 +332,14 @@ static bool all_named(const struct lang_use *use)
 
 static const struct lang_pieces *construct_form(struct osl *osl, const struct lang_use *use)
 {
+    if (use->type == IR_TYPE_MAT2 && use->num_operands == 4)
+        return form_of(osl, "matrix($0, $1, 0, 0, $2, $3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)",
+                       LANG_PREC_POSTFIX);
+    if (use->type == IR_TYPE_MAT2 && use->num_operands == 2) {
+        osl_add_helper(osl, "matrix matrix_of_rows(vector2 a, vector2 b)\n{\n    return matrix("
+                            "a.x, a.y, 0, 0, b.x, b.y, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);\n}\n");
+        return call_form(osl, "matrix_of_rows", 2, NULL);
+    }
     if (use->type == IR_TYPE_MAT3 && use->num_operands == 9)
         return form_of(osl, "matrix($0, $1, $2, 0, $3, $4, $5, 0, $6, $7, $8, 0, 0, 0, 0, 1)",
                        LANG_PREC_POSTFIX);
@@ -451,6 +459,23 @@ static const struct lang_pieces *store_index_form(struct osl *osl, const struct 
     return call_form(osl, "with_part", 3, NULL);
 }
 
+/*
+ * oslc (1.15.6) assigns structs part by part, so the second part of `v = vector2(v.y, v.x)` reads
+ * the new first one. A function has the whole value before it returns it.
+ */
+static const struct lang_pieces *own_value_form(struct osl *osl, const struct lang_use *use)
+{
+    if (!osl_is_struct(use->type))
+        return NULL;
+    const char *type = osl_type(osl, use->type);
+    struct text text;
+    text_init(&text, osl->spell->scratch);
+    text_fmt(&text, "%s copied(%s value)\n{\n    %s copy = value;\n    return copy;\n}\n", type,
+             type, type);
+    osl_add_helper(osl, text_cstr(&text));
+    return call_form(osl, "copied", 1, NULL);
+}
+
 /* ---- Entry ---- */
 
 static bool touches_struct(const struct lang_use *use)
@@ -539,7 +564,7 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
                        : is_no_vector(osl, use, 0) ? "transform(transpose($1), vector($0))"
                                                    : "transform(transpose($1), $0)",
                        LANG_PREC_POSTFIX);
-    if (a == IR_TYPE_VEC4 && b == IR_TYPE_MAT4) {
+    if ((a == IR_TYPE_VEC4 && b == IR_TYPE_MAT4) || (a == IR_TYPE_VEC2 && b == IR_TYPE_MAT2)) {
         ir_type_id turned[2] = {b, a};
         struct lang_use transform = *use;
         transform.operands = turned;
@@ -635,7 +660,9 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
 {
     struct osl *osl = ((struct spell *)user_data)->target_data;
     if (use->is_store)
-        return use->op == IR_SWIZZLE ? store_swizzle_form(osl, use) : store_index_form(osl, use);
+        return use->op == IR_NUM_OPS   ? own_value_form(osl, use)
+               : use->op == IR_SWIZZLE ? store_swizzle_form(osl, use)
+                                       : store_index_form(osl, use);
     bool makes = use->op == IR_CONST || use->op == IR_CONVERT || use->op == IR_CONSTRUCT;
     const struct lang_pieces *color = makes ? color_form(osl, use) : NULL;
     if (color || use->op == IR_CONST)

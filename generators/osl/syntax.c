@@ -43,17 +43,19 @@ static const char *const type_names[IR_NUM_TYPES] = {
 static bool write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
                         struct text *out)
 {
-    if (!osl_is_struct(type) && type != IR_TYPE_MAT3)
+    bool is_small = type == IR_TYPE_MAT2 || type == IR_TYPE_MAT3;
+    if (!osl_is_struct(type) && !is_small)
         return false;
     const struct ir_type_info *info = ir_type_info(type);
+    unsigned rows = is_small ? info->columns : 0;
     text_fmt(out, "%s(", lang_syntax_type(&osl_syntax, type));
     for (unsigned i = 0; i < info->components; i++) {
         text_str(out, i ? ", " : "");
         lang_print_value(style, NULL, info->scalar, &words[i], LANG_PREC_COMMA, out);
-        if (type == IR_TYPE_MAT3 && i % 3 == 2)
-            text_str(out, ", 0");
+        if (is_small && i % rows == rows - 1)
+            text_str(out, rows == 2 ? ", 0, 0" : ", 0");
     }
-    text_str(out, type == IR_TYPE_MAT3 ? ", 0, 0, 0, 1)" : ")");
+    text_str(out, rows == 2 ? ", 0, 0, 1, 0, 0, 0, 0, 1)" : rows == 3 ? ", 0, 0, 0, 1)" : ")");
     return true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Printing functions: statements and expressions of one tree in the syntax of a target. */
 #include "print/print_priv.h"
+#include "tree/walk.h"
 
 #include <assert.h>
 
@@ -382,6 +383,35 @@ static bool print_part_assignment(struct printer *p, const struct lang_node *nod
     return true;
 }
 
+struct variable_search {
+    const struct printer *printer;
+    uint32_t slot;
+};
+
+static bool is_another(void *user_data, lang_ref ref, unsigned access)
+{
+    const struct variable_search *search = user_data;
+    const struct lang_node *node = node_at(search->printer, ref);
+    (void)access;
+    return node->kind != LANG_VAR || node->a != search->slot;
+}
+
+/* The form of a value that reads the variable to which it is assigned; NULL: it needs none. */
+static const struct lang_pieces *own_value_form(struct printer *p, const struct lang_node *node)
+{
+    const struct lang_node *target = node_at(p, node->a);
+    struct variable_search search = {p, target->a};
+    if (!p->is_typed || node->op != IR_NUM_OPS || target->kind != LANG_VAR
+        || lang_walk(p->layer, node->b, LANG_READ, is_another, &search))
+        return NULL;
+    struct lang_use use = {.op = IR_NUM_OPS,
+                           .type = target->type,
+                           .operands = &target->type,
+                           .num_operands = 1,
+                           .is_store = true};
+    return p->names->form(p->names->user_data, &use);
+}
+
 static void print_assignment(struct printer *p, const struct lang_node *node)
 {
     if (print_part_assignment(p, node))
@@ -406,7 +436,12 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
                    (const struct lang_node *[]){node_at(p, node->a), node_at(p, node->b)});
         return;
     }
-    print_expression(p, node_at(p, node->b), LANG_PREC_ASSIGN);
+    const struct lang_node *value = node_at(p, node->b);
+    const struct lang_pieces *own = own_value_form(p, node);
+    if (own)
+        print_form(p, own, value->type, &value);
+    else
+        print_expression(p, value, LANG_PREC_ASSIGN);
 }
 
 /* Writes a statement without indentation, ';' and newline, also in the head of a `for`. */

@@ -123,6 +123,8 @@ struct lang_use {
     /*
      * SWIZZLE or INDEX as the target of an assignment: the last operand is the new value of the
      * parts, and the form is the whole with this value. NULL: the language assigns parts.
+     * IR_NUM_OPS: the variable is in its own new value, the operand, and the form is this value.
+     * NULL: as it is.
      */
     bool is_store;
     /* bit i: the text may repeat operand i, for example a variable */

@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Functions of the portable language compile in every target. Arguments: mxgen-compile, the document.
-compile=$(realpath "$1") document=$(realpath "$2")
+# Functions of the portable language compile in every target. Arguments: mxgen-compile, the documents.
+compile=$(realpath "$1")
+shift
+mapfile -t documents < <(realpath "$@")
 . "$(dirname "$0")/common.sh"
-outputs=$(grep -c '<output name="[a-z_]*".*nodename=' "$document")
+outputs=$(cat "${documents[@]}" | grep -c '<output name="[a-z_]*".*nodename=')
 for target in glsl essl essl310 vulkan hlsl osl; do
     if [ "$target" = osl ] && ! command -v oslc >/dev/null; then
         skip 'without oslc no OSL is compiled'
         continue
     fi
-    check "$target" exits 0 "$compile" "$document" --targets "$target"
+    check "$target" exits 0 "$compile" "${documents[@]}" --targets "$target"
     check "$target: all outputs with three interfaces" test "$(grep -c "	$target	" out)" -eq $((3 * outputs))
 done
 finish language-compile
