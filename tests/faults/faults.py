@@ -36,7 +36,7 @@ EXPECTED = {
     "subtract_inf_default": GOOD,
     "udimset40000": GOOD,
     "uniform_clash": "uniform-name",
-    "upgrade_null": "misplaced-element",
+    "upgrade_null": "name-missing",
     "verbatim_index_oob": "lang-unknown",
     "verbatim_stack": "lang-unknown",
 }

@@ -21,6 +21,6 @@ for target in glsl osl; do
         esac
     done
 done
-check 'the film is there' grep -q 'mx_film_index(.*\.w)' glsl/Over_varnished.frag
-check 'no film is below' grep -q 'mx_fresnel_conductor(.*\.w)' glsl/Over_varnished.frag
+check 'the film is there' grep -q 'mx_film_index(.*\.cosine)' glsl/Over_varnished.frag
+check 'no film is below' grep -q 'mx_fresnel_conductor(.*\.cosine)' glsl/Over_varnished.frag
 finish shaderx-compile
