@@ -17,22 +17,15 @@ static unsigned fitness(const struct builder *b, const struct implementation *im
 }
 
 struct choice {
-    const struct implementation *best, *needy, *parsed;
-    unsigned fitness;
+    const struct implementation *best, *needy;
+    unsigned fitness; /* of the best */
 };
 
-/*
- * Parsed source for a target is portable, as is code of mxgen: both serve where the source of this
- * target needs a prelude.
- */
+/* Source that needs a prelude gives way to any other implementation. */
 static void consider(const struct builder *b, const struct implementation *impl,
                      struct choice *choice)
 {
     unsigned f = fitness(b, impl);
-    bool is_parsed =
-        impl->kind == IMPL_EXPRESSION || impl->kind == IMPL_FUNCTION || impl->kind == IMPL_DYNAMIC;
-    if (!f && is_parsed && !choice->parsed)
-        choice->parsed = impl;
     if (f > choice->fitness && build_uses_prelude(b, impl)) {
         choice->needy = choice->needy ? choice->needy : impl;
     } else if (f > choice->fitness) {
@@ -62,9 +55,7 @@ const struct implementation *build_best_implementation(struct builder *b, uint32
         consider(b, impl, &choice);
         i = impl->next;
     }
-    if (choice.best || !choice.needy)
-        return choice.best;
-    return choice.parsed ? choice.parsed : choice.needy;
+    return choice.best ? choice.best : choice.needy;
 }
 
 static void report_deferred(struct builder *b, const struct implementation *impl)

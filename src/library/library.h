@@ -271,8 +271,8 @@ uint32_t library_first_of_node(const struct library *layer, str_id node);
 uint32_t library_first_override(const struct library *layer, uint32_t nodedef);
 
 /*
- * True if an implementation serves every target: it names none, or its source for MaterialX's GLSL
- * is portable.
+ * True if an implementation serves every target: it names none, it is code of mxgen, or its source
+ * for MaterialX's GLSL is portable.
  */
 bool library_is_portable(const struct library *lib, const struct implementation *impl);
 

@@ -87,9 +87,10 @@ bool index_has_prelude(const struct indexer *ix, const struct implementation *im
 
 bool library_is_portable(const struct library *lib, const struct implementation *impl)
 {
+    if (!impl->target || impl->kind == IMPL_DYNAMIC)
+        return true;
     bool is_read = impl->kind == IMPL_EXPRESSION || impl->kind == IMPL_FUNCTION;
-    return !impl->target
-           || (is_read && strcmp(str_text(&lib->strings, impl->target), portable_target) == 0);
+    return is_read && strcmp(str_text(&lib->strings, impl->target), portable_target) == 0;
 }
 
 uint32_t index_parse_with_prelude(struct indexer *ix, const char *from, const char *ref,
