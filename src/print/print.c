@@ -383,26 +383,12 @@ static bool print_part_assignment(struct printer *p, const struct lang_node *nod
     return true;
 }
 
-struct variable_search {
-    const struct printer *printer;
-    uint32_t slot;
-};
-
-static bool is_another(void *user_data, lang_ref ref, unsigned access)
-{
-    const struct variable_search *search = user_data;
-    const struct lang_node *node = node_at(search->printer, ref);
-    (void)access;
-    return node->kind != LANG_VAR || node->a != search->slot;
-}
-
 /* The form of a value that reads the variable to which it is assigned; NULL: it needs none. */
 static const struct lang_pieces *own_value_form(struct printer *p, const struct lang_node *node)
 {
     const struct lang_node *target = node_at(p, node->a);
-    struct variable_search search = {p, target->a};
     if (!p->is_typed || node->op != IR_NUM_OPS || target->kind != LANG_VAR
-        || lang_walk(p->layer, node->b, LANG_READ, is_another, &search))
+        || !lang_names_slot(p->layer, node->b, target->a))
         return NULL;
     struct lang_use use = {.op = IR_NUM_OPS,
                            .type = target->type,

@@ -118,25 +118,6 @@ static void name_literals(struct spec *s, uint32_t slot)
     s->slots[slot].uses |= SLOT_READ;
 }
 
-struct slot_search {
-    const struct lang_unit *unit;
-    uint32_t slot;
-};
-
-static bool names_other_slot(void *user_data, lang_ref ref, unsigned access)
-{
-    const struct slot_search *search = user_data;
-    const struct lang_node *node = ast_node(search->unit, ref);
-    (void)access;
-    return node->kind != LANG_VAR || node->a != search->slot;
-}
-
-static bool names_slot(const struct spec *s, lang_ref expression, uint32_t slot)
-{
-    struct slot_search search = {s->unit, slot};
-    return !lang_walk(s->unit, expression, LANG_READ, names_other_slot, &search);
-}
-
 /*
  * The statement that assigns a new value to a variable, if this is the next mention of the
  * variable; else 0.
@@ -147,7 +128,7 @@ static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
     const struct lang_node *next = ast_node(s->unit, ref);
     bool overwrites = next->kind == LANG_ASSIGN && next->op == IR_NUM_OPS && next->c == list
                       && ast_node(s->unit, next->a)->kind == LANG_VAR
-                      && !names_slot(s, next->b, slot);
+                      && !lang_names_slot(s->unit, next->b, slot);
     return overwrites ? ref : 0;
 }
 

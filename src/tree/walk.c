@@ -93,3 +93,22 @@ bool lang_has_effects(const struct lang_unit *unit, lang_ref expression)
 {
     return !lang_walk(unit, expression, LANG_READ, reads_only, NULL);
 }
+
+struct slot_search {
+    const struct lang_unit *unit;
+    uint32_t slot;
+};
+
+static bool names_other_slot(void *user_data, lang_ref ref, unsigned access)
+{
+    const struct slot_search *search = user_data;
+    const struct lang_node *node = ast_node(search->unit, ref);
+    (void)access;
+    return node->kind != LANG_VAR || node->a != search->slot;
+}
+
+bool lang_names_slot(const struct lang_unit *unit, lang_ref expression, uint32_t slot)
+{
+    struct slot_search search = {unit, slot};
+    return !lang_walk(unit, expression, LANG_READ, names_other_slot, &search);
+}

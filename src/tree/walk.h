@@ -38,4 +38,7 @@ lang_ref lang_copy(const struct lang_unit *from, lang_ref root, struct lang_unit
 /* True if an expression calls a function that assigns to its arguments. */
 bool lang_has_effects(const struct lang_unit *unit, lang_ref expression);
 
+/* True if an expression reads or writes the variable of a slot. */
+bool lang_names_slot(const struct lang_unit *unit, lang_ref expression, uint32_t slot);
+
 #endif
