@@ -5,17 +5,17 @@
  * is the least of a few frames. Argument: examples/deferred.mtlx.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "bench/drawn.h"
 #include "render/matrix.h"
 #include "render/passes.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-enum { SIZE = 384, NUM_FRAMES = 9, NUM_ROUNDS = 3, MAX_COPIES = 4, NUM_LIGHTS = 8 };
+enum { SIZE = 384, NUM_FRAMES = 9, NUM_ROUNDS = 3, NUM_LIGHTS = 8 };
 
 /* How a material is drawn. */
 enum way {
@@ -28,22 +28,12 @@ enum way {
 struct bench {
     struct gpu gpu;
     struct scene scene;
-    struct scene_object copies[MAX_COPIES]; /* one around the other, the innermost first */
+    struct scene_object copies[BENCH_COPIES]; /* one around the other, the innermost first */
     mxg_context *context;
     mxg_options *options;
     mxg_document *examples, *mixes;
     float *pixels;
 };
-
-static void fail(const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    vfprintf(stderr, format, args);
-    va_end(args);
-    fputc('\n', stderr);
-    exit(1);
-}
 
 /* ---- Materials ---- */
 
@@ -81,7 +71,7 @@ static void parse_mixes(struct bench *b)
     if (mxg_document_parse(b->context, mxg_library_builtin(b->context), "mixes.mtlx", text,
                            strlen(text), &b->mixes)
         != MXG_OK)
-        fail("the document of mixes does not load");
+        bench_fail("the document of mixes does not load");
 }
 
 static mxg_result *generate(struct bench *b, const char *element, const char *pipeline)
@@ -94,7 +84,7 @@ static mxg_result *generate(struct bench *b, const char *element, const char *pi
     mxg_options_set(b->options, "pipeline", pipeline);
     bool is_mix = element[0] == 'M' || strcmp(element, "Half") == 0;
     if (mxg_generate(b->context, is_mix ? b->mixes : b->examples, &desc, &result) != MXG_OK)
-        fail("%s does not generate", element);
+        bench_fail("%s does not generate", element);
     return result;
 }
 
@@ -125,7 +115,7 @@ static void write_plain(const char *pixel, char *out, size_t capacity)
         end = strstr(end + 1, ";\n");
     end = end ? strchr(end + 3, '\n') : NULL;
     if (!end)
-        fail("the vertex data is not as expected");
+        bench_fail("the vertex data is not as expected");
     snprintf(out, capacity, "#version 450\n%.*s\n%s", (int)(end - begin), begin, plain_body);
 }
 
@@ -138,14 +128,14 @@ static struct draw_program *open_plain(struct draw_canvas *canvas, struct bind *
         [MXG_STAGE_VERTEX] = mxg_result_source(bind->result, MXG_STAGE_VERTEX, NULL),
         [MXG_STAGE_PIXEL] = pixel};
     if (!bind_shader(bind) || !compile_program("vulkan", sources, compiled) || compiled->errors)
-        fail("the plain G-buffer does not compile: %s",
-             compiled->num_messages ? compiled->messages[0].text : bind->reason);
+        bench_fail("the plain G-buffer does not compile: %s",
+                   compiled->num_messages ? compiled->messages[0].text : bind->reason);
     for (int stage = 0; stage < 2; ++stage) {
         bind->draw.code[stage] = compiled->stages[stage].words;
         bind->draw.code_words[stage] = compiled->stages[stage].num_words;
     }
     if (!bind_scene(bind))
-        fail("%s", bind->reason);
+        bench_fail("%s", bind->reason);
     return draw_open(canvas, &bind->draw);
 }
 
@@ -165,7 +155,7 @@ static double frame_seconds(struct bench *b, struct draw_canvas *canvas,
     for (int i = 0; i < NUM_FRAMES; ++i) {
         double begin = now();
         if (!draw_frame(canvas, programs, count, b->pixels))
-            fail("a frame fails: %s", b->gpu.reason);
+            bench_fail("a frame fails: %s", b->gpu.reason);
         double time = now() - begin;
         best = time < best ? time : best;
     }
@@ -197,7 +187,7 @@ static void open_stores(struct bench *b, struct frame *f, enum way way)
     bool good = way == WAY_STORED ? draw_store(f->canvas, info.stored_words) != NULL
                                   : passes_open(&setup, &f->passes);
     if (!good)
-        fail("no passes: %s", way == WAY_STORED ? b->gpu.reason : f->passes.reason);
+        bench_fail("no passes: %s", way == WAY_STORED ? b->gpu.reason : f->passes.reason);
     f->bind.draw.role = DRAW_STORES;
 }
 
@@ -211,7 +201,7 @@ static double seconds(struct bench *b, const char *element, enum way way, uint32
     struct frame f = {.canvas = draw_open_canvas(&b->gpu, SIZE, SIZE)};
     f.bind = (struct bind){.result = generate(b, element, stores ? "deferred" : "forward"),
                            .scene = &b->scene,
-                           .objects = b->copies + MAX_COPIES - copies,
+                           .objects = b->copies + BENCH_COPIES - copies,
                            .num_objects = copies};
     double empty = way == WAY_DEFERRED ? frame_seconds(b, f.canvas, NULL, 0) : 0;
     if (stores)
@@ -223,10 +213,10 @@ static double seconds(struct bench *b, const char *element, enum way way, uint32
     if (way == WAY_PLAIN)
         f.program = open_plain(f.canvas, &f.bind, &f.compiled);
     else if (!render_open(&f.render, f.canvas, &b->gpu, &f.bind) || !bind_scene(&f.bind))
-        fail("%s: %s", element, f.bind.reason);
+        bench_fail("%s: %s", element, f.bind.reason);
     struct draw_program *program = f.program ? f.program : f.render.program;
     if (way == WAY_DEFERRED && !passes_aim(&f.passes))
-        fail("%s", f.passes.reason);
+        bench_fail("%s", f.passes.reason);
     double time = frame_seconds(b, f.canvas, &program, 1) - empty;
     if (f.program)
         draw_close(f.program);
@@ -286,22 +276,17 @@ static void measure_closures(struct bench *b)
 
 int main(int argc, char **argv)
 {
-    static const double scales[MAX_COPIES] = {0.94, 0.96, 0.98, 1.0};
     struct bench b = {.pixels = malloc((size_t)SIZE * SIZE * 4 * sizeof(float))};
     setenv("LP_NUM_THREADS", "0", 1);
     if (argc != 2 || !gpu_open(&b.gpu) || !b.gpu.can_store)
-        fail("bench-deferred FILE: no file, or no device that can store: %s", b.gpu.reason);
+        bench_fail("bench-deferred FILE: no file, or no device that can store: %s", b.gpu.reason);
     compile_begin();
     if (!scene_init_sphere(&b.scene, 1) || mxg_context_create(NULL, &b.context) != MXG_OK
         || mxg_options_create(b.context, &b.options) != MXG_OK
         || mxg_document_load(b.context, mxg_library_builtin(b.context), argv[1], &b.examples)
                != MXG_OK)
-        fail("no scene, or %s does not load", argv[1]);
-    for (int i = 0; i < MAX_COPIES; ++i) {
-        b.copies[i] = b.scene.object;
-        b.copies[i].world =
-            matrix_multiply(b.scene.object.world, matrix_scale(scales[i], scales[i], scales[i]));
-    }
+        bench_fail("no scene, or %s does not load", argv[1]);
+    bench_place_copies(&b.scene, b.copies);
     parse_mixes(&b);
     mxg_options_set(b.options, "interface", "reduced");
     mxg_options_set(b.options, "environment", "none");

@@ -7,37 +7,27 @@
  * Without --any a processor is no device. --small: 192x108, for tests.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "bench/drawn.h"
 #include "render/render.h"
 
 #include <mxgen/mxgen.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-enum { MAX_COPIES = 4, NUM_FRAMES = 7 };
+enum { NUM_FRAMES = 7 };
 
 struct bench {
     struct gpu gpu;
     struct scene scene;
-    struct scene_object copies[MAX_COPIES]; /* the innermost first */
+    struct scene_object copies[BENCH_COPIES]; /* the innermost first */
     mxg_context *context;
     mxg_options *options;
     uint32_t width, height;
     float *pixels;
     bool is_processor;
 };
-
-static void fail(const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    vfprintf(stderr, format, args);
-    va_end(args);
-    fputc('\n', stderr);
-    exit(1);
-}
 
 /* Of a processor its own time, because other programs run on it, too. */
 static double now(const struct bench *b)
@@ -55,7 +45,7 @@ static mxg_result *generate(struct bench *b, const char *path, mxg_document **ou
     mxg_result *result = NULL;
     if (mxg_document_load(b->context, mxg_library_builtin(b->context), path, out_document) != MXG_OK
         || mxg_generate(b->context, *out_document, &desc, &result) != MXG_OK)
-        fail("%s does not generate", path);
+        bench_fail("%s does not generate", path);
     return result;
 }
 
@@ -69,20 +59,20 @@ static double seconds(struct bench *b, const char *path, const mxg_result *resul
                         .document = path,
                         .checker = true,
                         .is_opaque = true,
-                        .objects = b->copies + MAX_COPIES - copies,
+                        .objects = b->copies + BENCH_COPIES - copies,
                         .num_objects = copies};
     if (!canvas || !render_open(&render, canvas, &b->gpu, &bind))
-        fail("%s: %s", path, canvas ? bind.reason : b->gpu.reason);
+        bench_fail("%s: %s", path, canvas ? bind.reason : b->gpu.reason);
     double best = 1e9;
     for (int i = 0; i < NUM_FRAMES; ++i) {
         double begin = now(b);
         if (!render_frame(&render, 1, canvas, b->pixels))
-            fail("%s: %s", path, bind.reason);
+            bench_fail("%s: %s", path, bind.reason);
         double time = now(b) - begin;
         best = time < best ? time : best;
     }
     if (!(b->pixels[3] > 0.0f)) /* opacity of a corner */
-        fail("%s: the ball does not fill the picture", path);
+        bench_fail("%s: the ball does not fill the picture", path);
     render_close(&render);
     bind_finish(&bind);
     draw_close_canvas(canvas);
@@ -95,8 +85,8 @@ static void measure(struct bench *b, const char *const *paths, int count)
     for (int i = 0; i < count; ++i) {
         mxg_document *document;
         mxg_result *result = generate(b, paths[i], &document);
-        double time = seconds(b, paths[i], result, MAX_COPIES) - seconds(b, paths[i], result, 1);
-        time /= MAX_COPIES - 1;
+        double time = seconds(b, paths[i], result, BENCH_COPIES) - seconds(b, paths[i], result, 1);
+        time /= BENCH_COPIES - 1;
         first = i ? first : time;
         const char *name = strrchr(paths[i], '/');
         printf("| %s | %.3f | %.2f |\n", name ? name + 1 : paths[i], 1e3 * time, time / first);
@@ -109,16 +99,11 @@ static void measure(struct bench *b, const char *const *paths, int count)
 /* The camera stands where the ball fills the picture from edge to edge. */
 static void open_scene(struct bench *b)
 {
-    static const double scales[MAX_COPIES] = {0.94, 0.96, 0.98, 1.0};
     static const double eye[3] = {0, 0, 1.15}, target[3] = {0, 0, 0};
     if (!scene_init_sphere(&b->scene, (double)b->width / b->height))
-        fail("out of memory");
+        bench_fail("out of memory");
     scene_set_camera(&b->scene, eye, target);
-    for (int i = 0; i < MAX_COPIES; ++i) {
-        b->copies[i] = b->scene.object;
-        b->copies[i].world =
-            matrix_multiply(b->scene.object.world, matrix_scale(scales[i], scales[i], scales[i]));
-    }
+    bench_place_copies(&b->scene, b->copies);
 }
 
 int main(int argc, char **argv)
@@ -132,7 +117,7 @@ int main(int argc, char **argv)
             b.width = 192, b.height = 108;
     }
     if (argc - at < 2)
-        fail("bench-device [--any] [--small] INTERFACE FILE...");
+        bench_fail("bench-device [--any] [--small] INTERFACE FILE...");
     if (!gpu_open(&b.gpu)) {
         printf("skip: %s\n", b.gpu.reason);
         return 0;
@@ -151,7 +136,7 @@ int main(int argc, char **argv)
     if (!b.pixels || mxg_context_create(NULL, &b.context) != MXG_OK
         || mxg_options_create(b.context, &b.options) != MXG_OK
         || mxg_options_set(b.options, "interface", argv[at]) != MXG_OK)
-        fail("no context, or no such interface: %s", argv[at]);
+        bench_fail("no context, or no such interface: %s", argv[at]);
     printf("| %s, %ux%u, %s | milliseconds | of the first |\n| --- | --- | --- |\n",
            device.deviceName, b.width, b.height, argv[at]);
     measure(&b, (const char *const *)argv + at + 1, argc - at - 1);

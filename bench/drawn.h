@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What the benchmarks that draw share. */
+#ifndef MXG_BENCH_DRAWN_H
+#define MXG_BENCH_DRAWN_H
+
+#include "render/scene.h"
+
+enum { BENCH_COPIES = 4 };
+
+/* Prints a line to stderr, and ends the program with 1. */
+_Noreturn void bench_fail(const char *format, ...);
+
+/* Copies of the ball, one around the other, the innermost first: the whole picture is overdrawn. */
+void bench_place_copies(const struct scene *scene, struct scene_object copies[BENCH_COPIES]);
+
+#endif
