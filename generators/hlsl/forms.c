@@ -4,24 +4,10 @@
 
 static const char parts[] = "xyzw";
 
-static unsigned components(ir_type_id type)
+/* The number of rows of a vector or matrix. */
+static unsigned rows_of(ir_type_id type)
 {
-    return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
-}
-
-static bool is_matrix(ir_type_id type)
-{
-    return type < IR_NUM_TYPES && ir_type_is_matrix(type);
-}
-
-static bool is_vector(ir_type_id type)
-{
-    return components(type) > 1 && !is_matrix(type);
-}
-
-static unsigned rows_of(ir_type_id matrix)
-{
-    return ir_type_info(matrix)->columns;
+    return ir_type_info(type)->components / ir_type_info(type)->columns;
 }
 
 /* ---- Forms and helpers made here live as long as the stage is written ---- */
@@ -33,17 +19,9 @@ static struct text *new_text(struct spell *spell)
     return text;
 }
 
-static const struct lang_pieces *form_of(struct spell *spell, const char *text,
-                                         enum lang_precedence precedence)
-{
-    struct lang_pieces *form = ARENA_NEW(spell->scratch, struct lang_pieces);
-    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, form);
-    return form;
-}
-
 static const struct lang_pieces *call_of(struct spell *spell, const char *text)
 {
-    return form_of(spell, text, LANG_PREC_POSTFIX);
+    return lang_form_of(spell->scratch, text, LANG_PREC_POSTFIX);
 }
 
 /* The struct of a type: a tree has types of the unit, the graph has types of its own. */
@@ -89,7 +67,8 @@ static void add_helper(struct spell *spell, const struct lang_use *use, unsigned
 static const struct lang_pieces *product(struct spell *spell, const struct lang_use *use)
 {
     ir_type_id a = use->operands[0], b = use->operands[1];
-    bool is_linear = (is_matrix(a) && components(b) > 1) || (components(a) > 1 && is_matrix(b));
+    bool is_linear = (ir_type_is_matrix(a) && ir_type_components(b) > 1)
+                     || (ir_type_components(a) > 1 && ir_type_is_matrix(b));
     return is_linear ? call_of(spell, "mul($1, $0)") : NULL;
 }
 
@@ -97,13 +76,13 @@ static const struct lang_pieces *equality(struct spell *spell, const struct lang
 {
     ir_type_id type = use->operands[0];
     bool same = use->op == IR_EQ;
-    if (is_vector(type))
+    if (ir_type_is_vector(type))
         return call_of(spell, same ? "all($0 == $1)" : "any($0 != $1)");
-    if (!is_matrix(type))
+    if (!ir_type_is_matrix(type))
         return NULL;
     add_helper(spell, use, HELPER_EQUAL_2 + rows_of(type) - 2);
     return same ? call_of(spell, "equal($0, $1)")
-                : form_of(spell, "!equal($0, $1)", LANG_PREC_UNARY);
+                : lang_form_of(spell->scratch, "!equal($0, $1)", LANG_PREC_UNARY);
 }
 
 static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use)
@@ -114,42 +93,20 @@ static const struct lang_pieces *choice(struct spell *spell, const struct lang_u
     return call_of(spell, "choose($0, $1, $2)");
 }
 
-static const struct lang_pieces *choice_of_each(struct spell *spell, const struct lang_use *use)
-{
-    add_helper(spell, use, HELPER_CHOOSE_2 + components(use->type) - 2);
-    return call_of(spell, "choose($0, $1, $2)");
-}
-
-/* ---- Built-in functions ---- */
-
-static const struct lang_pieces *inverse(struct spell *spell, const struct lang_use *use)
-{
-    add_helper(spell, use, HELPER_INVERSE_2 + rows_of(use->type) - 2);
-    return call_of(spell, "inverse($0)");
-}
-
-/* ---- Textures ---- */
-
-static const struct lang_pieces *texture_size(struct spell *spell, const struct lang_use *use)
-{
-    bool is_array = use->operands[0] == IR_TYPE_SAMPLER_ARRAY;
-    add_helper(spell, use, is_array ? HELPER_ARRAY_SIZE : HELPER_SIZE);
-    return call_of(spell, "texture_size($0, $1)");
-}
-
 /* ---- Constructors and conversions ---- */
 
 /* "(float3)$0", or a multiple of the identity. */
 static const struct lang_pieces *from_scalar(struct spell *spell, ir_type_id type)
 {
-    static const char *const by_rows[] = {
-        [2] = "$0 * $T(1.0, 0.0, 0.0, 1.0)",
-        [3] = "$0 * $T(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)",
-        [4] = "$0 * $T(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, "
-              "1.0)",
-    };
-    return is_vector(type) ? form_of(spell, "($T)$0", LANG_PREC_UNARY)
-                           : form_of(spell, by_rows[rows_of(type)], LANG_PREC_PRODUCT);
+    if (ir_type_is_vector(type))
+        return lang_form_of(spell->scratch, "($T)$0", LANG_PREC_UNARY);
+    struct text *text = new_text(spell);
+    for (unsigned i = 0; i < ir_type_components(type); i++) {
+        text_str(text, i ? ", " : "$0 * $T(");
+        text_str(text, i % (rows_of(type) + 1) ? "0.0" : "1.0");
+    }
+    text_char(text, ')');
+    return lang_form_of(spell->scratch, text_cstr(text), LANG_PREC_PRODUCT);
 }
 
 /*
@@ -157,14 +114,14 @@ static const struct lang_pieces *from_scalar(struct spell *spell, ir_type_id typ
  */
 static const struct lang_pieces *construct(struct spell *spell, const struct lang_use *use)
 {
-    unsigned left = components(use->type), last = use->num_operands - 1;
+    unsigned left = ir_type_components(use->type), last = use->num_operands - 1;
     if (left <= 1)
         return NULL;
-    if (use->num_operands == 1 && components(use->operands[0]) == 1)
+    if (use->num_operands == 1 && ir_type_components(use->operands[0]) == 1)
         return from_scalar(spell, use->type);
     for (unsigned i = 0; i < last; i++)
-        left -= components(use->operands[i]);
-    if (components(use->operands[last]) == left)
+        left -= ir_type_components(use->operands[i]);
+    if (ir_type_components(use->operands[last]) == left)
         return NULL;
     struct text *text = new_text(spell);
     text_str(text, "$T(");
@@ -184,13 +141,14 @@ static const struct lang_pieces *grow(struct spell *spell, const struct lang_use
 static const struct lang_pieces *convert(struct spell *spell, const struct lang_use *use)
 {
     ir_type_id from = use->operands[0], to = use->type;
-    if (is_matrix(from) && is_matrix(to))
-        return rows_of(from) < rows_of(to) ? grow(spell, use)
-                                           : form_of(spell, "($T)$0", LANG_PREC_UNARY);
-    if (components(from) <= components(to) || !is_vector(to))
+    if (ir_type_is_matrix(from) && ir_type_is_matrix(to))
+        return rows_of(from) < rows_of(to)
+                   ? grow(spell, use)
+                   : lang_form_of(spell->scratch, "($T)$0", LANG_PREC_UNARY);
+    if (ir_type_components(from) <= ir_type_components(to) || !ir_type_is_vector(to))
         return NULL;
     struct text *text = new_text(spell);
-    text_fmt(text, "$0.%.*s", (int)components(to), parts);
+    text_fmt(text, "$0.%.*s", (int)ir_type_components(to), parts);
     return call_of(spell, text_cstr(text));
 }
 
@@ -199,30 +157,42 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
 typedef const struct lang_pieces *form_writer(struct spell *spell, const struct lang_use *use);
 
 static form_writer *const writers[IR_NUM_OPS] = {
-    [IR_MUL] = product,           [IR_EQ] = equality,         [IR_NE] = equality,
-    [IR_SELECT] = choice,         [IR_INVERSE] = inverse,     [IR_CONVERT] = convert,
-    [IR_TEX_SIZE] = texture_size, [IR_CONSTRUCT] = construct, [IR_CHOOSE] = choice_of_each,
+    [IR_MUL] = product,   [IR_EQ] = equality,     [IR_NE] = equality,
+    [IR_SELECT] = choice, [IR_CONVERT] = convert, [IR_CONSTRUCT] = construct,
 };
 
-/* The built-in functions that are helpers for all types. */
+/*
+ * Built-in functions that are helpers. Versions of a helper follow each other: by the number of
+ * rows from 2 on, or first for a texture, then for an array of textures.
+ */
 static const struct {
-    uint8_t helper; /* enum helper */
+    uint8_t helper; /* enum helper: the first version */
+    bool is_by_rows;
     const char *call;
 } helped[IR_NUM_OPS] = {
-    [IR_ASINH] = {HELPER_ASINH, "asinh($0)"},
-    [IR_ACOSH] = {HELPER_ACOSH, "acosh($0)"},
-    [IR_ATANH] = {HELPER_ATANH, "atanh($0)"},
-    [IR_MOD] = {HELPER_MOD, "mod($0, $1)"},
+    [IR_ASINH] = {HELPER_ASINH, false, "asinh($0)"},
+    [IR_ACOSH] = {HELPER_ACOSH, false, "acosh($0)"},
+    [IR_ATANH] = {HELPER_ATANH, false, "atanh($0)"},
+    [IR_MOD] = {HELPER_MOD, false, "mod($0, $1)"},
+    [IR_INVERSE] = {HELPER_INVERSE_2, true, "inverse($0)"},
+    [IR_CHOOSE] = {HELPER_CHOOSE_2, true, "choose($0, $1, $2)"},
+    [IR_TEX_SIZE] = {HELPER_SIZE, false, "texture_size($0, $1)"},
 };
+
+static const struct lang_pieces *call_helper(struct spell *spell, const struct lang_use *use)
+{
+    bool is_array = use->num_operands > 0 && use->operands[0] == IR_TYPE_SAMPLER_ARRAY;
+    unsigned version = helped[use->op].is_by_rows ? rows_of(use->type) - 2 : is_array;
+    add_helper(spell, use, helped[use->op].helper + version);
+    return call_of(spell, helped[use->op].call);
+}
 
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)
 {
     if (use->is_store)
         return NULL;
-    if (helped[use->op].call) {
-        add_helper(user_data, use, helped[use->op].helper);
-        return call_of(user_data, helped[use->op].call);
-    }
+    if (helped[use->op].call)
+        return call_helper(user_data, use);
     return writers[use->op] ? writers[use->op](user_data, use) : NULL;
 }
 
@@ -234,20 +204,4 @@ const char *hlsl_maker(void *user_data, const char *type)
     spell_write_maker(spell, maker, text);
     spell_helper(spell, text_cstr(text));
     return maker->name;
-}
-
-/* Writes every component. */
-bool hlsl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
-                      struct text *out)
-{
-    const struct ir_type_info *info = ir_type_info(type);
-    if (info->components == 1)
-        return false;
-    text_put(out, style->types[type]);
-    for (unsigned i = 0; i < info->components; i++) {
-        text_str(out, i ? ", " : "(");
-        lang_print_value(style, NULL, info->scalar, &words[i], LANG_PREC_COMMA, out);
-    }
-    text_char(out, ')');
-    return true;
 }

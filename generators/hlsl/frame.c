@@ -21,12 +21,6 @@ static void write_location(struct spell *spell, uint32_t location)
         text_fmt(spell->out, "[[vk::location(%u)]] ", (unsigned)location);
 }
 
-/* " : register(t3)" */
-static void write_register(struct spell *spell, char kind, uint32_t number)
-{
-    text_fmt(spell->out, " : register(%c%u)", kind, (unsigned)number);
-}
-
 /* Writes the variable under its own name. */
 static void write_variable(struct spell *spell, const struct shader_variable *variable)
 {
@@ -49,8 +43,7 @@ static void open_buffer(struct spell *spell, enum shader_block block, const char
     const struct shader_buffer *buffer = &spell->shader->buffers[block];
     write_binding(spell, buffer->binding, buffer->set);
     SPELL(spell, "cbuffer ", spell_frame_name(spell, name));
-    write_register(spell, 'b', buffer->binding);
-    spell_text(spell, "\n{\n");
+    text_fmt(spell->out, " : register(b%u)\n{\n", (unsigned)buffer->binding);
 }
 
 /* "float3 u_viewPosition : packoffset(c4.y);" */
@@ -105,13 +98,11 @@ static void write_textures(struct spell *spell)
             continue;
         write_binding(spell, variable->binding, variable->set);
         write_variable(spell, variable);
-        write_register(spell, 't', variable->binding);
-        spell_text(spell, ";\n");
+        text_fmt(spell->out, " : register(t%u);\n", (unsigned)variable->binding);
         write_binding(spell, variable->binding, variable->set);
         SPELL(spell, "SamplerState ", str_text(spell->shader->strings, variable->name),
               LANG_SAMPLER_SUFFIX);
-        write_register(spell, 's', variable->binding);
-        spell_text(spell, ";\n");
+        text_fmt(spell->out, " : register(s%u);\n", (unsigned)variable->binding);
     }
 }
 
@@ -285,8 +276,7 @@ static void open_main(struct spell *spell)
 
 static void close_main(struct spell *spell)
 {
-    bool gives = spell->stage_id == STAGE_VERTEX && shares_vertex_data(spell);
-    if (gives)
+    if (spell->stage_id == STAGE_VERTEX && shares_vertex_data(spell))
         SPELL(spell, "    vd_out = ", spell_frame_name(spell, "vd"), ";\n");
 }
 

@@ -75,11 +75,11 @@ static const struct lang_syntax syntax = {
     .param_out = "out ",
     .param_inout = "inout ",
     .constant = "static const ",
+    .lists_components = true,
     .array_braces = true,
     .sampler_type = "SamplerState",
     .infinity = "asfloat(0x7f800000u)",
     .nan = "asfloat(0x7fc00000u)",
-    .write_value = hlsl_write_value,
 };
 
 static const char *const versions[] = {"6.0", "5.1", NULL};

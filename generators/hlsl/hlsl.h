@@ -14,10 +14,8 @@
 extern const struct target target_hlsl;
 extern const struct target_frame hlsl_frame; /* frame.c */
 
-/* forms.c: hooks of struct target, and the hook of struct lang_syntax for literals. */
+/* forms.c: hooks of struct target. */
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use);
 const char *hlsl_maker(void *user_data, const char *type);
-bool hlsl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
-                      struct text *out);
 
 #endif

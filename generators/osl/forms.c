@@ -16,20 +16,7 @@ static bool is_vector(ir_type_id type)
     return osl_is_struct(type) || type == IR_TYPE_VEC3;
 }
 
-static unsigned components(ir_type_id type)
-{
-    return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
-}
-
 /* ---- Forms made here: they live until the file is complete ---- */
-
-static const struct lang_pieces *form_of(struct osl *osl, const char *text,
-                                         enum lang_precedence precedence)
-{
-    struct lang_pieces *form = ARENA_NEW(osl->spell->scratch, struct lang_pieces);
-    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, form);
-    return form;
-}
 
 static const struct lang_pieces *usual_form(const struct osl *osl, enum ir_op op)
 {
@@ -46,7 +33,7 @@ static const struct lang_pieces *call_form(struct osl *osl, const char *name, un
     for (unsigned i = 0; i < num_operands; i++)
         text_fmt(&text, "%s$%c", i ? ", " : "(", order ? order[i] : (char)('0' + i));
     text_char(&text, ')');
-    return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
+    return lang_form_of(osl->spell->scratch, text_cstr(&text), LANG_PREC_POSTFIX);
 }
 
 /* ---- Helpers ---- */
@@ -181,7 +168,7 @@ static void write_part(struct osl *osl, const char *form, const struct lang_use 
         }
         unsigned index = (unsigned)(*p - '0');
         text_fmt(out, named ? "$%u" : "%c", named ? index : 'a' + index);
-        if (components(use->operands[index]) > 1)
+        if (ir_type_components(use->operands[index]) > 1)
             text_fmt(out, ".%c", parts[component]);
     }
 }
@@ -194,7 +181,7 @@ static void write_component_function(struct osl *osl, const char *name, const st
     for (unsigned i = 0; i < use->num_operands; i++)
         text_fmt(out, "%s%s %c", i ? ", " : "", osl_type(osl, use->operands[i]), (char)('a' + i));
     text_fmt(out, ")\n{\n    return %s(", osl_type(osl, use->type));
-    for (unsigned i = 0; i < components(use->type); i++) {
+    for (unsigned i = 0; i < ir_type_components(use->type); i++) {
         text_str(out, i ? ", " : "");
         write_part(osl, scalar->text, use, i, false, out);
     }
@@ -218,7 +205,7 @@ static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_us
     text_str(&text, ", ");
     write_part(osl, scalar->text, use, 1, true, &text);
     text_char(&text, ')');
-    return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
+    return lang_form_of(osl->spell->scratch, text_cstr(&text), LANG_PREC_POSTFIX);
 }
 
 /* The operation on one component: scalars have operators in place of relational functions. */
@@ -291,7 +278,7 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
     if (count > 1)
         text_char(&text, ')');
     if (named)
-        return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch, text_cstr(&text), LANG_PREC_POSTFIX);
     struct text function;
     text_init(&function, osl->spell->scratch);
     text_fmt(&function, "%s %s_of(%s v)\n{\n    return %s;\n}\n", osl_type(osl, use->type),
@@ -307,25 +294,25 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
 static void write_parts(const struct osl *osl, const struct lang_use *use, bool named,
                         struct text *out)
 {
-    unsigned left = components(use->type), wanted = use->num_operands == 1 ? 1 : left;
+    unsigned left = ir_type_components(use->type), wanted = use->num_operands == 1 ? 1 : left;
     for (unsigned i = 0; i < use->num_operands; i++) {
-        unsigned n = components(use->operands[i]);
+        unsigned n = ir_type_components(use->operands[i]);
         for (unsigned k = 0; k < n && left; k++, left--) {
-            text_str(out, left == components(use->type) ? "" : ", ");
+            text_str(out, left == ir_type_components(use->type) ? "" : ", ");
             text_fmt(out, named ? "$%u" : "%c", named ? i : 'a' + i);
             if (n > 1)
                 text_fmt(out, ".%c", (named && is_color_operand(osl, use, i) ? "rgba" : parts)[k]);
         }
     }
     /* one scalar fills all components */
-    for (; wanted == 1 && left && components(use->operands[0]) == 1; left--)
+    for (; wanted == 1 && left && ir_type_components(use->operands[0]) == 1; left--)
         text_str(out, named ? ", $0" : ", a");
 }
 
 static bool all_named(const struct lang_use *use)
 {
     for (unsigned i = 0; i < use->num_operands; i++)
-        if (components(use->operands[i]) > 1 && !(use->named >> i & 1))
+        if (ir_type_components(use->operands[i]) > 1 && !(use->named >> i & 1))
             return false;
     return use->num_operands > 1 || (use->named & 1);
 }
@@ -333,22 +320,24 @@ static bool all_named(const struct lang_use *use)
 static const struct lang_pieces *construct_form(struct osl *osl, const struct lang_use *use)
 {
     if (use->type == IR_TYPE_MAT2 && use->num_operands == 4)
-        return form_of(osl, "matrix($0, $1, 0, 0, $2, $3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)",
-                       LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch,
+                            "matrix($0, $1, 0, 0, $2, $3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)",
+                            LANG_PREC_POSTFIX);
     if (use->type == IR_TYPE_MAT2 && use->num_operands == 2) {
         osl_add_helper(osl, "matrix matrix_of_rows(vector2 a, vector2 b)\n{\n    return matrix("
                             "a.x, a.y, 0, 0, b.x, b.y, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);\n}\n");
         return call_form(osl, "matrix_of_rows", 2, NULL);
     }
     if (use->type == IR_TYPE_MAT3 && use->num_operands == 9)
-        return form_of(osl, "matrix($0, $1, $2, 0, $3, $4, $5, 0, $6, $7, $8, 0, 0, 0, 0, 1)",
-                       LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch,
+                            "matrix($0, $1, $2, 0, $3, $4, $5, 0, $6, $7, $8, 0, 0, 0, 0, 1)",
+                            LANG_PREC_POSTFIX);
     if (!is_vector(use->type))
         return NULL;
-    bool scalars = use->num_operands == components(use->type)
+    bool scalars = use->num_operands == ir_type_components(use->type)
                    || (use->type == IR_TYPE_VEC3 && use->num_operands == 1);
     for (unsigned i = 0; i < use->num_operands; i++)
-        scalars &= components(use->operands[i]) == 1;
+        scalars &= ir_type_components(use->operands[i]) == 1;
     if (scalars)
         return NULL;
     struct text text;
@@ -357,7 +346,7 @@ static const struct lang_pieces *construct_form(struct osl *osl, const struct la
         text_fmt(&text, "%s(", osl_type(osl, use->type));
         write_parts(osl, use, true, &text);
         text_char(&text, ')');
-        return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch, text_cstr(&text), LANG_PREC_POSTFIX);
     }
     struct text name;
     text_init(&name, osl->spell->scratch);
@@ -382,16 +371,17 @@ static const struct lang_pieces *convert_form(struct osl *osl, const struct lang
         return call_form(osl, "unsigned_of_float", 1, NULL);
     }
     if (to == IR_TYPE_BOOL)
-        return form_of(osl, from == IR_TYPE_BOOL ? "$0" : "$0 != 0",
-                       from == IR_TYPE_BOOL ? LANG_PREC_ASSIGN : LANG_PREC_EQUAL);
-    if (components(from) == 1 && strcmp(osl_type(osl, from), osl_type(osl, to)) == 0)
-        return form_of(osl, "$0", LANG_PREC_ASSIGN); /* conversion between int, uint and bool */
+        return lang_form_of(osl->spell->scratch, from == IR_TYPE_BOOL ? "$0" : "$0 != 0",
+                            from == IR_TYPE_BOOL ? LANG_PREC_ASSIGN : LANG_PREC_EQUAL);
+    if (ir_type_components(from) == 1 && strcmp(osl_type(osl, from), osl_type(osl, to)) == 0)
+        return lang_form_of(osl->spell->scratch, "$0",
+                            LANG_PREC_ASSIGN); /* conversion between int, uint and bool */
     if (from == IR_TYPE_MAT3 && to == IR_TYPE_MAT4)
-        return form_of(osl, "$0", LANG_PREC_ASSIGN);
+        return lang_form_of(osl->spell->scratch, "$0", LANG_PREC_ASSIGN);
     if (is_vector(from) && is_vector(to) && scalar_of(from) == scalar_of(to)) { /* cut */
         struct lang_use cut = *use;
         cut.op = IR_SWIZZLE;
-        cut.attr = components(to) << 8 | 0xe4; /* xyzw */
+        cut.attr = ir_type_components(to) << 8 | 0xe4; /* xyzw */
         return swizzle_form(osl, &cut);
     }
     if (is_vector(from) && is_vector(to)) /* ivec2 and vec2 */
@@ -444,7 +434,7 @@ static const struct lang_pieces *store_index_form(struct osl *osl, const struct 
     if (!is_matrix && !osl_is_struct(use->type))
         return NULL; /* v[i] = … of arrays and of three components */
     const char *type = osl_type(osl, use->type), *part = osl_type(osl, use->operands[2]);
-    unsigned count = is_matrix ? ir_type_info(use->type)->columns : components(use->type);
+    unsigned count = is_matrix ? ir_type_info(use->type)->columns : ir_type_components(use->type);
     struct text text;
     text_init(&text, osl->spell->scratch);
     text_fmt(&text, "%s with_part(%s whole, int i, %s part)\n{\n    %s result = whole;\n", type,
@@ -549,27 +539,27 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
 {
     ir_type_id a = use->operands[0], b = use->operands[1];
     if (ir_type_is_matrix(a) && ir_type_is_matrix(b))
-        return form_of(osl, "$1 * $0", LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch, "$1 * $0", LANG_PREC_POSTFIX);
     /* transform() returns a vector */
     bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
     if (a == IR_TYPE_MAT3 && b == IR_TYPE_VEC3)
-        return form_of(osl,
-                       is_color                    ? "color(transform($0, vector($1)))"
-                       : is_no_vector(osl, use, 1) ? "transform($0, vector($1))"
-                                                   : "transform($0, $1)",
-                       LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch,
+                            is_color                    ? "color(transform($0, vector($1)))"
+                            : is_no_vector(osl, use, 1) ? "transform($0, vector($1))"
+                                                        : "transform($0, $1)",
+                            LANG_PREC_POSTFIX);
     if (a == IR_TYPE_VEC3 && b == IR_TYPE_MAT3)
-        return form_of(osl,
-                       is_color                    ? "color(transform(transpose($1), vector($0)))"
-                       : is_no_vector(osl, use, 0) ? "transform(transpose($1), vector($0))"
-                                                   : "transform(transpose($1), $0)",
-                       LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch,
+                            is_color ? "color(transform(transpose($1), vector($0)))"
+                            : is_no_vector(osl, use, 0) ? "transform(transpose($1), vector($0))"
+                                                        : "transform(transpose($1), $0)",
+                            LANG_PREC_POSTFIX);
     if ((a == IR_TYPE_VEC4 && b == IR_TYPE_MAT4) || (a == IR_TYPE_VEC2 && b == IR_TYPE_MAT2)) {
         ir_type_id turned[2] = {b, a};
         struct lang_use transform = *use;
         transform.operands = turned;
         add_row(osl, find_helper(osl, &transform), use);
-        return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
     }
     return NULL;
 }
@@ -631,7 +621,8 @@ static const struct lang_pieces *cast_form(struct osl *osl, const struct lang_us
             text_char(&text, *p);
         }
     }
-    return form_of(osl, text_cstr(&text), (enum lang_precedence)own->precedence);
+    return lang_form_of(osl->spell->scratch, text_cstr(&text),
+                        (enum lang_precedence)own->precedence);
 }
 
 /* A colour made of numbers: "color(1.0)", "color($0, $1, $2)"; NULL: the node is a vector. */
@@ -648,11 +639,11 @@ static const struct lang_pieces *color_form(struct osl *osl, const struct lang_u
         struct text literal;
         text_init(&literal, osl->spell->scratch);
         text_fmt(&literal, "color%s", parts_of_value);
-        return form_of(osl, text_cstr(&literal), LANG_PREC_POSTFIX);
+        return lang_form_of(osl->spell->scratch, text_cstr(&literal), LANG_PREC_POSTFIX);
     }
     bool scalars = use->num_operands == 1 || use->num_operands == 3;
     for (unsigned i = 0; i < use->num_operands; i++)
-        scalars &= components(use->operands[i]) == 1;
+        scalars &= ir_type_components(use->operands[i]) == 1;
     return scalars ? call_form(osl, "color", use->num_operands, NULL) : NULL;
 }
 
@@ -679,8 +670,8 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
         return NULL;
     const char *texture = use->op == IR_TEX ? osl_texture_call(osl, use) : NULL;
     if (texture)
-        return form_of(osl, texture,
-                       use->type == IR_TYPE_VEC4 ? LANG_PREC_POSTFIX : LANG_PREC_UNARY);
+        return lang_form_of(osl->spell->scratch, texture,
+                            use->type == IR_TYPE_VEC4 ? LANG_PREC_POSTFIX : LANG_PREC_UNARY);
     const struct helper_row *row = find_helper(osl, use);
     if (row)
         return helper_form(osl, row, use);

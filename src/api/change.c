@@ -55,7 +55,7 @@ static bool same_default(const mxg_result *before, const struct shader_variable 
         return false;
     if (a->value.type == IR_TYPE_STRING)
         return same_text(before, a->value.w[0].u, after, b->value.w[0].u);
-    uint32_t count = a->value.type < IR_NUM_TYPES ? ir_type_info(a->value.type)->components : 0;
+    uint32_t count = ir_type_components(a->value.type);
     for (uint32_t i = 0; i < count; i++)
         if (a->value.w[i].u != b->value.w[i].u)
             return false;

@@ -465,7 +465,7 @@ static bool eval_index(const struct ir_value *args, struct ir_value *out)
 
 static bool is_value_type(ir_type_id type)
 {
-    return type < IR_NUM_TYPES && ir_type_info(type)->components > 0;
+    return ir_type_components(type) > 0;
 }
 
 static bool eval_op(enum ir_op op, uint32_t attr, const struct ir_value *args, unsigned num_args,

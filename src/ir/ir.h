@@ -42,6 +42,10 @@ static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* for bu
     return &ir_types[type];
 }
 const char *ir_type_text(ir_type_id type);
+/* Of every type: 0 components and the scalar VOID for structs, arrays and types without numbers. */
+unsigned ir_type_components(ir_type_id type);
+ir_type_id ir_type_scalar(ir_type_id type);
+bool ir_type_is_vector(ir_type_id type);
 static inline bool ir_type_is_closure(ir_type_id type)
 {
     return type >= IR_TYPE_BSDF && type <= IR_TYPE_VDF;

@@ -27,6 +27,21 @@ const char *ir_type_text(ir_type_id type)
     return type < IR_NUM_TYPES ? ir_types[type].text : "struct or array";
 }
 
+unsigned ir_type_components(ir_type_id type)
+{
+    return type < IR_NUM_TYPES ? ir_types[type].components : 0;
+}
+
+ir_type_id ir_type_scalar(ir_type_id type)
+{
+    return type < IR_NUM_TYPES ? ir_types[type].scalar : IR_TYPE_VOID;
+}
+
+bool ir_type_is_vector(ir_type_id type)
+{
+    return ir_type_components(type) > 1 && ir_types[type].columns == 1;
+}
+
 ir_type_id ir_type_vector(ir_type_id scalar, unsigned components)
 {
     if (components == 1 && scalar < IR_NUM_TYPES && ir_types[scalar].scalar == scalar
@@ -45,27 +60,17 @@ ir_type_id ir_type_vector(ir_type_id scalar, unsigned components)
 
 static bool is_scalar(ir_type_id type)
 {
-    return type < IR_NUM_TYPES && ir_types[type].components == 1;
-}
-
-static ir_type_id scalar_of(ir_type_id type)
-{
-    return type < IR_NUM_TYPES ? ir_types[type].scalar : IR_TYPE_VOID;
+    return ir_type_components(type) == 1;
 }
 
 static bool is_integer(ir_type_id type)
 {
-    return scalar_of(type) == IR_TYPE_INT || scalar_of(type) == IR_TYPE_UINT;
+    return ir_type_scalar(type) == IR_TYPE_INT || ir_type_scalar(type) == IR_TYPE_UINT;
 }
 
 static bool is_numeric(ir_type_id type)
 {
-    return is_integer(type) || scalar_of(type) == IR_TYPE_FLOAT;
-}
-
-static bool is_vector(ir_type_id type)
-{
-    return type < IR_NUM_TYPES && ir_types[type].components > 1 && ir_types[type].columns == 1;
+    return is_integer(type) || ir_type_scalar(type) == IR_TYPE_FLOAT;
 }
 
 bool ir_is_linear_mul(ir_type_id a, ir_type_id b)
@@ -134,7 +139,7 @@ static ir_type_id result_compare(enum ir_op op, const ir_type_id *args, unsigned
     if (is_user_type)
         return IR_TYPE_VOID;
     if (num_args == 1)
-        return scalar_of(type) == IR_TYPE_FLOAT && ir_types[type].columns == 1
+        return ir_type_scalar(type) == IR_TYPE_FLOAT && ir_types[type].columns == 1
                    ? ir_type_vector(IR_TYPE_BOOL, ir_types[type].components)
                    : IR_TYPE_VOID;
     return is_scalar(type) && is_numeric(type) ? IR_TYPE_BOOL : IR_TYPE_VOID;
@@ -145,7 +150,7 @@ static ir_type_id result_relation(enum ir_op op, const ir_type_id *args, unsigne
 {
     ir_type_id type = args[0];
     bool has_order = is_numeric(type);
-    if (!all_equal(args, num_args) || !is_vector(type)
+    if (!all_equal(args, num_args) || !ir_type_is_vector(type)
         || (!has_order && !(ir_ops[op].flags & OP_COMMUTES)))
         return IR_TYPE_VOID;
     return ir_type_vector(IR_TYPE_BOOL, ir_types[type].components);
@@ -154,7 +159,7 @@ static ir_type_id result_relation(enum ir_op op, const ir_type_id *args, unsigne
 static ir_type_id result_choice(const ir_type_id *args)
 {
     ir_type_id type = args[0];
-    bool fits = is_vector(type) && scalar_of(type) == IR_TYPE_FLOAT && args[1] == type
+    bool fits = ir_type_is_vector(type) && ir_type_scalar(type) == IR_TYPE_FLOAT && args[1] == type
                 && args[2] == ir_type_vector(IR_TYPE_BOOL, ir_types[type].components);
     return fits ? type : IR_TYPE_VOID;
 }
@@ -163,7 +168,7 @@ static ir_type_id result_integer(enum ir_op op, const ir_type_id *args, unsigned
 {
     ir_type_id a = args[0], b = args[num_args - 1];
     bool is_shift = op == IR_SHL || op == IR_SHR;
-    if (!is_integer(a) || !is_integer(b) || (!is_shift && scalar_of(a) != scalar_of(b)))
+    if (!is_integer(a) || !is_integer(b) || (!is_shift && ir_type_scalar(a) != ir_type_scalar(b)))
         return IR_TYPE_VOID;
     if (ir_types[a].components == ir_types[b].components || is_scalar(b))
         return a;
@@ -204,9 +209,9 @@ static ir_type_id result_builtin(enum ir_op op, const ir_type_id *args, unsigned
 {
     for (size_t i = 0; i < sizeof retyping / sizeof *retyping; i++)
         if (retyping[i].op == op) {
-            bool fits =
-                scalar_of(args[0]) == retyping[i].from
-                && (is_vector(args[0]) || (is_scalar(args[0]) && !retyping[i].takes_vectors_only));
+            bool fits = ir_type_scalar(args[0]) == retyping[i].from
+                        && (ir_type_is_vector(args[0])
+                            || (is_scalar(args[0]) && !retyping[i].takes_vectors_only));
             return !fits ? IR_TYPE_VOID
                    : retyping[i].is_scalar
                        ? retyping[i].to

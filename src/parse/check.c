@@ -54,7 +54,7 @@ lang_ref check_unary(struct parser *p, enum ir_op op, lang_ref a, uint32_t place
     ir_type_id type = tree_type(p, a);
     bool fits = op == IR_NOT ? type == IR_TYPE_BOOL
                 : op == IR_BITNOT
-                    ? check_scalar(type) == IR_TYPE_INT || check_scalar(type) == IR_TYPE_UINT
+                    ? ir_type_scalar(type) == IR_TYPE_INT || ir_type_scalar(type) == IR_TYPE_UINT
                     : check_rank_of(type) != 0;
     if (!fits) {
         const char *text = op == IR_NOT ? "!" : op == IR_BITNOT ? "~" : op == IR_NEG ? "-" : "+";
@@ -175,7 +175,7 @@ lang_ref check_member(struct parser *p, lang_ref a, const struct token *name)
         check_is_vector(type) || (check_rank_of(type) && !ir_type_is_matrix(type));
     unsigned size = has_components ? ir_type_info(type)->components : 0;
     unsigned count = size ? read_swizzle(name, size, components) : 0;
-    if (!count || ir_type_vector(check_scalar(type), count) == IR_TYPE_VOID) {
+    if (!count || ir_type_vector(ir_type_scalar(type), count) == IR_TYPE_VOID) {
         PARSE_ERROR(
             p, parse_where_token(p, name), lang_type,
             parse_say(p, "%s has no '.%s'", parse_type_text(p, type), parse_token_text(p, name)));

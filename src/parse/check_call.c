@@ -59,12 +59,12 @@ static lang_ref call_builtin(struct parser *p, enum ir_op op, lang_ref *args, un
     if (num_args != (unsigned)ir_op_info(op)->arity)
         return 0;
     /* With bools as the third argument it is a choice: of scalars, or by component. */
-    if (op == IR_MIX && check_scalar(tree_type(p, args[2])) == IR_TYPE_BOOL
+    if (op == IR_MIX && ir_type_scalar(tree_type(p, args[2])) == IR_TYPE_BOOL
         && check_is_vector(tree_type(p, args[2])))
         op = IR_CHOOSE;
     if (op == IR_MIX && tree_type(p, args[2]) == IR_TYPE_BOOL) {
         bool fits = check_unify(p, args, 2, 0) && tree_type(p, args[0]) == tree_type(p, args[1])
-                    && tree_type(p, args[0]) == check_scalar(tree_type(p, args[0]));
+                    && tree_type(p, args[0]) == ir_type_scalar(tree_type(p, args[0]));
         return fits ? check_select(p, args[2], args[1], args[0], place) : 0;
     }
     /*

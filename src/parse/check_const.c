@@ -15,7 +15,7 @@ static bool load(const struct lang_unit *unit, ir_type_id type, uint32_t words,
 
 static bool is_value_type(ir_type_id type)
 {
-    return type < IR_NUM_TYPES && ir_type_info(type)->components > 0;
+    return ir_type_components(type) > 0;
 }
 
 static bool global_value(const struct parser *p, const struct lang_node *node, struct ir_value *out)

@@ -9,28 +9,23 @@
 
 static const uint8_t first_components[4] = {0, 1, 2, 3};
 
-static unsigned components_of(ir_type_id type)
-{
-    return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
-}
-
 /* True for numbers, bools and their vectors: other scalars and vectors can be built from them. */
 static bool is_part(ir_type_id type)
 {
-    ir_type_id scalar = check_scalar(type);
+    ir_type_id scalar = ir_type_scalar(type);
     return scalar == IR_TYPE_BOOL || (check_rank(scalar) && !ir_type_is_matrix(type));
 }
 
 /* Converts to components of another scalar type; their number stays. */
 static lang_ref with_scalar(struct parser *p, lang_ref a, ir_type_id scalar)
 {
-    ir_type_id type = ir_type_vector(scalar, components_of(tree_type(p, a)));
+    ir_type_id type = ir_type_vector(scalar, ir_type_components(tree_type(p, a)));
     return type == IR_TYPE_VOID ? 0 : check_cast(p, a, type);
 }
 
 static lang_ref cut(struct parser *p, lang_ref a, unsigned components, uint32_t place)
 {
-    return components_of(tree_type(p, a)) > components
+    return ir_type_components(tree_type(p, a)) > components
                ? tree_swizzle(p, a, first_components, components, place)
                : a;
 }
@@ -43,8 +38,8 @@ static lang_ref wrong_parts(struct parser *p, ir_type_id type, uint32_t place, c
 
 static lang_ref construct_from_one(struct parser *p, ir_type_id type, lang_ref a, uint32_t place)
 {
-    ir_type_id from = tree_type(p, a), scalar = check_scalar(type);
-    unsigned have = components_of(from), want = components_of(type);
+    ir_type_id from = tree_type(p, a), scalar = ir_type_scalar(type);
+    unsigned have = ir_type_components(from), want = ir_type_components(type);
     if (ir_type_is_matrix(type) && ir_type_is_matrix(from) && have >= want)
         return check_cast(p, a, type);
     if (!is_part(from))
@@ -62,14 +57,14 @@ static lang_ref construct_from_one(struct parser *p, ir_type_id type, lang_ref a
                    ? 0
                    : wrong_parts(p, type, place,
                                  parse_say(p, "%s does not convert", parse_type_text(p, from)));
-    assert(splats || components_of(tree_type(p, a)) == want);
+    assert(splats || ir_type_components(tree_type(p, a)) == want);
     return splats ? tree_op(p, IR_CONSTRUCT, type, 0, &a, 1, place) : a;
 }
 
 static lang_ref construct_from_parts(struct parser *p, ir_type_id type, lang_ref *args,
                                      unsigned num_args, uint32_t place)
 {
-    unsigned have = 0, want = components_of(type);
+    unsigned have = 0, want = ir_type_components(type);
     for (unsigned i = 0; i < num_args; i++) {
         ir_type_id from = tree_type(p, args[i]);
         if (!is_part(from))
@@ -80,9 +75,9 @@ static lang_ref construct_from_parts(struct parser *p, ir_type_id type, lang_ref
             return wrong_parts(p, type, tree_place(p, args[i]),
                                "the arguments before this one fill it");
         unsigned rest = want - have;
-        have += components_of(from);
+        have += ir_type_components(from);
         args[i] = cut(p, args[i], rest, place);
-        args[i] = args[i] ? with_scalar(p, args[i], check_scalar(type)) : 0;
+        args[i] = args[i] ? with_scalar(p, args[i], ir_type_scalar(type)) : 0;
         if (!args[i])
             return p->panic
                        ? 0

@@ -157,7 +157,7 @@ static void parse_constant(struct parser *p, const struct token *at, str_id name
     if (value) {
         global.type = tree_type(p, value);
         uint32_t place = tree_place(p, value);
-        bool scalar = global.type == check_scalar(global.type);
+        bool scalar = global.type == ir_type_scalar(global.type);
         if (!check_words(p, value, &global.words, &global.num_words))
             PARSE_ERROR(p, parse_where(p, place, 0), lang_not_constant,
                         parse_say(p, "the value of '%s'", parse_text(p, name)));
@@ -165,7 +165,7 @@ static void parse_constant(struct parser *p, const struct token *at, str_id name
             PARSE_TYPE_ERROR(p, parse_place(at), "an option is a bool, int or float");
     } else { /* a replacement value, so that uses of the name cause no more errors */
         global.type = type;
-        global.num_words = type < IR_NUM_TYPES && !unsized ? ir_type_info(type)->components : 0;
+        global.num_words = unsized ? 0 : ir_type_components(type);
         for (uint32_t i = 0; i < global.num_words; i++)
             vec_push(p->unit->arena, &p->unit->words, (union ir_word){0});
     }

@@ -108,8 +108,8 @@ lang_ref tree_swizzle(struct parser *p, lang_ref a, const uint8_t *components, u
     uint32_t attr = (uint32_t)count << 8;
     for (unsigned i = 0; i < count; i++)
         attr |= (uint32_t)components[i] << (2 * i);
-    return tree_op(p, IR_SWIZZLE, ir_type_vector(check_scalar(tree_type(p, a)), count), attr, &a, 1,
-                   place);
+    return tree_op(p, IR_SWIZZLE, ir_type_vector(ir_type_scalar(tree_type(p, a)), count), attr, &a,
+                   1, place);
 }
 
 void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref)

@@ -329,7 +329,6 @@ void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref); /* i
 /* rank of arithmetic scalars, in the order of implicit conversion; 0 for other types */
 unsigned check_rank(ir_type_id scalar);
 /* component type; VOID for user types and opaque ones */
-ir_type_id check_scalar(ir_type_id type);
 unsigned check_rank_of(ir_type_id type); /* rank of its components */
 bool check_is_vector(ir_type_id type);   /* also of bools */
 /* The type of equal shape with components of a higher rank; VOID if there is none. */

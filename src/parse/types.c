@@ -4,11 +4,6 @@
 
 #include <assert.h>
 
-ir_type_id check_scalar(ir_type_id type)
-{
-    return type < IR_NUM_TYPES ? ir_type_info(type)->scalar : IR_TYPE_VOID;
-}
-
 unsigned check_rank(ir_type_id scalar)
 {
     return scalar == IR_TYPE_INT ? 1 : scalar == IR_TYPE_UINT ? 2 : scalar == IR_TYPE_FLOAT ? 3 : 0;
@@ -18,7 +13,7 @@ static const ir_type_id scalar_of_rank[] = {IR_TYPE_VOID, IR_TYPE_INT, IR_TYPE_U
 
 unsigned check_rank_of(ir_type_id type)
 {
-    return check_rank(check_scalar(type));
+    return check_rank(ir_type_scalar(type));
 }
 
 bool check_is_vector(ir_type_id type)

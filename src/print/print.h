@@ -53,6 +53,7 @@ struct lang_syntax {
     const char *infinity, *nan;      /* expressions, the highest precedence (docs/ir.md) */
     /* max(v, vec3(0.0)), although the language also has max(v, 0.0) */
     bool wide_constants;
+    bool lists_components; /* vec3(1.0, 1.0, 1.0), because the language has no vec3(1.0) */
     bool array_braces; /* array constructors are {a, b} instead of float[2](a, b) */
     /*
      * The type of the sampler beside each texture, "SamplerState t_sampler" beside "Texture2D t",
@@ -109,6 +110,9 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
 /* out->text is NULL if there is no form */
 void lang_form_split(const struct lang_form *form, struct lang_pieces *out);
+/* a form made at run time, which lives as long as the arena */
+const struct lang_pieces *lang_form_of(struct arena *arena, const char *text,
+                                       enum lang_precedence precedence);
 static inline const struct lang_pieces *lang_style_form(struct lang_style *style, enum ir_op op)
 {
     return style->forms[op] ? style->forms[op] : lang_style_split(style, op);

@@ -70,6 +70,14 @@ void lang_form_split(const struct lang_form *form, struct lang_pieces *split)
     split->rest = (struct text_word){from, (size_t)(p - from)};
 }
 
+const struct lang_pieces *lang_form_of(struct arena *arena, const char *text,
+                                       enum lang_precedence precedence)
+{
+    struct lang_pieces *form = ARENA_NEW(arena, struct lang_pieces);
+    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, form);
+    return form;
+}
+
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op)
 {
     assert(!style->forms[op]);

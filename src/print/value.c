@@ -167,7 +167,7 @@ void lang_print_value(const struct lang_style *style, const struct strpool *stri
     bool parentheses = least > LANG_PREC_UNARY && has_sign(type, *words);
     unsigned count = 1;
     if (info->components > 1) {
-        count = count_needed(info, words);
+        count = style->syntax->lists_components ? info->components : count_needed(info, words);
         text_put(out, style->types[type]);
         parentheses = true;
     }

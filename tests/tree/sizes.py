@@ -66,6 +66,12 @@ def check_library():
         check(not bound, f"{path.relative_to(ROOT)}: for one target without a reason, line {', '.join(bound)}")
 
 
+def check_targets():
+    """A language is little beside what all targets share: HLSL, which differs most from GLSL, takes less than 700 lines."""
+    size = sum(len(lines(path)) for path in files("generators/hlsl", ".c", ".h", ".def"))
+    check(0 < size < 700, f"generators/hlsl has {size} lines")
+
+
 def check_texts():
     # Letters apart, so that this file does not match.
     unwanted = re.compile("/" + r"work/|/" + r"tmp/|/" + r"root/|/" + r"home/\w")
@@ -90,6 +96,7 @@ def check_headers():
 
 check_lengths()
 check_library()
+check_targets()
 check_texts()
 if COMPILER:
     check_headers()
