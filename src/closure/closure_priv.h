@@ -122,8 +122,9 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
 
 /* lights.c: the current light, for effects inside EFFECT_LIGHTS. */
 struct closure_light {
-    ir_ref direction; /* unit, to the light */
-    ir_ref intensity; /* radiance that arrives */
+    ir_ref direction;          /* unit, to the light */
+    ir_ref intensity;          /* radiance that arrives */
+    struct effect_list choice; /* what sets the variables of both, first in the loop */
 };
 void closure_sample_light(struct shader *shader, const struct closure_host *host,
                           struct closure_light *out);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The current light in the light loop: the type of the bound light chooses direction and intensity.
- * All are expressions over the members of u_lightData[i], and share their common parts.
+ * Both are expressions over the members of u_lightData[i]. With several types they are variables,
+ * so that a light computes only what its type needs:
  *
- *     L = type == 1 ? L₁ : type == 2 ? L₂ : L₃,  the same for the intensity
+ *     if (type == 1) { L = L₁; intensity = I₁; }
+ *     else { L = L₂; intensity = type == 2 ? I₂ : 0; }
  *
- * A light of unknown type is dark.
+ * A light of unknown type is dark. Where all intensities are the light's colour times a number, the
+ * variable is the number.
  */
 #include "closure/closure_priv.h"
 #include "lower/lower.h"
@@ -150,34 +153,127 @@ static ir_ref type_of_light(struct shader *shader)
     return member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
 }
 
+/* ---- The choice of the type ---- */
+
+/* One type of light. */
+struct one_light {
+    ir_ref is_this; /* bool */
+    ir_ref direction, intensity;
+};
+
+static void sample_one(struct shader *shader, const struct closure_host *host,
+                       const struct shader_light *light, struct one_light *out)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref results[2], type = type_of_light(shader);
+    ir_push_name(g, light->name);
+    if (light->shader)
+        sample_emitter(shader, host, light, results);
+    else if (light->source != UINT32_MAX)
+        call_source(shader, host, light, results);
+    else
+        call_function(shader, host, light, results);
+    *out = (struct one_light){.is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type)),
+                              .direction = results[0],
+                              .intensity = results[1]};
+    ir_pop_origin(g);
+}
+
+/* The colour of u_lightData[i] in colour · number; 0: the intensity is no such product. */
+static ir_ref color_of(const struct ir_graph *g, ir_ref intensity, ir_ref *out_number)
+{
+    if (ir_get(g, intensity)->op != IR_MUL)
+        return 0;
+    for (unsigned i = 0; i < 2; i++) {
+        ir_ref color = ir_arg(g, intensity, i), number = ir_arg(g, intensity, 1 - i);
+        *out_number = number;
+        if (ir_get(g, color)->op == IR_CONTEXT && ir_type_of(g, color) == IR_TYPE_VEC3
+            && ir_type_of(g, number) == IR_TYPE_FLOAT)
+            return color;
+    }
+    return 0;
+}
+
+/* Divides the intensities by the colour that they have in common. 0: there is none. */
+static ir_ref split_color(const struct ir_graph *g, struct one_light *lights, uint32_t num)
+{
+    ir_ref number, common = color_of(g, lights->intensity, &number);
+    for (uint32_t i = 1; i < num; i++)
+        if (color_of(g, lights[i].intensity, &number) != common)
+            return 0;
+    for (uint32_t i = 0; common && i < num; i++)
+        color_of(g, lights[i].intensity, &lights[i].intensity);
+    return common;
+}
+
+static void choose(struct shader *shader, struct closure_light *out, enum effect_kind kind,
+                   uint32_t local, ir_ref value)
+{
+    vec_push(shader->arena, &out->choice,
+             (struct effect){.kind = (uint8_t)kind, .index = local, .value = value});
+}
+
+/* A variable of the light loop, set before its first use. */
+static uint32_t declare(struct shader *shader, struct closure_light *out, str_id name, ir_ref first)
+{
+    uint32_t local = shader_add_local(shader, name, ir_type_of(shader->graph, first));
+    shader->locals.items[local].is_settled = true;
+    choose(shader, out, EFFECT_VAR, local, 0);
+    return local;
+}
+
+static ir_ref read_variable(struct shader *shader, uint32_t local)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref light = ir_build(g, IR_CONTEXT, IR_TYPE_INT, IR_LIGHT_INDEX, NULL, 0);
+    return ir_build(g, IR_LOCAL, shader->locals.items[local].type, local, &light, 1);
+}
+
+/* Several types: the last one stands for all others, dark. */
+static void choose_light(struct shader *shader, struct one_light *lights, uint32_t num,
+                         struct closure_light *out)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref color = split_color(g, lights, num);
+    uint32_t direction = declare(shader, out, STR_L, lights->direction),
+             intensity = declare(shader, out, STR_intensity, lights->intensity);
+    for (uint32_t i = 0; i < num; i++) {
+        if (i + 1 < num)
+            choose(shader, out, EFFECT_IF, 0, lights[i].is_this);
+        choose(shader, out, EFFECT_ASSIGN, direction, lights[i].direction);
+        choose(shader, out, EFFECT_ASSIGN, intensity, lights[i].intensity);
+        if (i + 1 < num)
+            choose(shader, out, EFFECT_ELSE, 0, 0);
+    }
+    for (uint32_t i = 1; i < num; i++)
+        choose(shader, out, EFFECT_END, 0, 0);
+    out->direction = read_variable(shader, direction);
+    out->intensity = closure_mul(g, color, read_variable(shader, intensity));
+}
+
 void closure_sample_light(struct shader *shader, const struct closure_host *host,
                           struct closure_light *out)
 {
     struct ir_graph *g = shader->graph;
     closure_position(shader, host); /* once, outside the loop */
+    *out = (struct closure_light){0};
     if (shader->is_function) {
         call_host(shader, host, out);
         return;
     }
-    ir_ref type = type_of_light(shader);
-    *out = (struct closure_light){0, ir_const_splat(g, IR_TYPE_VEC3, 0.0f)};
-    for (uint32_t i = shader->lights.len; i-- > 0;) {
-        const struct shader_light *light = &shader->lights.items[i];
-        ir_ref results[2];
-        ir_push_name(g, light->name);
-        if (light->shader)
-            sample_emitter(shader, host, light, results);
-        else if (light->source != UINT32_MAX)
-            call_source(shader, host, light, results);
-        else
-            call_function(shader, host, light, results);
-        ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));
-        out->direction = out->direction && out->direction != results[0]
-                             ? ir_op3(g, IR_SELECT, is_this, results[0], out->direction)
-                             : results[0];
-        out->intensity = ir_op3(g, IR_SELECT, is_this, results[1], out->intensity);
-        ir_pop_origin(g);
+    uint32_t num = shader->lights.len;
+    struct one_light *lights = ARENA_ARRAY(shader->arena, struct one_light, num);
+    for (uint32_t i = num; i-- > 0;)
+        sample_one(shader, host, &shader->lights.items[i], &lights[i]);
+    struct one_light *last = &lights[num - 1];
+    ir_ref dark = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    last->intensity = ir_op3(g, IR_SELECT, last->is_this, last->intensity, dark);
+    if (num > 1) {
+        choose_light(shader, lights, num, out);
+        return;
     }
+    out->direction = last->direction;
+    out->intensity = last->intensity;
     ir_suggest_name(g, out->direction, STR_L, IR_NAME_ROLE);
     ir_suggest_name(g, out->intensity, STR_light, IR_NAME_ROLE);
 }

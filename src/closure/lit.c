@@ -302,6 +302,10 @@ static void loop_lights(struct emitter *e)
     emitter_comment(e, STR_lights);
     emitter_effect(e, EFFECT_LIGHTS, 0, 0);
     closure_enter_loop(&e->copies, e->shader->num_light_loops++);
+    for (uint32_t i = 0; i < e->lit.light.choice.len; i++) {
+        const struct effect *part = &e->lit.light.choice.items[i];
+        emitter_effect(e, (enum effect_kind)part->kind, part->index, part->value);
+    }
     accumulate_all(e, &e->lit.at[PLACE_LIGHT], true, factor);
     if (e->lighting->shadow)
         emitter_effect(e, EFFECT_ASSIGN, local, ir_const_float(e->graph, 1.0f));

@@ -98,7 +98,7 @@ ir_ref closure_product(struct ir_graph *g, ir_ref value, ir_ref weight)
         return value;
     struct factors f = {.count = 1};
     gather(g, &f, value);
-    insert(g, &f, weight);
+    insert(g, &f, is_splat(g, weight) ? ir_arg(g, weight, 0) : weight);
     assert(f.counts[0] + f.counts[1] + f.counts[2] + f.counts[3] + 1 == f.count);
     ir_ref constant = product_of(g, &f, IS_VECTOR, 0);
     constant = closure_mul(g, constant, product_of(g, &f, 0, 0));

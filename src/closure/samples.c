@@ -122,9 +122,10 @@ struct closure_turn closure_turn_of_samples(struct shader *shader, const struct 
            turn = ir_build(g, IR_SAMPLE, IR_TYPE_VEC2, IR_SAMPLE_TURN, NULL, 0);
     ir_ref y = ir_component(g, turn, 1), x = ir_component(g, turn, 0);
     ir_ref left = ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){ir_op1(g, IR_NEG, y), x}, 2);
-    ir_ref along = ir_op2(g, IR_MUL, turn, ir_const_float(g, golden[COS]));
+    /* in this order: a GPU changes `turn` in its place, and needs no copy */
     ir_ref across = ir_op2(g, IR_MUL, left, ir_const_float(g, golden[SIN]));
-    ir_ref next = ir_op2(g, IR_ADD, along, across);
+    ir_ref along = ir_op2(g, IR_MUL, turn, ir_const_float(g, golden[COS]));
+    ir_ref next = ir_op2(g, IR_ADD, across, along);
     return (struct closure_turn){ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){one, zero}, 2), next};
 }
 

@@ -273,6 +273,10 @@ static void light_up(struct closure_scatter *s)
     effect(s, EFFECT_LIGHTS, 0, 0);
     struct closure_light light;
     closure_sample_light(s->shader, s->host, &light);
+    for (uint32_t i = 0; i < light.choice.len; i++) {
+        const struct effect *part = &light.choice.items[i];
+        effect(s, (enum effect_kind)part->kind, part->index, part->value);
+    }
     ir_ref lit = op2(s, IR_MUL, light.intensity, response(s, light.direction, 0));
     ir_ref mean = op2(s, IR_MAX, mean_of(s, lit), nothing);
     effect(s, EFFECT_ACCUMULATE, sum, mean);

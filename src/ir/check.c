@@ -234,6 +234,10 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
         if (num_args > 1 || (num_args && from != IR_TYPE_INT))
             return "the operand is no number of a loop";
         break;
+    case IR_LOCAL:
+        if (num_args > 1 || (num_args && from != IR_TYPE_INT))
+            return "the operand is no number of a light";
+        break;
     case IR_SLOTS:
         if (num_args % IR_SLOT_OPERANDS != 1)
             return "wrong number of operands";

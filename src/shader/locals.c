@@ -272,8 +272,9 @@ void choose_locals(struct scheduler *s)
     bool names_wholes = s->shader->rules.names_wholes;
     for (uint32_t i = 0; i < s->reached.len; i++) {
         struct plan *plan = plan_of(s, s->reached.items[i]);
-        /* an operand numbers the loop of a CONTEXT or SAMPLE */
-        bool is_name = plan->num_args == 0 || plan->op == IR_CONTEXT || plan->op == IR_SAMPLE;
+        /* an operand numbers the loop of a CONTEXT or SAMPLE, and the light of a LOCAL */
+        bool is_name = plan->num_args == 0 || plan->op == IR_CONTEXT || plan->op == IR_SAMPLE
+                       || plan->op == IR_LOCAL;
         if (is_name && is_source(s, plan))
             continue;
         if (plan->op == IR_SELECT)

@@ -370,8 +370,9 @@ static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_no
     case IR_GRAPH_CALL:
     case IR_LEAF: write_call(spell, ref); break;
     case IR_RESULT: write_result(spell, ir_arg(graph, ref, 0), node->attr, least); break;
-    case IR_CONTEXT: /* an operand numbers the loop, whose text is the same */
-    case IR_SAMPLE: write_source(spell, node); break;
+    case IR_CONTEXT: /* an operand numbers the loop or the light, whose text is the same */
+    case IR_SAMPLE:
+    case IR_LOCAL: write_source(spell, node); break;
     default:
         if (node->num_args == 0)
             write_source(spell, node);

@@ -22,20 +22,25 @@ mat3 mx_map_frame(mat3 frame)
     return mat3(u_envMatrix) * frame;
 }
 
-// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
-float mx_half_turn(float t)
+// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5. The program fits/turn.c makes the constants.
+float mx_half_turn(float sine, float cosine)
 {
-    float t2 = t * t;
-    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096. Tangents of half the angles need no cases.
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(vec3 d)
+{
+    return d.x * d.x + (d.z * d.z + MX_EPSILON * MX_EPSILON);
+}
+
+// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(vec3 d)
 {
-    float radius = length(d.xz);
-    float latitude = 2.0 * mx_half_turn(d.y / (1.0 + radius));
-    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, MX_EPSILON));
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - latitude);
+    float square = mx_map_square(d);
+    float stretch = inversesqrt(square);
+    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // Where the light from a direction of the world lies in the environment's picture.
@@ -57,13 +62,18 @@ vec3 mx_environment_irradiance(vec3 N)
     return textureLod(u_envIrradiance, mx_latlong(N), 0.0).rgb * u_envLightIntensity;
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and Colbert 2008; the mip
-// level is equation 13 of GPU Gems 3, section 20.4). The level may be negative, where a sampler magnifies. It comes before the point, whose
-// numbers then need no registers beside it.
-vec3 mx_filtered_light(vec3 d, float spread)
+// The texels at the picture's equator that a solid angle, in hemispheres, stands for (Krivanek and Colbert 2008; equation 13 of GPU Gems 3,
+// section 20.4).
+float mx_map_texels(float spread)
 {
-    float level = 0.5 * log2(spread / length(d.xz));
-    level += float(u_envRadianceMips) - 1.17425 - 0.65 * float(option_sample_filter);
+    return spread * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter));
+}
+
+// Light of a unit direction in the picture, filtered over as many texels. The level may be negative, where a sampler magnifies. It comes
+// before the point, whose numbers then need no registers beside it.
+vec3 mx_filtered_light(vec3 d, float texels)
+{
+    float level = 0.5 * log2(texels * inversesqrt(mx_map_square(d)));
     return textureLod(u_envRadiance, mx_map_point(d), level).rgb;
 }
 
@@ -80,5 +90,5 @@ vec3 mx_lobe_light(vec3 L, vec3 weight, float pdf)
 {
     float count = float(u_envRadianceSamples);
     float spread = 0.5 / (MX_PI * max(pdf * count, MX_EPSILON));
-    return weight * (u_envLightIntensity / count) * mx_filtered_light(normalize(mat3(u_envMatrix) * L), spread);
+    return weight * (u_envLightIntensity / count) * mx_filtered_light(normalize(mat3(u_envMatrix) * L), mx_map_texels(spread));
 }

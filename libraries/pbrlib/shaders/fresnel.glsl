@@ -13,14 +13,25 @@
 
 // ---- bare interfaces ------------------------------------------------------------------------------------------------
 
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the index:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2,  s = 1 - c^2,  g^2 = c^2 + 2k,  2k = ior^2 - 1
+// Since (c - g)(c + g) = -2k, all of it is over one square, with one root. The least c^2 makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(float cosine, float ior)
 {
-    float square = ior * ior + cosine * cosine - 1.0;
-    float g = sqrt(mx_known(ior >= 1.0) ? square : max(square, 0.0));
-    vec2 a = cosine * vec2(1.0, ior * ior);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
+    float k = 0.5 * (ior * ior - 1.0);
+    float c2 = mx_known(ior >= 1.0) ? cosine * cosine : max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float divisor = (1.0 + k) * (c2 + sqrt(cg2)) + k;
+    float r = k / (mx_known(ior > 1.0) ? divisor : max(divisor, MX_EPSILON));
+    return (cg2 + s * s) * (r * r);
+}
+
+// The same facing the viewer.
+float mx_fresnel_dielectric_facing(float ior)
+{
+    float r = (1.0 - ior) / (1.0 + ior);
+    return r * r;
 }
 
 // The square of the index n + ik: all that the equations need.
@@ -38,18 +49,19 @@ vec2 mx_fresnel_refract(float cosine, float re, float im)
     return sqrt(max(0.5 * vec2(norm + t, norm - t), 0.0));
 }
 
-// |(x + iy - u - iv) / (x + iy + u + iv)|^2
-float mx_fresnel_ratio(vec2 x, vec2 u)
-{
-    return dot(x - u, x - u) / dot(x + u, x + u);
-}
-
-// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the perpendicular part, the
-// permittivity times the cosine in the parallel part.
+// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of Optics", section 14.4):
+//     F = (P + P Q) / 2,  P = (a - g) / (a + g),  Q = (b - g s) / (b + g s)
+//     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(float cosine, float re, float im)
 {
-    vec2 u = mx_fresnel_refract(cosine, re, im);
-    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * vec2(re, im), u));
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float t = re - s;
+    float norm = sqrt(t * t + im * im);
+    float g = cosine * sqrt(max(2.0 * (norm + t), 0.0));
+    float b = norm * c2 + s * s;
+    float a = norm + c2;
+    return (a - g) * b / ((a + g) * (b + g * s));
 }
 
 // One channel after the other, which needs a third of the registers.
@@ -135,7 +147,8 @@ vec2 mx_film_amplitudes(float cosine, float inside, float ior)
     return (x - u) / (x + u);
 }
 
-// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it, x the cosine in the
+// perpendicular part, and the permittivity times the cosine in the parallel part.
 vec2 mx_film_amplitude(vec2 x, vec2 u)
 {
     return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
@@ -240,7 +253,9 @@ vec3 mx_fresnel(float cosine, string model, vec3 n, vec3 k, vec3 f90, float expo
 // Reflectance facing the viewer of the bare interface.
 vec3 mx_fresnel_f0(string model, vec3 n, vec3 k)
 {
-    return model == "schlick" ? n : mx_fresnel_bare(1.0, model, n, k, vec3(1.0), 0.0);
+    if (model == "schlick")
+        return n;
+    return model == "dielectric" ? vec3(mx_fresnel_dielectric_facing(n.x)) : mx_fresnel_conductor(1.0, n, k);
 }
 
 vec3 mx_fresnel_facing(string model, vec3 n, vec3 k, float film, float film_ior)

@@ -16,7 +16,7 @@ float mx_ggx_distribution(vec3 e, float area)
 // Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
 float mx_ggx_masking(float cosine, float area)
 {
-    return sqrt(cosine * cosine + area * (1.0 - cosine * cosine)); // mix() would keep 1 - area in a register
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
 // What an interface does with light: a sum of these.
@@ -121,10 +121,10 @@ vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, string model, vec3 n, ve
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
 
-// Cosine between V and the normal of the facet that reflects L to it.
+// Cosine between V and the normal of the facet that reflects L to it, never 0.
 float mx_half_cosine(vec3 V, vec3 L)
 {
-    return sqrt(clamp(0.5 + 0.5 * dot(V, L), MX_EPSILON, 1.0));
+    return sqrt(clamp(0.500001 + 0.5 * dot(V, L), 0.0, 1.0));
 }
 
 // True if the compiler knows that a lobe is wide: where it is narrow, 1 - cos^2 of the small angles in it has lost its bits.
@@ -133,18 +133,20 @@ bool mx_ggx_wide(vec2 roughness)
     return mx_known(min(roughness.x, roughness.y) >= 0.03);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness. What remains of H across x
-// follows from its square, unless the lobe is narrow; then from the cross product with N, which serves all lobes of one normal.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times the product of both
+// roughnesses. The part along the surface follows from the square of H, unless the lobe is narrow; then from vectors, which serve all lobes
+// of one normal.
 float mx_ggx_stretched(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 H, float cos_h, float square)
 {
-    if (is_wide && is_round)
-        return cos_h * cos_h + (square - cos_h * cos_h) / (lobe.alpha.x * lobe.alpha.x);
-    float along = is_round ? 0.0 : dot(H, lobe.x);
+    float area = lobe.alpha.x * lobe.alpha.y;
+    vec3 slope = H - cos_h * lobe.N;
+    if (is_round)
+        return is_wide ? square - (1.0 - area) * (cos_h * cos_h) : dot(slope, slope) + area * (cos_h * cos_h);
+    float along = dot(H, lobe.x);
     if (is_wide)
-        return dot(vec3(along * along, square - along * along - cos_h * cos_h, cos_h * cos_h), vec3(1.0 / (lobe.alpha * lobe.alpha), 1.0));
-    vec3 across = cross(H, lobe.N);
-    vec3 slope = is_round ? across / lobe.alpha.x : vec3(vec2(along, dot(across, lobe.x)) / lobe.alpha, 0.0);
-    return dot(slope, slope) + cos_h * cos_h;
+        return area * dot(vec3(along * along, square - along * along - cos_h * cos_h, cos_h * cos_h), vec3(1.0 / (lobe.alpha * lobe.alpha), 1.0));
+    vec2 parts = vec2(along, dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    return area * (dot(parts, parts) + cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor. The facet's normal V + L has any length.
@@ -155,7 +157,7 @@ float mx_ggx_light(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 V, vec3 L)
     float cos_h = lobe.cosine + dot(lobe.N, L);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched(lobe, is_round, is_wide, V + L, cos_h, square);
-    return square * square * cos_l / (2.0 * MX_PI * area * e * e * (lobe.cosine * mx_ggx_masking(cos_l, area) + cos_l * lobe.masking));
+    return area / (2.0 * MX_PI) * square * square * cos_l / (e * e * (lobe.cosine * mx_ggx_masking(cos_l, area) + cos_l * lobe.masking));
 }
 
 // ---- masking by direction -------------------------------------------------------------------------------------------
@@ -216,12 +218,12 @@ vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, strin
     return f * mx_environment_radiance(reflect(-V, h), lod);
 }
 
-// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and Benyoub 2023, "Sampling
-// Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the cap is below its top, `top` = v + z. Times
-// `stretch` it is one of the rough surface.
-vec3 mx_ggx_cap(vec2 around, float depth, vec3 top)
+// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy and Benyoub 2023,
+// "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far it lies below the top of the cap,
+// v.z + reach at most. Times the roughness it is one of the rough surface.
+vec3 mx_ggx_cap(vec2 around, float depth, vec3 v, float reach)
 {
-    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
 }
 
 // The lobe as samples of the environment see it. Lobes that agree in it share their samples.
@@ -231,9 +233,10 @@ struct mx_GgxSamples {
     float area;    // product of both
     vec3 v;        // direction to the viewer, in the frame
     float masking; // of v
-    vec3 top;      // of the cap of visible normals; its z is the depth of the cap
+    float reach;   // length of v times `stretch`: radius of the cap of visible normals
     float step;    // between the depths of samples
-    float weight;  // of one
+    float texels;  // of the environment's picture, for one where the density is that of a smooth surface
+    float weight;  // of one, times the environment's intensity
 };
 
 // The frame of a round lobe has V above its x. Where V is N, another tiny vector chooses x.
@@ -245,27 +248,29 @@ mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3
     vec2 side = is_round ? vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0) : (V * frame).xy;
     vec3 v = vec3(side, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float reach = is_round ? lobe.masking : length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, reach, share * (v.z + reach), mx_map_texels(area * weight),
+                         u_envLightIntensity * weight);
 }
 
 // A facet by its normal.
 struct mx_GgxFacet {
     vec3 h;       // of any length
     float shrink; // 1 over the square of its length
-    float spread; // of its sample, as a solid angle
+    float texels; // of the environment's picture
 };
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
 }
 
 // What a sample brings: the weight stands beside the light, so that it scales Fresnel's factor, which may be one number.
@@ -280,11 +285,11 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
-    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float part = cosine * facet.shrink; // of h that is below v
+    vec3 l = 2.0 * part * facet.h - s.v;
     float cos_l = max(l.z, MX_EPSILON);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread),
-                       s.weight * u_envLightIntensity * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
-                       clamp(cosine * sqrt(facet.shrink), MX_EPSILON, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+                       s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, MX_EPSILON, 1.0)));
 }
 
 // The light that comes through it and a solid sphere of an index behind it. A visible normal weighs 1 / G1.
@@ -292,8 +297,8 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread),
-                       s.weight * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), MX_EPSILON, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5 / s.v.z,
+                       clamp(dot(s.v, h), MX_EPSILON, 1.0));
 }
 
 // The same with `--integrator path`: wherever light meets the other side of the sphere as much is reflected as on its way in, f, since the
@@ -308,7 +313,7 @@ vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string
     vec3 turned = reflect(-s.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
     vec3 f = mx_fresnel(light.cosine, model, n, k, f90, exponent, film, film_ior);
     return (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
-         * light.weight * mix(light.color, mx_filtered_light(s.to_map * turned, facet.spread), f / (1.0 + f));
+         * light.weight * mix(light.color, mx_filtered_light(s.to_map * turned, facet.texels), f / (1.0 + f));
 }
 
 // Sample i of what the lobe reflects of all directions. A choice that all samples make alike stands here, where the compiler sees it.

@@ -80,8 +80,8 @@ void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, 
     mat3 frame = mx_frame(mx_facing(N, V), X);
     vec3 v = mx_ggx_local(frame, V);
     vec3 stretch = vec3(alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    vec3 h = normalize(mx_ggx_cap(mx_polar(1.0, xi.x), xi.y * top.z, top) * stretch);
+    float reach = mx_ggx_smith(v, alpha);
+    vec3 h = normalize(mx_ggx_cap(mx_polar(1.0, xi.x), xi.y * (v.z + reach), v * stretch, reach) * stretch);
     float cos_h = clamp(dot(v, h), MX_EPSILON, 1.0);
     vec3 f = mx_fresnel(cos_h, model, n, k, f90, exponent, film, film_ior);
     float share = mx_ggx_share(f, mode);
