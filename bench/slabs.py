@@ -106,23 +106,22 @@ def reason_of(made):
 
 
 def measure(mxgen, document, size, variants):
-    """The differences by variant; for a document that is not drawn the reason."""
+    """The differences by variant, 0 where the shader stays the same; for a document that is not drawn the reason."""
+    source = source_of(mxgen, document)
+    result = {name: 0.0 for name in variants}
+    changed = [name for name in variants if not source or source != source_of(mxgen, document, *variants[name])]
+    result["misfit"] = misfit_of(mxgen, document) if changed else ""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         draw = [mxgen, "render", document, "--quiet", "--size", size, "--missing-texture", "checker", "--mesh", "sphere"]
-        whole = run(*draw, "-o", folder / "whole.ppm")
-        if whole.returncode:
+        whole = run(*draw, "-o", folder / "whole.ppm") if changed else None
+        if whole and whole.returncode:
             return {"reason": reason_of(whole)}
-        result = {"misfit": misfit_of(mxgen, document)}
-        source = source_of(mxgen, document)
-        for name, options in variants.items():
-            if source and source == source_of(mxgen, document, *options):
-                result[name] = 0.0
-                continue
+        for name in changed:
             picture = folder / (name.replace(" ", "-") + ".ppm")
-            failed = run(*draw, *options, "-o", picture).returncode
+            failed = run(*draw, *variants[name], "-o", picture).returncode
             result[name] = None if failed else compare(folder / "whole.ppm", picture)
-        return result
+    return result
 
 
 def number(value):
