@@ -71,7 +71,11 @@ def compare(first, second):
 
 
 def run(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
+    words = [str(word) for word in command]
+    try:
+        return subprocess.run(words, capture_output=True, text=True, errors="replace", timeout=600)
+    except subprocess.TimeoutExpired:
+        return subprocess.CompletedProcess(words, 1, "", "error: ten minutes are not enough [timeout]\n")
 
 
 def source_of(mxgen, document, *options):
@@ -95,36 +99,48 @@ def misfit_of(mxgen, document):
     return part[1] if part else ""
 
 
+def reason_of(made):
+    """Why a document is not drawn: the first error without its place, or how the program ends."""
+    found = re.search(r"error: (.*?)(?: \[([a-z-]+)\])?$", made.stderr, re.MULTILINE)
+    return (found[2] or found[1]) if found else f"ends with {made.returncode}"
+
+
 def measure(mxgen, document, size, variants):
-    """The differences by variant; None for a document that mxgen does not draw."""
+    """The differences by variant, 0 where the shader stays the same; for a document that is not drawn the reason."""
+    source = source_of(mxgen, document)
+    result = {name: 0.0 for name in variants}
+    changed = [name for name in variants if not source or source != source_of(mxgen, document, *variants[name])]
+    result["misfit"] = misfit_of(mxgen, document) if changed else ""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         draw = [mxgen, "render", document, "--quiet", "--size", size, "--missing-texture", "checker", "--mesh", "sphere"]
-        if run(*draw, "-o", folder / "whole.ppm").returncode:
-            return None
-        result = {"misfit": misfit_of(mxgen, document)}
-        source = source_of(mxgen, document)
-        for name, options in variants.items():
-            if source and source == source_of(mxgen, document, *options):
-                result[name] = 0.0
-                continue
+        whole = run(*draw, "-o", folder / "whole.ppm") if changed else None
+        if whole and whole.returncode:
+            return {"reason": reason_of(whole)}
+        for name in changed:
             picture = folder / (name.replace(" ", "-") + ".ppm")
-            failed = run(*draw, *options, "-o", picture).returncode
+            failed = run(*draw, *variants[name], "-o", picture).returncode
             result[name] = None if failed else compare(folder / "whole.ppm", picture)
-        return result
+    return result
+
+
+def number(value):
+    return "-" if value is None else f"{value:.2f}"
 
 
 def tell(document, result, variants):
     """A line about a document, at once."""
-    values = " ".join("-" if result[name] is None else f"{result[name]:.2f}" for name in variants) if result else "not drawn"
-    print(f"{values} {document}" + (f" ({result['misfit']} is no slab)" if result and result["misfit"] else ""), flush=True)
+    if "reason" in result:
+        print(f"not drawn {document} ({result['reason']})", flush=True)
+        return
+    values = " ".join(number(result[name]) for name in variants)
+    print(f"{values} {document}" + (f" ({result['misfit']} is no slab)" if result["misfit"] else ""), flush=True)
 
 
 def print_models(results, variants):
     models = collections.defaultdict(list)
     for document, result in results:
-        if result:
-            models[model_of(document)].append(result)
+        models[model_of(document)].append(result)
     print("| model | documents | all slabs |", " | ".join(f"{name}: median | worst" for name in variants), "|")
     print("| --- | --- | --- |", " | ".join("--- | ---" for _ in variants), "|")
     for model, rows in sorted(models.items()):
@@ -135,32 +151,56 @@ def print_models(results, variants):
         print(f"| `{model}` | {len(rows)} | {sum(not row['misfit'] for row in rows)} |", " | ".join(columns), "|")
 
 
+def short(document):
+    """The path behind the folder "materials", which several collections of documents have."""
+    parts = document.parts
+    return "/".join(parts[parts.index("materials") + 1:]) if "materials" in parts else str(document)
+
+
+def page_of(drawn, rest, variants):
+    """The errors of all documents as Markdown, the worst first."""
+    first = next(iter(variants))
+    lines = ["# Errors of slabs", "", "`bench/slabs.py` writes this page: [slabs.md](slabs.md#every-material) explains it. Mean CIEDE2000 of a",
+             "ball; - is no picture.", "", f"| document | model | {' | '.join(variants)} | part that is no slab |", "| --- " * (3 + len(variants)) + "|"]
+    for document, result in sorted(drawn, key=lambda row: (-(row[1][first] or 0), str(row[0]))):
+        values = " | ".join(number(result[name]) for name in variants)
+        lines.append(f"| {short(document)} | {model_of(document)} | {values} | {result['misfit']} |")
+    lines += ["", "Documents without a picture:", "", "| document | reason |", "| --- | --- |"]
+    lines += [f"| {short(document)} | {result['reason']} |" for document, result in rest]
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mxgen", type=pathlib.Path)
     parser.add_argument("folders", type=pathlib.Path, nargs="+")
     parser.add_argument("--size", type=int, default=64)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--markdown", type=pathlib.Path, help="a page with a row for each document")
     parser.add_argument("--variant", action="append", metavar="NAME=OPTIONS")
     args = parser.parse_args()
     args.mxgen = args.mxgen.resolve()
     variants = {name: options.split() for name, _, options in (text.partition("=") for text in args.variant or [])} or VARIANTS
     found = {path for folder in args.folders for path in (folder.rglob("*.mtlx") if folder.is_dir() else [folder])}
     documents = sorted(path for path in found if path.is_file())
-    results = []
+    drawn, rest = [], []
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         for document, result in zip(documents, pool.map(lambda path: measure(args.mxgen, path, args.size, variants), documents)):
             tell(document, result, variants)
-            results.append((document, result))
-    print_models(results, variants)
+            (rest if "reason" in result else drawn).append((document, result))
+    print_models(drawn, variants)
     for name in variants:
-        rows = [(result[name], document) for document, result in results if result and result[name] is not None]
+        rows = [(result[name], document) for document, result in drawn if result[name] is not None]
         for value, document in sorted(rows, reverse=True)[:12]:
             print(f"{name}: {value:.2f} {document}")
-        print(f"{name}: {sum(result[name] is None for _, result in results if result)} documents cannot be drawn so")
-    misfits = collections.Counter(result["misfit"] for _, result in results if result and result["misfit"])
+        print(f"{name}: {sum(result[name] is None for _, result in drawn)} documents cannot be drawn so")
+    misfits = collections.Counter(result["misfit"] for _, result in drawn if result["misfit"])
     for part, count in misfits.most_common():
         print(f"no slab stands for '{part}': {count} documents")
+    for reason, count in collections.Counter(result["reason"] for _, result in rest).most_common():
+        print(f"not drawn, {reason}: {count} documents")
+    if args.markdown:
+        args.markdown.write_text(page_of(drawn, rest, variants), encoding="utf-8")
 
 
 if __name__ == "__main__":

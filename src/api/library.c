@@ -249,8 +249,7 @@ static void write_image(const struct object *object, struct text *out)
 
 static void write_expanded(const struct object *object, struct text *out)
 {
-    const struct document *doc = &((const mxg_library *)object)->layer.doc;
-    doc_write(doc, doc->root, out);
+    library_write(&((const mxg_library *)object)->layer, out);
 }
 
 mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size)

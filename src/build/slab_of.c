@@ -83,7 +83,16 @@ static ir_ref input_of(struct builder *b, uint32_t id, const ir_ref *results, st
     return build_default(b, &library_ports(b->lib, slab, NULL)[at]);
 }
 
-static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, ir_ref albedo)
+/* Turns a slab to the frame of a leaf. */
+static void take_frame(struct builder *b, ir_ref leaf, ir_ref *in)
+{
+    ir_ref normal = operand_of(b, leaf, "normal"), tangent = operand_of(b, leaf, "tangent");
+    in[SLAB_normal] = normal ? normal : in[SLAB_normal];
+    in[SLAB_tangent] = tangent ? tangent : in[SLAB_tangent];
+}
+
+static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, ir_ref leaf,
+                        ir_ref albedo)
 {
     static const str_id names[NUM_SLAB_INPUTS] = {
 #define SLAB_INPUT(name, type) STR_##name,
@@ -93,6 +102,7 @@ static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, i
     ir_ref in[NUM_SLAB_OPERANDS];
     for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
         in[i] = input_of(b, id, results, names[i]);
+    take_frame(b, leaf, in);
     in[SLAB_coverage] = ir_const_float(b->graph, 1.0f);
     in[SLAB_specular_lut] = 0;
     in[SLAB_specular_lut_weight] = ir_const_float(b->graph, 0.0f);
@@ -119,7 +129,7 @@ ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely)
     if (id == LIBRARY_NONE || !fits(b, leaf, loosely))
         return 0;
     apply_to(b, id, leaf, is_top, results);
-    return slab_with(b, id, results, 0);
+    return slab_with(b, id, results, leaf, 0);
 }
 
 /* The roughness of a slab for that of a leaf, which may be the widths of a lobe; 0: it has none. */
@@ -136,7 +146,7 @@ static ir_ref mean_roughness(struct builder *b, ir_ref leaf)
 
 ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo)
 {
-    ir_ref slab = slab_with(b, definition(b, "ND_slab"), NULL, albedo);
+    ir_ref slab = slab_with(b, definition(b, "ND_slab"), NULL, leaf, albedo);
     ir_ref roughness = mean_roughness(b, leaf), in[NUM_SLAB_OPERANDS];
     if (!roughness)
         return slab;

@@ -445,6 +445,16 @@ void doc_keep_paths(struct document *doc);
  */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
 
+/* Tells whether to write a child of the root; may write lines before it. */
+struct doc_choice {
+    void *user_data;
+    bool (*take)(void *user_data, elem_id child, struct text *out);
+};
+
+/* The same, with those children of the root that the choice takes; NULL: all. */
+void doc_write_part(const struct document *doc, elem_id root, const struct doc_choice *choice,
+                    struct text *out);
+
 /*
  * cycle.c: reports a cycle; may change `links`. Each node reads the next one through `port`, the
  * last one the first.

@@ -110,19 +110,22 @@ static void write_end_tag(const struct document *doc, elem_id element, uint32_t 
     end_line(doc, element, out);
 }
 
-void doc_write(const struct document *doc, elem_id root, struct text *out)
+void doc_write_part(const struct document *doc, elem_id root, const struct doc_choice *choice,
+                    struct text *out)
 {
     uint32_t depth = 0;
     if (!doc_element(doc, root)->parent)
         text_str(out, "<?xml version=\"1.0\"?>\n");
     for (elem_id element = root, next; element; element = next) {
-        write_start_tag(doc, element, depth, out);
-        next = doc_element(doc, element)->first_child;
+        bool is_left_out = choice && depth == 1 && !choice->take(choice->user_data, element, out);
+        if (!is_left_out)
+            write_start_tag(doc, element, depth, out);
+        next = is_left_out ? 0 : doc_element(doc, element)->first_child;
         if (next) {
             depth++;
             continue;
         }
-        if (has_content(doc, element))
+        if (!is_left_out && has_content(doc, element))
             write_end_tag(doc, element, depth, out);
         while (element != root && !(next = doc_element(doc, element)->next)) {
             element = doc_element(doc, element)->parent;
@@ -130,4 +133,9 @@ void doc_write(const struct document *doc, elem_id root, struct text *out)
             write_end_tag(doc, element, --depth, out);
         }
     }
+}
+
+void doc_write(const struct document *doc, elem_id root, struct text *out)
+{
+    doc_write_part(doc, root, NULL, out);
 }

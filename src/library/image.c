@@ -146,9 +146,12 @@ static uint32_t max_element(const struct library *lib)
 /* The maximum of element_info. */
 static uint32_t max_info(const struct library *lib)
 {
-    uint32_t most =
-        lib->nodedefs.len > lib->graph_nodes.len ? lib->nodedefs.len : lib->graph_nodes.len;
-    return most > lib->geomprops.len ? most : lib->geomprops.len;
+    uint32_t counts[] = {lib->nodedefs.len, lib->impls.len, lib->graph_nodes.len,
+                         lib->geomprops.len, lib->types.len};
+    uint32_t most = 0;
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+        most = counts[i] > most ? counts[i] : most;
+    return most;
 }
 
 /*

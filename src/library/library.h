@@ -457,6 +457,12 @@ void library_check_shaders(const struct library *lib, elem_id node, uint32_t nod
 void library_report_loose(const struct library *lib, elem_id element, doc_type type,
                           struct diag_list *diags);
 
+/*
+ * write.c: writes the layer as MaterialX. A definition with both code and a nodegraph, which mxgen
+ * does not use, keeps the graph alone, behind a comment with the inputs that it does not read.
+ */
+void library_write(const struct library *lib, struct text *out);
+
 /* image.c */
 
 /*
