@@ -30,6 +30,20 @@ function path(row) {
   return text || "/";
 }
 
+// The row of a path; -1: there is none.
+function rowOf(text) {
+  let row = 0, end = count;
+  for (const part of text.split("/").slice(1)) {
+    while (row < end && name(row) !== part)
+      row = ends[row];
+    if (row >= end)
+      return -1;
+    end = ends[row];
+    row++;
+  }
+  return row - 1;
+}
+
 // The row on which an assignment of a depth stands; -1: "/".
 function above(row, wanted) {
   while (row >= 0 && depth(row) > wanted)
@@ -68,13 +82,21 @@ function keep(values) {
   history.replaceState(null, "", "#" + address);
 }
 
-// 2: the row matches; 1: one below it does. Words match in the path, and in the layers that are set there.
+// The words in a text, a bit for each.
+const bits = (words, text) => words.reduce((sum, word, i) => text.includes(word) ? sum | 1 << i : sum, 0);
+
+// 2: the row matches; 1: one below it does. Words match in the path, and in the layers that are set there. What the path above a row has is
+// known when the row comes: only the end of that path, where a word may begin, is looked at again.
 function find(words) {
-  const found = new Uint8Array(count);
-  const layers = data.sets.map(layers => layers.map(label).join(" ").toLowerCase());
+  words = words.slice(0, 31);
+  const found = new Uint8Array(count), all = bits(words, words.join(" ")), longest = Math.max(...words.map(word => word.length));
+  const ofSets = data.sets.map(layers => bits(words, layers.map(label).join(" ").toLowerCase()));
+  const ofPaths = [0], tails = [""]; // by depth
   for (let row = 0; row < count; row++) {
-    const text = path(row).toLowerCase() + " " + layers[data.rows[3 * row + 2]];
-    if (!words.every(word => text.includes(word)))
+    const level = depth(row), text = tails[level - 1] + "/" + name(row).toLowerCase();
+    ofPaths[level] = ofPaths[level - 1] | bits(words, text);
+    tails[level] = text.slice(-longest);
+    if ((ofPaths[level] | ofSets[data.rows[3 * row + 2]]) !== all)
       continue;
     found[row] = 2;
     for (let up = parents[row]; up >= 0 && !found[up]; up = parents[up])
@@ -273,14 +295,13 @@ function open() {
   if (wanted.get("fold") === "all")
     folded.fill(1);
   choose();
-  for (let row = 0; at && row < count; row++)
-    if (path(row) === at) {
-      const layer = set(row)[Number(wanted.get("layer") || 0)];
-      if (!search.value)
-        goTo(row);
-      if (layer)
-        tell(row, layer);
-      break;
-    }
+  const row = at ? rowOf(at) : -1;
+  if (row < 0)
+    return;
+  const layer = set(row)[Number(wanted.get("layer") || 0)];
+  if (!search.value)
+    goTo(row);
+  if (layer)
+    tell(row, layer);
 }
 open();

@@ -56,15 +56,37 @@ bool aovs_has_alpha(const struct picture_aov *aov)
            && strcmp(aov->type, "vector4") != 0;
 }
 
-bool aovs_find(const struct picture_aov *aov, const mxg_result *result, mxg_variable *out)
+bool aovs_is_scattered(const struct picture_aov *aov)
 {
+    return strcmp(aov->type, "BSDF") == 0;
+}
+
+bool aovs_find(const struct picture_aov *aov, const mxg_result *result, enum aovs_output which,
+               mxg_variable *out)
+{
+    static const char *const prefixes[] = {PREFIX, "aov_weight:", "aov_response:", "aov_light:"};
+    const char *prefix = prefixes[which];
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
         *out = (mxg_variable){sizeof *out};
         mxg_result_variable(result, i, out);
-        if (is_aov(out) && strcmp(out->semantic + strlen(PREFIX), aov->name) == 0)
+        if (out->block == MXG_BLOCK_OUTPUTS && strncmp(out->semantic, prefix, strlen(prefix)) == 0
+            && strcmp(out->semantic + strlen(prefix), aov->name) == 0)
             return true;
     }
     return false;
+}
+
+size_t aovs_num(const struct aovs *aovs)
+{
+    return aovs ? aovs->len : 0;
+}
+
+size_t aovs_stride(const struct aovs *aovs)
+{
+    size_t num = aovs_num(aovs), stride = num;
+    for (size_t i = 0; i < num; ++i)
+        stride += aovs_is_scattered(&aovs->items[i]) ? AOVS_SCATTERED : 0;
+    return stride;
 }
 
 void aovs_list(const struct aovs *aovs, size_t first, size_t count, mxg_options *options)

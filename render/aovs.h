@@ -21,10 +21,23 @@ struct aovs {
 void aovs_add(struct aovs *aovs, const mxg_result *result);
 /* True for integers and booleans, which have no mean. */
 bool aovs_is_whole(const struct picture_aov *aov);
+/* True for BSDFs, whose light needs a whole path. */
+bool aovs_is_scattered(const struct picture_aov *aov);
 /* True for up to three numbers, behind which the alpha stands. */
 bool aovs_has_alpha(const struct picture_aov *aov);
-/* The variable of a shader with an AOV; false: it has none. */
-bool aovs_find(const struct picture_aov *aov, const mxg_result *result, mxg_variable *out);
+/* The outputs of an AOV in a shader: its value; for path tracers also the light of a BSDF. */
+enum aovs_output { AOVS_VALUE, AOVS_WEIGHT, AOVS_RESPONSE, AOVS_LIGHT };
+/* The variable of a shader with an output of an AOV; false: it has none. */
+bool aovs_find(const struct picture_aov *aov, const mxg_result *result, enum aovs_output which,
+               mxg_variable *out);
+
+/* The values that a path tracer keeps of a BSDF at the first hit. */
+#define AOVS_SCATTERED 3
+/* aovs may be NULL: none. */
+size_t aovs_num(const struct aovs *aovs);
+/* The values of a pixel: one for each AOV, then AOVS_SCATTERED for each BSDF. */
+size_t aovs_stride(const struct aovs *aovs);
+
 /* Makes generation give all shaders these AOVs, in this order. */
 void aovs_list(const struct aovs *aovs, size_t first, size_t count, mxg_options *options);
 void aovs_finish(struct aovs *aovs);

@@ -171,31 +171,82 @@ static void append_fill(struct source *source, const mxg_result *result)
 }
 
 /*
- * Adds the AOVs of the first hit to those of its pixel; an integer is that of the first sample,
- * because it has no mean.
+ * keep_aovs() adds the AOVs of the first hit to those of its pixel; an integer is that of the first
+ * sample, because it has no mean. A BSDF keeps behind all AOVs of the pixel what it gives of the
+ * light that comes by the path, from the environment and from a bound light: light_aovs() adds that
+ * when the light comes. keep_aovs() returns the most of each.
  */
-static void append_aovs(struct source *source, const mxg_result *result, const struct aovs *aovs)
+static void append_value(struct source *source, const struct picture_aov *aov, size_t number,
+                         const mxg_variable *variable)
 {
     char line[256];
-    snprintf(line, sizeof line,
-             "#define NUM_AOVS %zu\nvoid keep_aovs(uint pixel, bool is_first)\n{\n",
-             aovs ? aovs->len : 0);
+    const char *type = variable->type, *rest = strcmp(type, "vec4") == 0   ? ""
+                                               : strcmp(type, "vec3") == 0 ? ", 0.0"
+                                               : strcmp(type, "vec2") == 0 ? ", 0.0, 0.0"
+                                                                           : ", 0.0, 0.0, 0.0";
+    bool is_whole = aovs_is_whole(aov);
+    snprintf(line, sizeof line, "%s    aov_film[at + %zu] %s vec4(%s%s);\n",
+             is_whole ? "    if (is_first)\n    " : "", number,
+             is_whole ? "=" : "+=", variable->name, rest);
     append(source, line);
-    for (size_t i = 0; aovs && i < aovs->len; ++i) {
-        mxg_variable variable;
-        if (!aovs_find(&aovs->items[i], result, &variable))
+}
+
+static void append_keep_aovs(struct source *source, const mxg_result *result,
+                             const struct aovs *aovs)
+{
+    static const struct {
+        enum aovs_output output;
+        const char *factor;
+    } parts[] = {{AOVS_WEIGHT, ""}, {AOVS_RESPONSE, " * arrives"}, {AOVS_LIGHT, ""}};
+    const size_t num_parts = sizeof parts / sizeof *parts;
+    mxg_variable variable;
+    char line[256];
+    size_t at = aovs_num(aovs);
+    append(source,
+           "mat3 keep_aovs(uint pixel, bool is_first, vec3 arrives)\n{\n"
+           "    uint at = pixel * AOV_STRIDE;\n    vec3 kept;\n    mat3 most = mat3(0.0);\n");
+    for (size_t i = 0; i < aovs_num(aovs); ++i) {
+        if (aovs_find(&aovs->items[i], result, AOVS_VALUE, &variable))
+            append_value(source, &aovs->items[i], i, &variable);
+        for (size_t k = 0; aovs_is_scattered(&aovs->items[i]) && k < num_parts; ++k, ++at) {
+            if (!aovs_find(&aovs->items[i], result, parts[k].output, &variable))
+                continue;
+            snprintf(line, sizeof line,
+                     "    kept = %s%s;\n    kept = is_light(kept) ? kept : vec3(0.0);\n"
+                     "    aov_film[at + %zu] = vec4(kept, 0.0);\n"
+                     "    most[%zu] = max(most[%zu], kept);\n",
+                     variable.name, parts[k].factor, at, k, k);
+            append(source, line);
+        }
+    }
+    append(source, "    return most;\n}\n\n");
+}
+
+static void append_light_aovs(struct source *source, const struct aovs *aovs)
+{
+    char line[128];
+    size_t at = aovs_num(aovs);
+    append(source, "void light_aovs(uint pixel, uint of, vec3 light)\n{\n"
+                   "    uint at = pixel * AOV_STRIDE;\n");
+    for (size_t i = 0; i < aovs_num(aovs); ++i) {
+        if (!aovs_is_scattered(&aovs->items[i]))
             continue;
-        const char *type = variable.type, *rest = strcmp(type, "vec4") == 0   ? ""
-                                                  : strcmp(type, "vec3") == 0 ? ", 0.0"
-                                                  : strcmp(type, "vec2") == 0 ? ", 0.0, 0.0"
-                                                                              : ", 0.0, 0.0, 0.0";
-        bool is_whole = aovs_is_whole(&aovs->items[i]);
-        snprintf(line, sizeof line, "%s    aov_film[pixel * NUM_AOVS + %zu] %s vec4(%s%s);\n",
-                 is_whole ? "    if (is_first)\n    " : "", i, is_whole ? "=" : "+=", variable.name,
-                 rest);
+        snprintf(line, sizeof line,
+                 "    aov_film[at + %zu].rgb += aov_film[at + of + %zu].rgb * light;\n", i, at);
         append(source, line);
+        at += AOVS_SCATTERED;
     }
     append(source, "}\n\n");
+}
+
+static void append_aovs(struct source *source, const mxg_result *result, const struct aovs *aovs)
+{
+    char line[64];
+    snprintf(line, sizeof line, "#define AOV_STRIDE %zuu\n", aovs_stride(aovs));
+    append(source, line);
+    append(source, "bool is_light(vec3 color);\n");
+    append_keep_aovs(source, result, aovs);
+    append_light_aovs(source, aovs);
 }
 
 static bool compile(struct kernel *kernel, const struct aovs *aovs)

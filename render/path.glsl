@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), TRACER_SET
-// and, where they hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
+// A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), light_aovs(),
+// TRACER_SET and, where they hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
 // kernel runs.
@@ -12,13 +12,14 @@ struct Node { vec3 low; uint first; vec3 high; uint count; };
 struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
 struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
 struct Hit { float distance; uint triangle; vec2 weights; };
-struct Shadow { vec3 origin; float limit; vec3 direction; uint hits; vec4 light; }; // a ray to a light, and what it brings
+struct Shadow { vec3 origin; float limit; vec3 direction; uint hits; vec3 light; uint of; }; // a ray to a light, and what it brings
 struct Path {
     vec3 origin; float density;
     vec3 direction; uint turns;
     vec3 through; uint hits;
     vec3 medium; uint num_shadows;
-    vec3 light; uint phase;
+    vec3 light; uint phase;                         // that later hits send to the first one, which sends `weight` of it to the eye
+    vec3 weight, seen;                              // seen: what the first hit sends to the eye else
     Hit hit;                                        // of a path that waits
     uint waits_for, number, random, waits;          // number of the sample
     Shadow shadows[2];
@@ -49,6 +50,7 @@ const float PI = 3.14159265;
 const int MAX_HITS = 64; // those that a path goes straight through, too
 
 bool as_drawn() { return camera.right.w > 0.5; }
+uint pixel_number() { return gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x; }
 
 // ---- Random numbers: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d ----
 
@@ -287,24 +289,39 @@ bool is_light(vec3 color)
     return most > 0.0 && most < FAR; // and a number
 }
 
-// Light that comes to the point from there, unless something stands before it; what is behind `limit` is behind the light.
-void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 light)
+// Where light goes: to the first hit from the path, the environment, a bound light; or to a later one.
+const uint BY_PATH = 0u, BY_ENVIRONMENT = 1u, BY_LIGHT = 2u, LATER = 3u;
+
+void receive(inout Path path, vec3 light, uint of)
 {
-    if (!is_light(light))
-        return;
-    if (as_drawn()) // it has no shadows
+    if (of == LATER)
         path.light += light;
-    else
-        path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, vec4(light, 0.0));
+    else {
+        path.seen += light;
+        light_aovs(pixel_number(), of, vec3(1.0));
+    }
 }
 
-// Light that lights send to the point where scatter() has run, and that goes on from there.
-void gather(inout Path path, Point point, vec4 light)
+// Light that comes to the point from there, unless something stands before it; what is behind `limit` is behind the light.
+void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 light, uint of)
 {
-    vec3 around = out5.rgb * light.w * environment(light.xyz);
-    add_light(path, point, light.xyz, FAR, path.through * around);
+    if (as_drawn()) // it has no shadows
+        receive(path, light, of);
+    else
+        path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, light, of);
+}
+
+// Light that lights send to the point where scatter() has run, and that goes on from there. `arrives`: that the environment sends;
+// `most`: the most that AOVs take of it.
+void gather(inout Path path, Point point, vec3 direction, vec3 arrives, mat3 most, bool is_first)
+{
+    vec3 around = path.through * out5.rgb * arrives;
+    if (is_light(max(around, most[BY_ENVIRONMENT])))
+        add_light(path, point, direction, FAR, around, is_first ? BY_ENVIRONMENT : LATER);
 #ifdef LIGHTS
-    add_light(path, point, out6.xyz, min(out6.w, FAR), path.through * out7.rgb);
+    vec3 lit = path.through * out7.rgb;
+    if (is_light(max(lit, most[BY_LIGHT])))
+        add_light(path, point, out6.xyz, min(out6.w, FAR), lit, is_first ? BY_LIGHT : LATER);
 #endif
 }
 
@@ -349,7 +366,7 @@ bool follow_shadow(inout Path path)
     for (; ray.hits < uint(MAX_HITS); ++ray.hits) {
         int what = meet(path, ray.origin, ray.direction, ray.limit, hit);
         if (what == NOTHING) {
-            path.light += ray.light.rgb;
+            receive(path, ray.light, ray.of);
             break;
         }
         if (objects[corners[hit.triangle * 3u].object].blocks_light != 0u)
@@ -375,18 +392,25 @@ const uint GOING = 0u, CROSSING = 1u, ENDED = 2u;
 // Where a path goes that has met a surface.
 void bounce(inout Path path, Point point, vec4 towards)
 {
-    path.light += path.through * out1.rgb;
-    if (path.turns == 0u)
-        keep_aovs(gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x, path.number == 0u);
-    ++path.turns;
+    bool is_first = path.turns == 0u;
     vec4 next = out2, weight = out3;
-    vec3 inside = out4.rgb;
-    gather(path, point, towards);
-    path.through *= weight.rgb;
+    vec3 inside = out4.rgb, arrives = towards.w * environment(towards.xyz);
+    mat3 most = mat3(0.0);
+    if (is_first) {
+        path.seen = out1.rgb;
+        most = keep_aovs(pixel_number(), path.number == 0u, arrives);
+    } else
+        path.light += path.through * out1.rgb;
+    ++path.turns;
+    gather(path, point, towards.xyz, arrives, most, is_first);
+    if (is_first)
+        path.weight = is_light(weight.rgb) ? weight.rgb : vec3(0.0);
+    else
+        path.through *= weight.rgb;
     path.direction = normalize(next.xyz);
     path.density = weight.w;
     path.origin = beside(point, path.direction);
-    if (!is_light(path.through))
+    if (!is_light(is_first ? max(path.weight, most[BY_PATH]) : path.through))
         path.phase = ENDED;
     else if (next.w > 0.5 && as_drawn()) {
         path.phase = CROSSING;
@@ -486,7 +510,7 @@ Path begin(uvec2 pixel, uint number)
     path.direction = normalize(camera.forward.xyz + at.x * camera.right.xyz - at.y * camera.up.xyz);
     path.through = vec3(1.0);
     path.medium = vec3(1.0);
-    path.light = vec3(0.0);
+    path.light = path.weight = path.seen = vec3(0.0);
     path.density = 0.0;
     path.turns = path.hits = path.num_shadows = path.waits = path.waits_for = 0u;
     path.phase = GOING;
@@ -525,7 +549,9 @@ void main()
             atomicAdd(waiting[path.waits_for], 1u);
             break;
         }
-        sum += vec4(path.light, path.turns > 0u ? 1.0 : 0.0);
+        sum += vec4(path.seen + path.weight * path.light, path.turns > 0u ? 1.0 : 0.0);
+        if (path.turns > 0u)
+            light_aovs(index, BY_PATH, path.light);
         if (path.number + 1u == end)
             break;
         path = begin(pixel, path.number + 1u);

@@ -24,7 +24,7 @@ enum {
     NUM_BINDINGS = NUM_BUFFERS + 1,
     GROUP = 8,
     SAMPLES_AT_ONCE = 16,
-    PATH_SIZE = 208
+    PATH_SIZE = 240
 };
 
 struct camera { /* layout as in path.glsl */
@@ -128,11 +128,6 @@ static bool is_displaced(const struct tracer *tracer)
     return displaced;
 }
 
-static size_t num_aovs(const struct tracer *tracer)
-{
-    return tracer->options->aovs ? tracer->options->aovs->len : 0;
-}
-
 static bool create_buffers(struct tracer *tracer)
 {
     struct gpu *gpu = tracer->gpu;
@@ -146,13 +141,14 @@ static bool create_buffers(struct tracer *tracer)
         const void *data;
         size_t size;
         unsigned buffer;
-    } made[] = {{bvh->nodes, bvh->num_nodes * sizeof *bvh->nodes, NODES},
-                {bvh->corners, corners * sizeof *bvh->corners, CORNERS},
-                {NULL, film, FILM},
-                {sums, num_sums * sizeof *sums, SUMS},
-                {NULL, pixels * PATH_SIZE, PATHS},
-                {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING},
-                {NULL, (num_aovs(tracer) * pixels + 1) * 4 * sizeof(float), AOVS}};
+    } made[] = {
+        {bvh->nodes, bvh->num_nodes * sizeof *bvh->nodes, NODES},
+        {bvh->corners, corners * sizeof *bvh->corners, CORNERS},
+        {NULL, film, FILM},
+        {sums, num_sums * sizeof *sums, SUMS},
+        {NULL, pixels * PATH_SIZE, PATHS},
+        {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING},
+        {NULL, (aovs_stride(tracer->options->aovs) * pixels + 1) * 4 * sizeof(float), AOVS}};
     bool good = sums || fail_for_memory(tracer);
     for (size_t i = 0; good && i < sizeof made / sizeof *made; ++i)
         good = gpu_create_buffer(gpu, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, made[i].data,
@@ -375,12 +371,13 @@ static void close(struct tracer *tracer)
 static void take_aovs(const struct tracer *tracer, uint32_t samples)
 {
     const float *film = tracer->buffers[AOVS].mapped;
-    size_t pixels = (size_t)tracer->width * tracer->height, count = num_aovs(tracer);
-    for (size_t i = 0; i < count; ++i) {
+    size_t pixels = (size_t)tracer->width * tracer->height;
+    size_t stride = aovs_stride(tracer->options->aovs);
+    for (size_t i = 0; i < aovs_num(tracer->options->aovs); ++i) {
         struct picture_aov *aov = &tracer->options->aovs->items[i];
         float scale = aovs_is_whole(aov) ? 1 : 1 / (float)samples;
         for (size_t p = 0; p < 4 * pixels; ++p)
-            aov->pixels[p] = film[4 * (p / 4 * count + i) + p % 4] * scale;
+            aov->pixels[p] = film[4 * (p / 4 * stride + i) + p % 4] * scale;
     }
 }
 

@@ -248,7 +248,7 @@ static void declare_aovs(struct osl_tree *t)
         ir_type_id type = t->shader->aovs.items[i].type;
         type = ir_type_is_closure(type) ? IR_TYPE_BSDF : closure_aov_type(t->shader, i);
         if (t->shader->aovs.items[i].is_output)
-            t->aovs[i] = closure_aov_output(t->shader, i, type);
+            t->aovs[i] = closure_aov_output(t->shader, i, AOV_VALUE, type);
     }
 }
 

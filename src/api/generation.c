@@ -381,22 +381,16 @@ static bool cannot_fail(const struct generation *g)
            && closure_is_surface(&g->result->shader, g->root);
 }
 
-/*
- * A path tracer writes the values of the first hit, where the light is not yet known; a payload has
- * no values beside its closure.
- */
+/* A payload has no values beside its closure. */
 static void report_lost_aovs(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    bool packs = generation_packs(g);
-    for (uint32_t i = 0; i < shader->aovs.len; i++)
-        if (shader->aovs.items[i].is_output && shader->aovs.items[i].element
-            && (packs || (shader->scatters && shader->aovs.items[i].type == IR_TYPE_BSDF)))
+    for (uint32_t i = 0; i < shader->aovs.len && generation_packs(g); i++)
+        if (shader->aovs.items[i].is_output && shader->aovs.items[i].element)
             diag_add(diags_of(g), DIAG_ID_aov_left_out,
                      doc_place(&g->document->layer.doc, shader->aovs.items[i].element),
                      str_text(shader->strings, shader->aovs.items[i].name),
-                     packs ? "a payload holds one closure"
-                           : "a path tracer does not tell the light of one closure apart");
+                     "a payload holds one closure");
 }
 
 bool generation_emit(struct generation *g)

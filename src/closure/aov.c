@@ -154,13 +154,18 @@ static bool is_letter(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
+/* By enum aov_output; a name has it behind "aov". */
+static const char *const output_kinds[] = {"", "_weight", "_response", "_light"};
+
 /* "aov_dirt", an identifier. */
-static str_id output_name(struct shader *shader, const struct shader_aov *aov)
+static str_id output_name(struct shader *shader, const struct shader_aov *aov, const char *kind)
 {
     struct text name;
     size_t len;
     text_init(&name, shader->arena);
-    text_str(&name, "aov_");
+    text_str(&name, "aov");
+    text_str(&name, kind);
+    text_char(&name, '_');
     for (const char *c = str_text(shader->strings, aov->name); *c; c++)
         text_char(&name, is_letter(*c) ? *c : '_');
     const char *identifier = identifier_from(text_cstr(&name), name.len, shader->arena, &len);
@@ -173,15 +178,18 @@ ir_type_id closure_aov_type(const struct shader *shader, uint32_t index)
     return type == IR_TYPE_BOOL ? IR_TYPE_INT : ir_type_is_closure(type) ? IR_TYPE_VEC3 : type;
 }
 
-uint32_t closure_aov_output(struct shader *shader, uint32_t index, ir_type_id type)
+uint32_t closure_aov_output(struct shader *shader, uint32_t index, enum aov_output which,
+                            ir_type_id type)
 {
     const struct shader_aov *aov = &shader->aovs.items[index];
     struct text semantic;
     text_init(&semantic, shader->arena);
-    text_str(&semantic, "aov:");
+    text_str(&semantic, "aov");
+    text_str(&semantic, output_kinds[which]);
+    text_char(&semantic, ':');
     text_str(&semantic, str_text(shader->strings, aov->name));
     struct shader_variable variable = {
-        .name = output_name(shader, aov),
+        .name = output_name(shader, aov, output_kinds[which]),
         .block = BLOCK_OUTPUTS,
         .type = type,
         .doc_type = aov->doc_type,

@@ -179,8 +179,14 @@ void closure_find_aovs(struct shader *shader, ir_ref root);
 /* Closures and numbers times a factor; the operand stays. */
 struct closure_aovs closure_aovs_scaled(struct ir_graph *graph, struct closure_aovs aovs,
                                         ir_ref factor);
-/* The variable of the output of an AOV, of a type that the caller chooses. */
-uint32_t closure_aov_output(struct shader *shader, uint32_t index, ir_type_id type);
+/*
+ * The outputs of an AOV: its value; for path tracers also the light of a BSDF, as vec3: the weight
+ * of the sampled direction, the response to the host's direction, and the light of one bound light.
+ */
+enum aov_output { AOV_VALUE, AOV_WEIGHT, AOV_RESPONSE, AOV_LIGHT };
+/* The variable of an output of an AOV; the caller chooses the type of the value. */
+uint32_t closure_aov_output(struct shader *shader, uint32_t index, enum aov_output which,
+                            ir_type_id type);
 /* The type of its value: the light of a closure is vec3, and a boolean is int. */
 ir_type_id closure_aov_type(const struct shader *shader, uint32_t index);
 /* The value, of closure_aov_type: the light of a closure; 0: absent. */

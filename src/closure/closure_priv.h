@@ -98,7 +98,9 @@ struct closure_scatter_layer {
     ir_ref alpha;    /* that the list and the emission have, but the tracer applies; 0: none */
     ir_ref is_it;    /* a bool: this layer is picked; 0: always */
     ir_ref chance;   /* a random number that picks a leaf; 0: that of the path tracer */
-    struct closure_aovs aovs; /* values and BSDFs; they have the alpha, too */
+    /* values, and the emission of closures; they have the alpha, too */
+    struct closure_aovs aovs;
+    struct closure_list *aov_lists; /* the leaves of BSDFs, by number of the AOV; NULL: no AOVs */
 };
 struct closure_scatter *closure_scatter_begin(struct shader *shader,
                                               const struct closure_host *host,

@@ -16,6 +16,10 @@
  *     out4 = vec4(medium, 0)
  *     out5 = vec4(Σ wᵢ · evalᵢ(lightWorld.xyz) / (1 + lightWorld.w · Pᵢ · pdfᵢ(lightWorld.xyz)), 0)
  *     out6, out7: one of the bound lights, see light_up
+ *     for each BSDF of an AOV: what stands in out3, out5 and out7, for that BSDF
+ *
+ * The BSDF of an AOV is another *part* of the light, with weights of its own for the same leaves
+ * and for further ones. All parts share directions, and a leaf is picked for its greatest weight.
  *
  * The code picks one leaf. The weight of its sample is the response of this leaf alone, divided by
  * the chance to pick it, so the expectation is the sum of all leaves (Pharr, Jakob, Humphreys,
@@ -32,25 +36,41 @@
 
 #include <assert.h>
 
+/* A leaf of a part or of several. */
+struct scattering {
+    ir_ref leaf;
+    ir_ref share;                   /* p; 0: never picked */
+    const struct closure_leaf **in; /* by part, with its weight there; NULL: absent */
+};
+
+/* Light that leaves the surface: that of the whole surface, or of the BSDF of an AOV. */
+struct part {
+    const struct closure_list *list; /* of the layer at hand */
+    uint32_t aov;                    /* number of the AOV, unless it is the first part */
+    uint32_t weight;                 /* a local: the weight of the sample */
+    uint32_t seen_local, lit_local;  /* of a stack: locals for what the picked layer gives */
+    ir_ref lit;                      /* what one of the lights gives */
+};
+
 struct closure_scatter {
     struct shader *shader;
     struct ir_graph *graph;
     const struct closure_host *host;
     const struct closure_lighting *lighting;
-    const struct closure_list *list; /* of the layer at hand */
-    /* p of each leaf; 0: never picked */
-    ir_ref *shares;
-    uint32_t pick, direction, is_inside, weight, density, medium; /* locals */
+    struct part *parts; /* the first is the surface */
+    uint32_t num_parts;
+    VEC(struct scattering) leaves;                        /* of all parts of the layer at hand */
+    uint32_t pick, direction, is_inside, density, medium; /* locals */
     ir_ref total;
     /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
     ir_ref scale;
     struct closure_copies copies; /* of the layer, whose light loop is its own */
     /* of a stack: locals for what the picked layer gives; of a surface: what it gives */
-    bool is_stack;
-    uint32_t emission_local, seen_local, lit_local, to_light, away;
+    bool is_stack, has_layer;
+    uint32_t emission_local, to_light, away;
     uint32_t *aov_locals; /* by number of the AOV */
     struct closure_aovs aovs;
-    ir_ref emission, seen, lit;
+    ir_ref emission;
 };
 
 static void effect(struct closure_scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
@@ -107,32 +127,31 @@ static ir_ref weight_from(struct closure_scatter *s, const struct closure_leaf *
     return weight_along(s, leaf, leaf->decay ? closure_way(s->shader, s->host, direction) : 0);
 }
 
-static bool has(const struct closure_scatter *s, const struct closure_leaf *leaf,
-                enum leaf_function which)
+static bool has(const struct closure_scatter *s, ir_ref leaf, enum leaf_function which)
 {
-    return closure_has(s->shader, s->host, leaf->leaf, which);
+    return closure_has(s->shader, s->host, leaf, which);
 }
 
-static bool refracts(struct closure_scatter *s, const struct closure_leaf *leaf)
+static bool refracts(struct closure_scatter *s, ir_ref leaf)
 {
     ir_ref any = closure_view(s->shader, s->host);
     ir_ref refraction = has(s, leaf, LEAF_REFRACTION)
-                            ? closure_call(s->shader, s->host, leaf->leaf, LEAF_REFRACTION, &any)
+                            ? closure_call(s->shader, s->host, leaf, LEAF_REFRACTION, &any)
                             : 0;
     return refraction && !ir_const_is(s->graph, refraction, 0.0f);
 }
 
 /*
- * p of a leaf: the chance to pick it times the sum of all p. It follows the scattered light, so
- * that paths keep their weight. An albedo covers only reflection; refraction loses no light. The
- * tenth is a reserve, because albedos are fits.
+ * p of a leaf in a part: the chance to pick it times the sum of all p. It follows the scattered
+ * light, so that paths keep their weight. An albedo covers only reflection; refraction loses no
+ * light. The tenth is a reserve, because albedos are fits.
  */
 static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *leaf)
 {
     struct ir_graph *g = s->graph;
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
            light = weight_along(s, leaf, number(s, CLOSURE_MEAN_WAY));
-    if (albedo && !refracts(s, leaf)) {
+    if (albedo && !refracts(s, leaf->leaf)) {
         albedo = op2(s, IR_MUL, grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
         light = op2(s, IR_MUL, light, op2(s, IR_ADD, grey(s, 0.1f), albedo));
     }
@@ -148,42 +167,88 @@ static ir_ref is_in_front(struct closure_scatter *s, ir_ref direction)
     return op2(s, IR_GT, op2(s, IR_MUL, of_view, of_light), number(s, 0.0f));
 }
 
-static void sample(struct closure_scatter *s, const struct closure_leaf *leaf, ir_ref share)
+/* The medium behind a leaf, of the first part that has one; 0: none. */
+static ir_ref medium_of(const struct closure_scatter *s, const struct scattering *leaf)
+{
+    for (uint32_t p = 0; p < s->num_parts; p++)
+        if (leaf->in[p] && leaf->in[p]->medium)
+            return leaf->in[p]->medium;
+    return 0;
+}
+
+/* The weights of a sample in all parts that have the leaf. */
+static void weigh(struct closure_scatter *s, const struct scattering *leaf, ir_ref direction,
+                  ir_ref response)
+{
+    for (uint32_t p = 0; p < s->num_parts; p++) {
+        if (!leaf->in[p])
+            continue;
+        ir_ref weight = op2(s, IR_MUL, weight_from(s, leaf->in[p], direction), response);
+        weight = op2(s, IR_MUL, weight, op2(s, IR_DIV, s->total, leaf->share));
+        effect(s, EFFECT_ASSIGN, s->parts[p].weight, weight);
+    }
+}
+
+static void sample(struct closure_scatter *s, const struct scattering *leaf)
 {
     struct ir_graph *g = s->graph;
     ir_ref pick = read(s, s->pick), nothing = number(s, 0.0f), one = number(s, 1.0f);
     ir_ref is_it = op2(s, IR_GE, pick, nothing);
-    is_it = op2(s, IR_LAND, is_it, op2(s, IR_LT, pick, share));
+    is_it = op2(s, IR_LAND, is_it, op2(s, IR_LT, pick, leaf->share));
     ir_ref results[3]; /* direction, f cos / pdf, pdf */
     closure_call_all(s->shader, s->host, leaf->leaf, LEAF_SAMPLE, NULL, results);
-    ir_ref weight = op2(s, IR_MUL, weight_from(s, leaf, results[0]), results[1]);
-    weight = op2(s, IR_MUL, weight, op2(s, IR_DIV, s->total, share));
-    ir_ref density = op2(s, IR_MUL, results[2], op2(s, IR_DIV, share, s->total));
     effect(s, EFFECT_IF, 0, is_it);
     effect(s, EFFECT_ASSIGN, s->direction, results[0]);
-    effect(s, EFFECT_ASSIGN, s->weight, weight);
-    if (has(s, leaf, LEAF_REFRACTION)) {
-        ir_ref in_front = is_in_front(s, results[0]);
+    weigh(s, leaf, results[0], results[1]);
+    ir_ref density = op2(s, IR_MUL, results[2], op2(s, IR_DIV, leaf->share, s->total));
+    if (has(s, leaf->leaf, LEAF_REFRACTION)) {
+        ir_ref in_front = is_in_front(s, results[0]), medium = medium_of(s, leaf);
         density = ir_op3(g, IR_SELECT, in_front, density, nothing);
         effect(s, EFFECT_ASSIGN, s->is_inside, ir_op3(g, IR_SELECT, in_front, nothing, one));
-        if (leaf->medium)
-            effect(s, EFFECT_ASSIGN, s->medium, ir_convert(g, IR_TYPE_VEC3, leaf->medium));
+        if (medium)
+            effect(s, EFFECT_ASSIGN, s->medium, ir_convert(g, IR_TYPE_VEC3, medium));
     }
     effect(s, EFFECT_ASSIGN, s->density, density);
     effect(s, EFFECT_END, 0, 0);
-    effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(g, IR_NEG, share));
+    effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(g, IR_NEG, leaf->share));
+}
+
+/* The leaf among those of all parts, new or not. */
+static struct scattering *find_leaf(struct closure_scatter *s, ir_ref leaf)
+{
+    for (uint32_t i = 0; i < s->leaves.len; i++)
+        if (s->leaves.items[i].leaf == leaf)
+            return &s->leaves.items[i];
+    struct scattering new_leaf = {
+        .leaf = leaf,
+        .in = ARENA_ARRAY(s->shader->arena, const struct closure_leaf *, s->num_parts)};
+    vec_push(s->shader->arena, &s->leaves, new_leaf);
+    return &s->leaves.items[s->leaves.len - 1];
+}
+
+static void find_leaves(struct closure_scatter *s)
+{
+    s->leaves.len = 0;
+    for (uint32_t p = 0; p < s->num_parts; p++) {
+        const struct closure_list *list = s->parts[p].list;
+        for (uint32_t i = 0; i < list->leaves.len; i++)
+            find_leaf(s, list->leaves.items[i].leaf)->in[p] = &list->leaves.items[i];
+    }
 }
 
 static void find_shares(struct closure_scatter *s)
 {
-    s->shares = ARENA_ARRAY(s->shader->arena, ir_ref, s->list->leaves.len);
     s->total = number(s, 0.0f);
-    for (uint32_t i = 0; i < s->list->leaves.len; i++) {
-        const struct closure_leaf *leaf = &s->list->leaves.items[i];
-        ir_ref share = has(s, leaf, LEAF_SAMPLE) ? share_of(s, leaf) : 0;
+    for (uint32_t i = 0; i < s->leaves.len; i++) {
+        struct scattering *leaf = &s->leaves.items[i];
+        ir_ref share = 0;
+        for (uint32_t p = 0; p < s->num_parts && has(s, leaf->leaf, LEAF_SAMPLE); p++) {
+            ir_ref more = leaf->in[p] ? share_of(s, leaf->in[p]) : 0;
+            share = share && more ? op2(s, IR_MAX, share, more) : share ? share : more;
+        }
         if (!share || ir_const_is(s->graph, share, 0.0f))
             continue;
-        s->shares[i] = share;
+        leaf->share = share;
         s->total = op2(s, IR_ADD, s->total, share);
         shader_add_closure(s->shader, leaf->leaf);
     }
@@ -199,40 +264,44 @@ static void declare_locals(struct closure_scatter *s, ir_ref pick)
     s->pick = local(s, STR_pick, pick);
     s->direction = local(s, STR_L, grey(s, 0.0f));
     s->is_inside = local(s, STR_inside, number(s, 0.0f));
-    s->weight = local(s, STR_weight, grey(s, 0.0f));
+    for (uint32_t p = 0; p < s->num_parts; p++)
+        s->parts[p].weight = local(s, STR_weight, grey(s, 0.0f));
     s->density = local(s, STR_density, number(s, 0.0f));
     s->medium = local(s, STR_medium, grey(s, 1.0f));
 }
 
 static void sample_leaves(struct closure_scatter *s)
 {
-    for (uint32_t i = 0; i < s->list->leaves.len; i++)
-        if (s->shares[i])
-            sample(s, &s->list->leaves.items[i], s->shares[i]);
+    for (uint32_t i = 0; i < s->leaves.len; i++)
+        if (s->leaves.items[i].share)
+            sample(s, &s->leaves.items[i]);
 }
 
 /*
- * The response of all leaves to light from a direction. solid_angle 0: the light of a point, which
- * no sample finds.
+ * The response of a part to light from a direction. solid_angle 0: the light of a point, which no
+ * sample finds.
  */
-static ir_ref response(struct closure_scatter *s, ir_ref direction, ir_ref solid_angle)
+static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref direction,
+                       ir_ref solid_angle)
 {
     struct ir_graph *g = s->graph;
     ir_ref sum = grey(s, 0.0f);
-    for (uint32_t i = 0; i < s->list->leaves.len; i++) {
-        const struct closure_leaf *leaf = &s->list->leaves.items[i];
+    for (uint32_t i = 0; i < s->leaves.len; i++) {
+        const struct scattering *leaf = &s->leaves.items[i];
+        if (!leaf->in[part])
+            continue;
         ir_ref value = closure_call(s->shader, s->host, leaf->leaf, LEAF_EVAL, &direction);
-        if (!value || !s->shares[i])
+        if (!value || !leaf->share)
             continue;
         value = ir_convert(g, IR_TYPE_VEC3, value);
-        value = op2(s, IR_MUL, value, weight_from(s, leaf, direction));
+        value = op2(s, IR_MUL, value, weight_from(s, leaf->in[part], direction));
         if (solid_angle) {
             ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
-            density = op2(s, IR_MUL, density, op2(s, IR_DIV, s->shares[i], s->total));
+            density = op2(s, IR_MUL, density, op2(s, IR_DIV, leaf->share, s->total));
             value = op2(s, IR_DIV, value,
                         op2(s, IR_ADD, number(s, 1.0f), op2(s, IR_MUL, solid_angle, density)));
         }
-        if (has(s, leaf, LEAF_REFRACTION))
+        if (has(s, leaf->leaf, LEAF_REFRACTION))
             value = ir_op3(g, IR_SELECT, is_in_front(s, direction), value, grey(s, 0.0f));
         sum = op2(s, IR_ADD, sum, value);
     }
@@ -246,6 +315,18 @@ static void write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_
     effect(s, EFFECT_OUTPUT, out, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
 }
 
+/* The light of each part from one of the lights; returns the mean of the greatest. */
+static ir_ref lit_parts(struct closure_scatter *s, const struct closure_light *light)
+{
+    ir_ref most = 0;
+    for (uint32_t p = 0; p < s->num_parts; p++) {
+        ir_ref seen = response(s, p, light->direction, 0);
+        s->parts[p].lit = op2(s, IR_MUL, light->intensity, seen);
+        most = most ? op2(s, IR_MAX, most, s->parts[p].lit) : s->parts[p].lit;
+    }
+    return op2(s, IR_MAX, mean_of(s, most), number(s, 0.0f));
+}
+
 /*
  * One of the bound lights, in one pass, with a probability proportional to its unshadowed
  * contribution (reservoir sampling: Chao 1982, "A General Purpose Unequal Probability Sampling
@@ -257,6 +338,8 @@ static void write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_
  *         rescale chance for the next light
  *     out6 = vec4(L, distance)
  *     out7 = vec4(kept · sum, 0)
+ *
+ * Several parts keep their own c, and m is the mean of the greatest.
  */
 static void light_up(struct closure_scatter *s)
 {
@@ -264,7 +347,10 @@ static void light_up(struct closure_scatter *s)
     ir_ref nothing = number(s, 0.0f), random = random_number(s->shader);
     uint32_t chance =
         local(s, STR_chance, ir_op1(g, IR_FRACT, op2(s, IR_MUL, random, number(s, 4096.0f))));
-    uint32_t sum = local(s, STR_sum, nothing), kept = local(s, STR_light, grey(s, 0.0f));
+    uint32_t sum = local(s, STR_sum, nothing);
+    uint32_t *kept = ARENA_ARRAY(s->shader->arena, uint32_t, s->num_parts);
+    for (uint32_t p = 0; p < s->num_parts; p++)
+        kept[p] = local(s, STR_light, grey(s, 0.0f));
     uint32_t to_light = s->to_light, away = s->away;
     if (!s->is_stack) {
         to_light = s->to_light = local(s, STR_L, grey(s, 0.0f));
@@ -277,15 +363,15 @@ static void light_up(struct closure_scatter *s)
         const struct effect *part = &light.choice.items[i];
         effect(s, (enum effect_kind)part->kind, part->index, part->value);
     }
-    ir_ref lit = op2(s, IR_MUL, light.intensity, response(s, light.direction, 0));
-    ir_ref mean = op2(s, IR_MAX, mean_of(s, lit), nothing);
+    ir_ref mean = lit_parts(s, &light);
     effect(s, EFFECT_ACCUMULATE, sum, mean);
     ir_ref all = read(s, sum), point = op2(s, IR_MUL, read(s, chance), all),
            is_it = op2(s, IR_LT, point, mean);
     effect(s, EFFECT_IF, 0, is_it);
     effect(s, EFFECT_ASSIGN, to_light, light.direction);
     effect(s, EFFECT_ASSIGN, away, closure_light_distance(s->shader, s->host));
-    effect(s, EFFECT_ASSIGN, kept, op2(s, IR_DIV, lit, mean));
+    for (uint32_t p = 0; p < s->num_parts; p++)
+        effect(s, EFFECT_ASSIGN, kept[p], op2(s, IR_DIV, s->parts[p].lit, mean));
     effect(s, EFFECT_END, 0, 0);
     ir_ref rest = op2(s, IR_SUB, point, mean);
     rest = op2(s, IR_DIV, rest, op2(s, IR_SUB, read(s, sum), mean));
@@ -294,8 +380,10 @@ static void light_up(struct closure_scatter *s)
     effect(s, EFFECT_ASSIGN, chance, rest);
     effect(s, EFFECT_END, 0, 0);
     effect(s, EFFECT_END, 0, 0);
-    s->lit = read(s, kept);
-    s->lit = op2(s, IR_MUL, s->lit, read(s, sum));
+    for (uint32_t p = 0; p < s->num_parts; p++) {
+        ir_ref lit = read(s, kept[p]);
+        s->parts[p].lit = op2(s, IR_MUL, lit, read(s, sum));
+    }
     s->shader->lit = true;
 }
 
@@ -314,14 +402,12 @@ struct closure_scatter *closure_scatter_begin(struct shader *shader,
                                   .host = host,
                                   .lighting = lighting,
                                   .copies = {.shader = shader}};
+    s->parts = ARENA_ARRAY(shader->arena, struct part, shader->aovs.len + 1);
+    s->num_parts = 1;
+    for (uint32_t i = 0; i < shader->aovs.len; i++)
+        if (shader->aovs.items[i].is_output && shader->aovs.items[i].type == IR_TYPE_BSDF)
+            s->parts[s->num_parts++].aov = i;
     return s;
-}
-
-/* The light of a BSDF needs the whole path. */
-static bool has_value(const struct closure_scatter *s, uint32_t aov)
-{
-    const struct shader_aov *a = &s->shader->aovs.items[aov];
-    return a->is_output && a->type != IR_TYPE_BSDF;
 }
 
 /* The locals that the layers of a stack fill; before the first one. */
@@ -330,43 +416,47 @@ static void declare_layers(struct closure_scatter *s)
     ir_ref black = grey(s, 0.0f), nothing = number(s, 0.0f);
     declare_locals(s, nothing);
     s->emission_local = local(s, STR_emission, black);
-    s->seen_local = local(s, STR_response, black);
+    for (uint32_t p = 0; p < s->num_parts; p++)
+        s->parts[p].seen_local = local(s, STR_response, black);
+    for (uint32_t p = 0; s->lighting->lights && p < s->num_parts; p++)
+        s->parts[p].lit_local = local(s, STR_light, black);
     if (s->lighting->lights) {
-        s->lit_local = local(s, STR_light, black);
         s->to_light = local(s, STR_L, black);
         s->away = local(s, STR_distance, nothing);
     }
     s->aov_locals = ARENA_ARRAY(s->shader->arena, uint32_t, s->shader->aovs.len);
     for (uint32_t i = 0; i < s->shader->aovs.len; i++)
-        if (has_value(s, i))
+        if (s->shader->aovs.items[i].is_output)
             s->aov_locals[i] =
                 local(s, s->shader->aovs.items[i].name, closure_aov_value(s->shader, i, 0));
     s->is_stack = true;
 }
 
-/* The response to the light of the host's direction. */
-static ir_ref seen_of(struct closure_scatter *s)
+/* The response of a part to the light of the host's direction. */
+static ir_ref seen_of(struct closure_scatter *s, uint32_t part)
 {
     ir_ref light = shader_stream(s->shader, STR_lightWorld, IR_TYPE_VEC4), direction[3];
     for (unsigned i = 0; i < 3; i++)
         direction[i] = ir_component(s->graph, light, i);
     ir_ref solid_angle = ir_component(s->graph, light, 3);
-    return response(s, ir_construct(s->graph, IR_TYPE_VEC3, direction, 3), solid_angle);
+    return response(s, part, ir_construct(s->graph, IR_TYPE_VEC3, direction, 3), solid_angle);
 }
 
 /* Moves what the layer gives to the locals of the stack. */
 static void keep_layer(struct closure_scatter *s)
 {
     effect(s, EFFECT_ASSIGN, s->emission_local, s->emission);
-    effect(s, EFFECT_ASSIGN, s->seen_local, seen_of(s));
+    for (uint32_t p = 0; p < s->num_parts; p++)
+        effect(s, EFFECT_ASSIGN, s->parts[p].seen_local, seen_of(s, p));
     for (uint32_t i = 0; i < s->aovs.num; i++)
-        if (has_value(s, i) && s->aovs.items[i].value)
+        if (s->shader->aovs.items[i].is_output && s->aovs.items[i].value)
             effect(s, EFFECT_ASSIGN, s->aov_locals[i],
                    closure_aov_value(s->shader, i, s->aovs.items[i].value));
     if (!s->lighting->lights)
         return;
     light_up(s);
-    effect(s, EFFECT_ASSIGN, s->lit_local, s->lit);
+    for (uint32_t p = 0; p < s->num_parts; p++)
+        effect(s, EFFECT_ASSIGN, s->parts[p].lit_local, s->parts[p].lit);
 }
 
 static ir_ref scale_of(struct closure_scatter *s, ir_ref alpha)
@@ -378,12 +468,17 @@ static ir_ref scale_of(struct closure_scatter *s, ir_ref alpha)
 
 void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatter_layer *layer)
 {
-    s->list = &layer->list;
+    const struct closure_list *none = ARENA_NEW(s->shader->arena, struct closure_list);
+    s->has_layer = true;
+    s->parts[0].list = &layer->list;
+    for (uint32_t p = 1; p < s->num_parts; p++)
+        s->parts[p].list = layer->aov_lists ? &layer->aov_lists[s->parts[p].aov] : none;
     s->scale = scale_of(s, layer->alpha);
     s->aovs = s->scale ? closure_aovs_scaled(s->graph, layer->aovs, s->scale) : layer->aovs;
     s->emission = layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3,
                                                closure_mul(s->graph, layer->emission, s->scale))
                                   : grey(s, 0.0f);
+    find_leaves(s);
     find_shares(s);
     if (!layer->chance) {
         declare_locals(s, op2(s, IR_MUL, random_number(s->shader), s->total));
@@ -402,16 +497,31 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
         effect(s, EFFECT_END, 0, 0);
 }
 
+static void write_part(struct closure_scatter *s, const struct part *part, enum aov_output which,
+                       ir_ref value)
+{
+    uint32_t output = closure_aov_output(s->shader, part->aov, which, IR_TYPE_VEC3);
+    effect(s, EFFECT_OUTPUT, output, value);
+}
+
 static void write_aovs(struct closure_scatter *s)
 {
     for (uint32_t i = 0; i < s->shader->aovs.len; i++) {
-        if (!has_value(s, i))
+        if (!s->shader->aovs.items[i].is_output)
             continue;
         ir_ref value =
             s->is_stack ? read(s, s->aov_locals[i])
                         : closure_aov_value(s->shader, i, s->aovs.num ? s->aovs.items[i].value : 0);
-        effect(s, EFFECT_OUTPUT, closure_aov_output(s->shader, i, ir_type_of(s->graph, value)),
-               value);
+        effect(s, EFFECT_OUTPUT,
+               closure_aov_output(s->shader, i, AOV_VALUE, ir_type_of(s->graph, value)), value);
+    }
+    for (uint32_t p = 1; p < s->num_parts; p++) {
+        const struct part *part = &s->parts[p];
+        ir_ref seen = s->is_stack ? read(s, part->seen_local) : seen_of(s, p);
+        write_part(s, part, AOV_WEIGHT, read(s, part->weight));
+        write_part(s, part, AOV_RESPONSE, seen);
+        if (s->lighting->lights)
+            write_part(s, part, AOV_LIGHT, part->lit);
     }
 }
 
@@ -419,7 +529,7 @@ static void write_lit(struct closure_scatter *s)
 {
     ir_ref to_light = read(s, s->to_light), away = read(s, s->away);
     write_output(s, STR_out6, to_light, away);
-    write_output(s, STR_out7, s->lit, number(s, 0.0f));
+    write_output(s, STR_out7, s->parts[0].lit, number(s, 0.0f));
 }
 
 void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
@@ -427,21 +537,22 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
     ir_ref one = number(s, 1.0f), nothing = number(s, 0.0f);
     assert(!alpha || ir_type_of(s->graph, alpha) == IR_TYPE_FLOAT);
     closure_enter_loop(&s->copies, 0);
-    if (!s->list) /* a stack of nothing */
+    if (!s->has_layer) /* a stack of nothing */
         declare_layers(s);
     if (s->is_stack)
         s->emission = read(s, s->emission_local);
     write_output(s, STR_out1, s->emission, alpha ? alpha : one);
     ir_ref direction = read(s, s->direction), is_inside = read(s, s->is_inside);
     write_output(s, STR_out2, direction, is_inside);
-    ir_ref weight = read(s, s->weight), density = read(s, s->density);
+    ir_ref weight = read(s, s->parts[0].weight), density = read(s, s->density);
     write_output(s, STR_out3, weight, density);
     write_output(s, STR_out4, read(s, s->medium), nothing);
-    write_output(s, STR_out5, s->is_stack ? read(s, s->seen_local) : seen_of(s), nothing);
+    ir_ref seen = s->is_stack ? read(s, s->parts[0].seen_local) : seen_of(s, 0);
+    write_output(s, STR_out5, seen, nothing);
     if (s->lighting->lights && !s->is_stack)
         light_up(s);
-    else if (s->lighting->lights)
-        s->lit = read(s, s->lit_local);
+    for (uint32_t p = 0; s->lighting->lights && s->is_stack && p < s->num_parts; p++)
+        s->parts[p].lit = read(s, s->parts[p].lit_local);
     if (s->lighting->lights)
         write_lit(s);
     write_aovs(s);

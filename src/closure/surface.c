@@ -75,7 +75,8 @@ static void write_aovs(struct emitter *e, struct closure_aovs aovs, ir_ref scale
         ir_ref value = closure_aov_value(e->shader, i, aovs.num ? aovs.items[i].value : 0);
         value = with_alpha(e, value, alpha);
         emitter_effect(e, EFFECT_OUTPUT,
-                       closure_aov_output(e->shader, i, ir_type_of(e->graph, value)), value);
+                       closure_aov_output(e->shader, i, AOV_VALUE, ir_type_of(e->graph, value)),
+                       value);
     }
 }
 
@@ -104,16 +105,6 @@ void emitter_finish_surface(struct emitter *e, const struct closure_surface *s)
     alpha = e->host->keeps_color ? one : alpha;
     write_surface(e, color, alpha);
     write_aovs(e, s->aovs, has_alpha ? 0 : s->alpha, alpha);
-}
-
-void emitter_light_aov(struct emitter *e, ir_ref closure)
-{
-    bool emits = ir_type_of(e->graph, closure) == IR_TYPE_EDF;
-    struct closure_surface s = {.bsdf = emits ? 0 : closure, .edf = emits ? closure : 0};
-    ir_ref through = e->through; /* it is not that of the surface */
-    emitter_light_surface(e, &s);
-    emitter_write_lit(e);
-    e->through = through;
 }
 
 bool emitter_is_output(const struct emitter *e, uint32_t aov)
@@ -155,6 +146,32 @@ static bool is_cut(struct emitter *e, ir_ref alpha)
                && closure_alpha(e->shader, alpha) == ALPHA_MASK);
 }
 
+static struct closure_surface only(struct emitter *e, ir_ref closure)
+{
+    bool emits = ir_type_of(e->graph, closure) == IR_TYPE_EDF;
+    return (struct closure_surface){.bsdf = emits ? 0 : closure, .edf = emits ? closure : 0};
+}
+
+void emitter_light_aov(struct emitter *e, ir_ref closure)
+{
+    struct closure_surface s = only(e, closure);
+    ir_ref through = e->through; /* it is not that of the surface */
+    emitter_light_surface(e, &s);
+    emitter_write_lit(e);
+    e->through = through;
+}
+
+/* Returns the emission of a closure; 0: black. */
+static ir_ref find_scattering_of_aov(struct emitter *e, ir_ref closure, struct closure_list *out)
+{
+    struct closure_surface s = only(e, closure);
+    struct closure_lit surface = e->lit;
+    emitter_flatten(e, &s, out);
+    ir_ref emission = e->lit.base;
+    e->lit = surface;
+    return emission;
+}
+
 void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
                              struct closure_scatter_layer *out)
 {
@@ -163,11 +180,11 @@ void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
     out->emission = e->lit.base;
     out->alpha = s->premultiplied ? s->alpha : 0;
     out->aovs = s->aovs;
-    for (uint32_t i = 0; i < s->aovs.num; i++) {
-        ir_ref *value = &out->aovs.items[i].value;
-        if (*value && ir_type_of(e->graph, *value) == IR_TYPE_EDF)
-            *value = emitter_emission(e, *value);
-    }
+    out->aov_lists = ARENA_ARRAY(e->shader->arena, struct closure_list, s->aovs.num);
+    for (uint32_t i = 0; i < s->aovs.num; i++)
+        if (emitter_is_closure(e, s->aovs.items[i].value))
+            out->aovs.items[i].value =
+                find_scattering_of_aov(e, s->aovs.items[i].value, &out->aov_lists[i]);
 }
 
 static void store_surface(struct emitter *e, const struct closure_surface *s, bool is_whole)

@@ -135,6 +135,76 @@ for channel in R v matte.000 matte.050; do
 done
 check 'and picks' test "$(md5sum <blend.exr)" != "$(md5sum <stochastic.exr)"
 
+# The light of BSDFs. In even light a ball sends the albedo of a closure: that of the paint is its colour.
+{ printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'; for i in {1..32}; do printf '\200\200\200\201'; done; } >white.hdr
+cat >lit.mtlx <<'EOF'
+<materialx version="1.39">
+  <oren_nayar_diffuse_bsdf name="paint" type="BSDF"><input name="color" type="color3" value="0.6, 0.3, 0.1"/></oren_nayar_diffuse_bsdf>
+  <dielectric_bsdf name="coat" type="BSDF"><input name="roughness" type="vector2" value="0.3, 0.3"/></dielectric_bsdf>
+  <layer name="both" type="BSDF"><input name="top" type="BSDF" nodename="coat"/><input name="base" type="BSDF" nodename="paint"/></layer>
+  <conductor_bsdf name="metal" type="BSDF"><input name="roughness" type="vector2" value="0.4, 0.4"/></conductor_bsdf>
+  <uniform_edf name="glow" type="EDF"><input name="color" type="color3" value="0.2, 0.1, 0.05"/></uniform_edf>
+  <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/><input name="edf" type="EDF" nodename="glow"/></surface>
+  <surface name="SM" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="metal"/></surface>
+  <aov name="a" type="BSDF"><input name="name" type="string" value="all"/><input name="value" type="BSDF" nodename="both"/></aov>
+  <aov name="b" type="BSDF"><input name="name" type="string" value="paint"/><input name="value" type="BSDF" nodename="paint"/></aov>
+  <aov name="c" type="BSDF"><input name="name" type="string" value="metal"/><input name="value" type="BSDF" nodename="metal"/></aov>
+  <aov name="d" type="EDF"><input name="name" type="string" value="glow"/><input name="value" type="EDF" nodename="glow"/></aov>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  <nodegraph name="of_base">
+    <oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" value="0.6, 0.3, 0.1"/></oren_nayar_diffuse_bsdf>
+    <aov name="a" type="BSDF"><input name="name" type="string" value="base"/><input name="value" type="BSDF" nodename="d"/></aov>
+  </nodegraph>
+  <substance name="quarter" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="SM"/><input name="mask" type="float" value="0.25"/>
+  </substance>
+  <look name="One"><materialassign material="M" geom="/"/></look>
+  <look name="Two">
+    <materialassign material="M" geom="/"/>
+    <materialassign slot="000::010" nodegraph="of_base" geom="/"/>
+    <materialassign slot="050" material="quarter" geom="/"/>
+  </look>
+</materialx>
+EOF
+part() { awk -v a="$(python3 "$here/exr.py" "$2" A mean)" "BEGIN { print a * $1 }"; } # NUMBER FILE: of the pixels that the ball covers
+for mode in '' '--path-trace --paths 64'; do
+    check "in even light $mode" exits 0 "$render" lit.mtlx -e M --environment white.hdr -m sphere -q -s 24 $mode -o even.exr
+    check 'the paint has its colour' reads even.exr paint.R mean "$(part 0.6 even.exr)" 0.005
+    check 'and its blue' reads even.exr paint.B mean "$(part 0.1 even.exr)" 0.001
+    check 'emission stays' reads even.exr glow.G mean "$(part 0.1 even.exr)" 0.001
+    metal=$(python3 "$here/exr.py" even.exr metal.R mean)
+    check "a ball of metal $mode" exits 0 "$render" lit.mtlx -e SM --environment white.hdr -m sphere -q -s 24 $mode -o metal.exr
+    check 'has the light of the metal that the surface lacks' reads metal.exr R mean "$metal" 0.01
+done
+# A layer has the weight of its mask.
+printf '#usda 1.0\ndef Sphere "ball"\n{\n}\n' >ball.usda
+for mode in '' '--slots stochastic' '--path-trace --paths 64'; do
+    check "in a stack $mode" exits 0 "$render" lit.mtlx --stage ball.usda --look Two --environment white.hdr -q -s 24 $mode -o two.exr
+    check 'the base has three quarters' reads two.exr base.R mean "$(part 0.45 two.exr)" 0.01
+done
+# With light from other surfaces and from lights: the whole is the sum of its parts.
+sums() { # FILE WHOLE PART...
+    python3 - "$here" "$@" <<'EOF'
+import sys
+sys.path.append(sys.argv[1])
+import exr
+file, whole, *parts = sys.argv[2:]
+_, _, values = exr.read(file)
+numbers = {name: sum(map(list, rows), []) for name, rows in values.items()}
+most = max(abs(w - sum(p)) / (1 + w) for w, *p in zip(numbers[whole], *(numbers[p] for p in parts)))
+print(f"{whole} is off by {most}, of up to {max(numbers[whole])}")
+sys.exit(most > 0.002 or max(numbers[whole]) < 0.1)
+EOF
+}
+check 'a corner' exits 0 "$render" lit.mtlx --stage stage.usda --camera /a/down -q -s 24 --look One --path-trace --paths 32 -o corner.exr
+for channel in R G B; do check "is the sum, $channel" sums corner.exr $channel all.$channel glow.$channel; done
+check 'a ball under lights' exits 0 "$render" lit.mtlx -e M -q -s 24 --path-trace --paths 64 -o ball.exr
+check 'is the sum' sums ball.exr R all.R glow.R
+check 'a sphere under lights' exits 0 "$render" lit.mtlx -e M -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
+metal=$(python3 "$here/exr.py" lights.exr metal.R mean)
+check 'of metal' exits 0 "$render" lit.mtlx -e SM -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
+check 'has the light of the metal that the surface lacks' reads lights.exr R mean "$metal" 0.01
+
 # What the look hides is not drawn.
 sed 's|<look name="L">|&<visibility geom="/a/floor" vistype="camera" visible="false"/>|' look.mtlx >hidden.mtlx
 check 'visibility' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L -o hidden.exr
