@@ -45,38 +45,58 @@ void main()
     // SR/base
     vec3 diffuse_facing = faceforward(N, -normalize(u_viewPosition - P), N);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // diffuse
+        vec3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        vec3 d = u_lightData[i].position - P;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float choice = type == 3 ? smoothstep(difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
-        float choice_2 = type == 2 ? ratio : choice;
-        vec3 diffuse_product = u_lightData[i].color
-            * (max(dot(type == 1 ? -u_lightData[i].direction : to_light, diffuse_facing), 1e-8) / 3.1415927
-            * vec3(0.8, 0.1, 0.1));
-        color += (type == 1 ? u_lightData[i].intensity : choice_2) * diffuse_product;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - P;
+            vec3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // diffuse
+        color += intensity * (u_lightData[i].color
+            * (max(dot(L, diffuse_facing), 1e-8) / 3.1415927 * vec3(0.8, 0.1, 0.1)));
     }
     vec3 color_2 = vec3(0.0);
     // lights
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // diffuse
+        vec3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        vec3 spot_light_difference = u_lightData[i].position - P;
-        float spot_light_ratio = u_lightData[i].intensity
-            / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 spot_light_direction = normalize(spot_light_difference);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, spot_light_direction)) * spot_light_ratio : 0.0;
-        float point_light_choice = type == 2 ? spot_light_ratio : spot_light_choice;
-        vec3 diffuse_product = u_lightData[i].color
-            * (max(dot(diffuse_facing, type == 1 ? -u_lightData[i].direction : spot_light_direction), 1e-8) / 3.1415927
-            * vec3(0.8, 0.1, 0.1));
-        color_2 += (type == 1 ? u_lightData[i].intensity : point_light_choice) * diffuse_product;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 spot_light_difference = u_lightData[i].position - P;
+            vec3 spot_light_direction = normalize(spot_light_difference);
+            float spot_light_ratio = u_lightData[i].intensity
+                / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = spot_light_direction;
+                intensity = spot_light_ratio;
+            } else {
+                L = spot_light_direction;
+                float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? spot_light_ratio
+                    * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
+            }
+        }
+        // diffuse
+        color_2 += intensity * (u_lightData[i].color
+            * (max(dot(diffuse_facing, L), 1e-8) / 3.1415927 * vec3(0.8, 0.1, 0.1)));
     }
     // opacity
     if (0.5 < u_alphaThreshold)

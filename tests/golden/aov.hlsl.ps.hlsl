@@ -55,38 +55,58 @@ void main(
     // SR/base
     float3 diffuse_facing = faceforward(N, -normalize(u_viewPosition - P), N);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // diffuse
+        float3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        float3 d = u_lightData[i].position - P;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        float3 to_light = normalize(d);
-        float choice = type == 3 ? smoothstep(difference, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
-        float choice_2 = type == 2 ? ratio : choice;
-        float3 diffuse_product = u_lightData[i].color
-            * (max(dot(type == 1 ? -u_lightData[i].direction : to_light, diffuse_facing), 1e-8) / 3.1415927
-            * float3(0.8, 0.1, 0.1));
-        color += (type == 1 ? u_lightData[i].intensity : choice_2) * diffuse_product;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            float3 d = u_lightData[i].position - P;
+            float3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // diffuse
+        color += intensity * (u_lightData[i].color
+            * (max(dot(L, diffuse_facing), 1e-8) / 3.1415927 * float3(0.8, 0.1, 0.1)));
     }
     float3 color_2 = float3(0.0, 0.0, 0.0);
     // lights
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // diffuse
+        float3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        float3 spot_light_difference = u_lightData[i].position - P;
-        float spot_light_ratio = u_lightData[i].intensity
-            / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        float3 spot_light_direction = normalize(spot_light_difference);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
-            -dot(u_lightData[i].direction, spot_light_direction)) * spot_light_ratio : 0.0;
-        float point_light_choice = type == 2 ? spot_light_ratio : spot_light_choice;
-        float3 diffuse_product = u_lightData[i].color
-            * (max(dot(diffuse_facing, type == 1 ? -u_lightData[i].direction : spot_light_direction), 1e-8) / 3.1415927
-            * float3(0.8, 0.1, 0.1));
-        color_2 += (type == 1 ? u_lightData[i].intensity : point_light_choice) * diffuse_product;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            float3 spot_light_difference = u_lightData[i].position - P;
+            float3 spot_light_direction = normalize(spot_light_difference);
+            float spot_light_ratio = u_lightData[i].intensity
+                / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = spot_light_direction;
+                intensity = spot_light_ratio;
+            } else {
+                L = spot_light_direction;
+                float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? spot_light_ratio
+                    * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
+            }
+        }
+        // diffuse
+        color_2 += intensity * (u_lightData[i].color
+            * (max(dot(diffuse_facing, L), 1e-8) / 3.1415927 * float3(0.8, 0.1, 0.1)));
     }
     // opacity
     if (0.5 < u_alphaThreshold)

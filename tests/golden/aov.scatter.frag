@@ -17,6 +17,7 @@ vec4 out2;
 vec4 out3;
 vec4 out4;
 vec4 out5;
+vec3 aov_diffuse;
 vec3 aov_glow;
 vec3 aov_base_albedo;
 vec2 aov_uv;
@@ -24,6 +25,8 @@ vec4 aov_weights;
 int aov_is_paint;
 int aov_id;
 vec3 aov_normal;
+vec3 aov_weight_diffuse;
+vec3 aov_response_diffuse;
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(const vec3 N, const vec3 X)
@@ -42,6 +45,7 @@ void scatter()
     vec3 L = vec3(0.0);
     float inside = 0.0;
     vec3 weight = vec3(0.0);
+    vec3 weight_2 = vec3(0.0);
     float density = 0.0;
     vec3 medium = vec3(1.0);
     vec3 N = normalize(vd.normalMoved);
@@ -56,7 +60,9 @@ void scatter()
         L = L_2;
         float diffuse_n_dot_l_2 = dot(diffuse_N, L_2);
         float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
-        weight = max(diffuse_n_dot_l_2, 1e-8) / 3.1415927 * base_constant / max(pdf, 1e-8);
+        vec3 weight_3 = max(diffuse_n_dot_l_2, 1e-8) / 3.1415927 * base_constant / max(pdf, 1e-8);
+        weight = weight_3;
+        weight_2 = weight_3;
         density = pdf;
     }
     pick += -0.4;
@@ -66,7 +72,9 @@ void scatter()
     out4 = vec4(medium, 0.0);
     float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
     float sum = vd.lightWorld.w * (max(diffuse_n_dot_l, 0.0) / 3.1415927) + 1.0;
-    out5 = vec4(max(diffuse_n_dot_l, 1e-8) / 3.1415927 * base_constant / sum, 0.0);
+    vec3 ratio = max(diffuse_n_dot_l, 1e-8) / 3.1415927 * base_constant / sum;
+    out5 = vec4(ratio, 0.0);
+    aov_diffuse = vec3(0.0);
     aov_glow = vec3(0.1, 0.2, 0.3);
     aov_base_albedo = base_constant;
     aov_uv = vd.texcoord_0;
@@ -74,4 +82,6 @@ void scatter()
     aov_is_paint = 1;
     aov_id = 7;
     aov_normal = normalize(vd.normalObject);
+    aov_weight_diffuse = weight_2;
+    aov_response_diffuse = ratio;
 }

@@ -48,17 +48,11 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
-{
-    float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.04),
-        sqrt(cosine * cosine + 0.0016 * (1.0 - cosine * cosine)));
-}
-
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
 {
-    return cos_h * cos_h + (square - cos_h * cos_h) / (lobe.alpha.x * lobe.alpha.x);
+    return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -68,32 +62,41 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
+// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
+// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
 float mx_fresnel_dielectric(const float cosine)
 {
-    float g = sqrt(2.1025 + cosine * cosine - 1.0);
-    vec2 a = cosine * vec2(1.0, 2.1025);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 1.1025002);
+    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
+    return (cg2 + s * s) * (r * r);
 }
 
-// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
-float mx_half_turn(const float t)
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(const vec3 d)
 {
-    float t2 = t * t;
-    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+float mx_half_turn(const float sine, const float cosine)
+{
+    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    float radius = length(d.xz);
-    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
+    float square = mx_map_square(d);
+    float stretch = inversesqrt(square);
+    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 vec3 mx_environment_radiance(const vec3 direction, const float lod)
@@ -112,7 +115,7 @@ vec2 mx_ggx_albedo(const float c)
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
-    return mix(vec3(0.033735953), vec3(1.0), albedo.y) * albedo.x
+    return mix(vec3(0.03373595), vec3(1.0), albedo.y) * albedo.x
         * mx_environment_radiance(reflect(-V, faceforward(N, -V, N)), 0.2 * float(u_envRadianceMips - 1));
 }
 
@@ -125,35 +128,47 @@ void main()
     float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
-    mx_GgxLobe lobe = mx_ggx_lobe(N, V);
-    vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75 * vec3(0.6, 0.1, 0.05);
     vec3 h = faceforward(N, -V, N);
+    float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
+    mx_GgxLobe coat_vector = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
+    float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
+    vec3 scaled_paint_weight = paint_weight * vec3(0.6, 0.1, 0.05);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // coat, paint
+        vec3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio : 0.0;
-        float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - vd.positionWorld;
+            vec3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // coat, paint
         float v_dot_l = dot(V, L);
-        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
+        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float cos_l = max(dot(L, h), 1e-8);
         vec3 paint_response = scaled_paint_weight
             * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 product = u_lightData[i].color * (scale * mx_ggx_light(lobe, V, L) * fresnel + paint_response);
-        color += (type == 1 ? u_lightData[i].intensity : point_light_choice) * product;
+        color += intensity * (u_lightData[i].color
+            * (scale * mx_ggx_light(coat_vector, V, L) * fresnel + paint_response));
     }
     // environment
     // coat, paint
-    vec3 paint_product = scaled_paint_weight
-        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)), 0.0).xyz;
+    vec3 paint_product = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)), 0.0).xyz
+        * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_response = paint_product * (clamp(fit.x / fit.y, 0.0, 1.0) * u_envLightIntensity);
+    vec3 paint_response = paint_product * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
     color += scale * mx_ggx_prefiltered(N, V) + paint_response;
     out1 = vec4(color, 1.0);
 }

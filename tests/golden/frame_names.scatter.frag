@@ -80,13 +80,13 @@ void scatter()
     if (pick >= 0.0 && pick < greater) {
         mat3 any_frame = mx_frame(diffuse_N, abs(diffuse_N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 diffuse_L = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
-        L = diffuse_L;
-        float diffuse_n_dot_diffuse_l = dot(diffuse_N, diffuse_L);
-        float diffuse_cos_l = max(diffuse_n_dot_diffuse_l, 1e-8);
-        float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, diffuse_L) - cos_v * diffuse_cos_l, 0.0)
+        vec3 L_2 = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
+        L = L_2;
+        float diffuse_n_dot_l_2 = dot(diffuse_N, L_2);
+        float diffuse_cos_l = max(diffuse_n_dot_l_2, 1e-8);
+        float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, L_2) - cos_v * diffuse_cos_l, 0.0)
             / max(diffuse_cos_l, cos_v);
-        float pdf = max(diffuse_n_dot_diffuse_l, 0.0) / 3.1415927;
+        float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
         weight = vec3(LightData_2 * (diffuse_cos_l / 3.1415927 * 0.18 * diffuse_sum / max(pdf, 1e-8)) * ratio);
         density = pdf * ratio;
     }
@@ -105,37 +105,47 @@ void scatter()
     float chance = fract(vd.random.w * 4096.0);
     float sum_2 = 0.0;
     vec3 light = vec3(0.0);
-    vec3 L_2 = vec3(0.0);
+    vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        vec3 L_4;
+        float intensity;
         int type = u_lightData[i].type;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float magnitude_d = length(d);
-        float ratio_3 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio_3 : 0.0;
-        float point_light_choice = type == 2 ? ratio_3 : spot_light_choice;
-        vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice);
-        vec3 directional_light_L = type == 1 ? -u_lightData[i].direction : to_light;
-        float diffuse_cos_l_2 = max(dot(diffuse_N, directional_light_L), 1e-8);
-        float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, directional_light_L) - cos_v * diffuse_cos_l_2, 0.0)
+        if (type == 1) {
+            L_4 = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 to_light = normalize(d);
+            float ratio_3 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L_4 = to_light;
+                intensity = ratio_3;
+            } else {
+                L_4 = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio_3 : 0.0;
+            }
+        }
+        float diffuse_cos_l_2 = max(dot(diffuse_N, L_4), 1e-8);
+        float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, L_4) - cos_v * diffuse_cos_l_2, 0.0)
             / max(diffuse_cos_l_2, cos_v);
-        vec3 product = light_2 * (LightData_2 * (diffuse_cos_l_2 / 3.1415927 * 0.18 * diffuse_sum_2));
-        float greater_2 = max(dot(product, vec3(0.33333334)), 0.0);
+        float product = LightData_2 * (diffuse_cos_l_2 / 3.1415927 * 0.18 * diffuse_sum_2);
+        vec3 product_2 = u_lightData[i].color * intensity * product;
+        float greater_2 = max(dot(product_2, vec3(0.33333334)), 0.0);
         sum_2 += greater_2;
         if (sum_2 * chance < greater_2) {
-            L_2 = directional_light_L;
+            L_3 = L_4;
             distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
-            light = product / greater_2;
+            light = product_2 / greater_2;
         }
         if (greater_2 > 0.0) {
             float ratio_4 = (sum_2 * chance - greater_2) / (sum_2 - greater_2);
             chance = sum_2 * chance < greater_2 ? sum_2 * chance / greater_2 : ratio_4;
         }
     }
-    out6 = vec4(L_2, distance_);
+    out6 = vec4(L_3, distance_);
     out7 = vec4(sum_2 * light, 0.0);
 }

@@ -39,17 +39,11 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
-{
-    float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.05),
-        sqrt(cosine * cosine + 0.0025 * (1.0 - cosine * cosine)));
-}
-
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
 {
-    return cos_h * cos_h + (square - cos_h * cos_h) / (lobe.alpha.x * lobe.alpha.x);
+    return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -59,30 +53,23 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
-vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
-{
-    float t = re + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + im * im);
-    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
-}
-
-// |(x + iy - u - iv) / (x + iy + u + iv)|^2
-float mx_fresnel_ratio(const vec2 x, const vec2 u)
-{
-    return dot(x - u, x - u) / dot(x + u, x + u);
-}
-
-// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
-// perpendicular part, the permittivity times the cosine in the parallel part.
+// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
+// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
+// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(const float cosine, const float re, const float im)
 {
-    vec2 u = mx_fresnel_refract(cosine, re, im);
-    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * vec2(re, im), u));
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float t = re - s;
+    float norm = sqrt(t * t + im * im);
+    float g = cosine * sqrt(max(2.0 * (norm + t), 0.0));
+    float b = norm * c2 + s * s;
+    float a = norm + c2;
+    return (a - g) * b / ((a + g) * (b + g * s));
 }
 
 // One channel after the other, which needs a third of the registers.
@@ -101,15 +88,16 @@ void main()
     vec3 facing = faceforward(N, -V, N);
     float cos_v = max(abs(dot(N, V)), 1e-8);
     vec3 scaled_ggx_compensation = ((1.0 / mx_ggx_albedo_fit(0.05 / (cos_v + 0.05), cos_v).x - 1.0)
-        * vec3(0.94687736, 0.78681135, 0.40318817) + vec3(1.0)) * 0.15;
-    mx_GgxLobe lobe = mx_ggx_lobe(N, V);
+        * vec3(0.94687766, 0.78681135, 0.40318817) + vec3(1.0)) * 0.15;
+    float ggx_masking = sqrt(cos_v * cos_v * 0.9975 + 0.0025);
+    mx_GgxLobe metal_vector = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.05), ggx_masking);
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // metal, red, blue
         float intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;
         float scaled_cos_l = max(dot(L, facing), 1e-8) / 3.1415927;
-        vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(L, V) * 0.5 + 0.5, 1e-8, 1.0)));
-        vec3 metal_response = scaled_ggx_compensation * (mx_ggx_light(lobe, V, L) * fresnel);
+        vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
+        vec3 metal_response = scaled_ggx_compensation * (mx_ggx_light(metal_vector, V, L) * fresnel);
         vec3 product = u_lightData[i].color
             * (scaled_cos_l * vec3(0.025, 0.05, 0.3) + (metal_response + scaled_cos_l * vec3(0.21, 0.035, 0.0175)));
         color += (u_lightData[i].type == 1 ? intensity : 0.0) * product;

@@ -29,16 +29,20 @@ void main()
     vec3 N = normalize(vd_normalWorld);
     vec3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd_positionWorld), N);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // bsdf
-        bool bulb_is_equal = u_lightData[i].type == 1;
+        vec3 L;
+        vec3 intensity;
         vec3 d = u_lightData[i].position - vd_positionWorld;
         float magnitude_d = length(d);
-        float point_light_ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
-        vec3 point_light_product = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_ratio : 0.0);
-        float bsdf_response = max(dot(bulb_is_equal ? d / magnitude_d : normalize(d), bsdf_facing), 1e-8) / 3.1415927
-            * 0.8;
-        color += (bulb_is_equal ? u_lightData[i].tint * (u_lightData[i].power / (magnitude_d * magnitude_d))
-            : point_light_product) * bsdf_response;
+        if (u_lightData[i].type == 1) {
+            L = d / magnitude_d;
+            intensity = u_lightData[i].tint * (u_lightData[i].power / (magnitude_d * magnitude_d));
+        } else {
+            L = normalize(d);
+            float point_light_ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            intensity = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_ratio : 0.0);
+        }
+        // bsdf
+        color += intensity * (max(dot(L, bsdf_facing), 1e-8) / 3.1415927 * 0.8);
     }
     // opacity
     if (S_opacity < u_alphaThreshold)

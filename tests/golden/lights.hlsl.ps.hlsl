@@ -35,16 +35,23 @@ void main(
     float3 N = normalize(vd.normalWorld);
     float3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // bsdf
+        float3 L;
+        float3 intensity;
         float3 difference = u_lightData[i].position - vd.positionWorld;
         float magnitude = length(difference);
-        float3 conical_edf_emission = smoothstep(0.8660254, 0.9848077,
-            dot(normalize(u_lightData[i].direction), -(difference / magnitude))) * float3(1.0, 0.5, 0.2);
-        float3 lamp_product = conical_edf_emission * (60.0 / (magnitude * magnitude));
-        float bulb_ratio = u_lightData[i].power / (magnitude * magnitude);
-        float3 bulb_product = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
-        float bsdf_response = max(dot(difference / magnitude, bsdf_facing), 1e-8) / 3.1415927 * 0.8;
-        color += (u_lightData[i].type == 2 ? lamp_product : bulb_product) * bsdf_response;
+        float3 ratio = difference / magnitude;
+        if (u_lightData[i].type == 2) {
+            L = ratio;
+            float3 conical_edf_emission = smoothstep(0.8660254, 0.9848077,
+                dot(normalize(u_lightData[i].direction), -ratio)) * float3(1.0, 0.5, 0.2);
+            intensity = conical_edf_emission * (60.0 / (magnitude * magnitude));
+        } else {
+            L = ratio;
+            float bulb_ratio = u_lightData[i].power / (magnitude * magnitude);
+            intensity = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
+        }
+        // bsdf
+        color += intensity * (max(dot(L, bsdf_facing), 1e-8) / 3.1415927 * 0.8);
     }
     out1 = float4(color, 1.0);
 }

@@ -17,14 +17,15 @@ struct mx_GgxSamples {
     float area;
     vec3 v;
     float masking;
-    vec3 top;
+    float reach;
     float step;
+    float texels;
     float weight;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float spread;
+    float texels;
 };
 struct mx_GgxLight {
     vec3 color;
@@ -99,19 +100,12 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
     return mix(f0, f90, x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
-{
-    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha,
-        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
-}
-
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
-    vec3 slope = cross(H, lobe.N) / lobe.alpha.x;
-    return dot(slope, slope) + cos_h * cos_h;
+    vec3 slope = H - cos_h * lobe.N;
+    return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -121,8 +115,8 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 // Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
@@ -135,26 +129,19 @@ void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 io
     extinction = sqrt(max((greatest - ior) * (ior - vec3(1.0) / greatest), vec3(0.0)));
 }
 
-// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
-vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
-{
-    float t = re + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + im * im);
-    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
-}
-
-// |(x + iy - u - iv) / (x + iy + u + iv)|^2
-float mx_fresnel_ratio(const vec2 x, const vec2 u)
-{
-    return dot(x - u, x - u) / dot(x + u, x + u);
-}
-
-// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
-// perpendicular part, the permittivity times the cosine in the parallel part.
+// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
+// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
+// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(const float cosine, const float re, const float im)
 {
-    vec2 u = mx_fresnel_refract(cosine, re, im);
-    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * vec2(re, im), u));
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float t = re - s;
+    float norm = sqrt(t * t + im * im);
+    float g = cosine * sqrt(max(2.0 * (norm + t), 0.0));
+    float b = norm * c2 + s * s;
+    float a = norm + c2;
+    return (a - g) * b / ((a + g) * (b + g * s));
 }
 
 // One channel after the other, which needs a third of the registers.
@@ -164,19 +151,38 @@ vec3 mx_fresnel_conductor(const float cosine, const vec3 re, const vec3 im)
         mx_fresnel_conductor(cosine, re.z, im.z));
 }
 
-// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
-float mx_half_turn(const float t)
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(const vec3 d)
 {
-    float t2 = t * t;
-    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+float mx_half_turn(const float sine, const float cosine)
+{
+    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    float radius = length(d.xz);
-    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
+    float square = mx_map_square(d);
+    float stretch = inversesqrt(square);
+    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
 // The frame of a round lobe has V above its x.
@@ -186,45 +192,45 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
     vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float reach = lobe.masking;
+    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, stretch.x * stretch.y, v,
-        lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
+        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
+        * weight);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float spread)
+// Light of a unit direction in the picture, filtered over as many texels.
+vec3 mx_filtered_light(const vec3 d, const float texels)
 {
-    float level = 0.5 * log2(spread / length(d.xz));
-    level += float(u_envRadianceMips) - 1.17425;
-    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
-// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top, `top` = v + z.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
+// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
+// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
+// it lies below the top of the cap, v.z + reach at most.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
 }
 
 // The light that the facet of sample i reflects.
@@ -232,10 +238,11 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
-    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float part = cosine * facet.shrink;
+    vec3 l = 2.0 * part * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -250,17 +257,21 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), s.weight
-        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
+        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
+// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
+// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
 float mx_fresnel_dielectric(const float cosine, const float ior)
 {
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, ior * ior);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
+    float k = 0.5 * (ior * ior - 1.0);
+    float c2 = max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
 }
 
 void main()
@@ -273,26 +284,26 @@ void main()
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     vec3 N = faceforward(shading_normal, -V, shading_normal);
     float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
-    float coating_fresnel_facing = max(amplitude * amplitude, 0.0);
+    float coating_fresnel_f0 = max(amplitude * amplitude, 0.0);
     float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
         1e-8, 1.0);
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
-    float coating_scale = mix(coating_fresnel_facing, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_scale = mix(coating_fresnel_f0, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
-        * dot(vec3(mix(coating_fresnel_facing, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
+        * dot(vec3(mix(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
         vec3(0.33333334));
     bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
     vec3 grazing_metallic = mix(vec3(1.0), SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_metallic);
-    vec3 reflection_fresnel_facing = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor
+    vec3 reflection_fresnel_f0 = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor
         : mix(amplitude * amplitude * grazing_metallic, grazing_metallic, SR_UsdPreviewSurface_metallic), 0.0);
     vec3 f90 = max(is_equal_useSpecularWorkflow ? vec3(1.0) : grazing_metallic, 0.0);
     float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
     vec2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
     float difference = 1.0 / albedo.x - 1.0;
-    vec3 reflection_scale = mix(reflection_fresnel_facing, f90, 0.04761905) * difference + vec3(1.0);
+    vec3 reflection_scale = mix(reflection_fresnel_f0, f90, 0.04761905) * difference + vec3(1.0);
     float body_weight = coating_difference
-        * (1.0 - dot(mix(reflection_fresnel_facing, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
+        * (1.0 - dot(mix(reflection_fresnel_f0, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
     float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
     float diffuse_weight = 1.0 - metal_weight;
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
@@ -300,63 +311,76 @@ void main()
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
     vec3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_roughness), shading_normal, V);
+    float coating_ggx_masking = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
+        * (cos_v * cos_v));
+    mx_GgxLobe coating_vector = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(coat_roughness), coating_ggx_masking);
     vec3 metal_ior, metal_extinction;
     mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     vec3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     vec3 im = metal_extinction * (metal_ior * 2.0);
     vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, re, im), vec3(1.0), 0.04761905) + vec3(1.0))
         * (metal_weight * coating_difference);
-    mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), shading_normal, V);
+    float ggx_masking = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
+        * (1.0 - specular_roughness * specular_roughness));
+    mx_GgxLobe vector = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(specular_roughness), ggx_masking);
     vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // diffuse
+        vec3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        vec3 d = u_lightData[i].position - vd_positionWorld;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio : 0.0;
-        float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - vd_positionWorld;
+            vec3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // diffuse
         vec3 color_2 = u_lightData[i].color;
-        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
-        color += directional_light_choice * (color_2 * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product));
+        color += intensity * (color_2 * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product));
         // coating
-        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.5, 1e-8, 1.0));
+        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (SR_UsdPreviewSurface_clearcoat > 0.0) {
-            float coating_product = mx_ggx_light(coating_lobe, V, L) * (SR_UsdPreviewSurface_clearcoat * coating_scale);
-            color += directional_light_choice
-                * (color_2 * (mx_fresnel_schlick(cosine, vec3(coating_fresnel_facing), vec3(1.0)) * coating_product));
+            float coating_product = mx_ggx_light(coating_vector, V, L)
+                * (SR_UsdPreviewSurface_clearcoat * coating_scale);
+            color += intensity * (color_2
+                * (mx_fresnel_schlick(cosine, vec3(coating_fresnel_f0), vec3(1.0)) * coating_product));
         }
         // metal
-        float ggx_light = mx_ggx_light(lobe, V, L);
+        float ggx_light = mx_ggx_light(vector, V, L);
         if (metal_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, re, im))));
+            color += intensity * (color_2 * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, re, im))));
         // reflection
         if (diffuse_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (reflection_product
-                * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_facing, f90))));
+            color += intensity * (color_2
+                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
     }
     // environment
     // diffuse
-    if (diffuse_weight_2 > 0.0)
-        color += u_envLightIntensity * (diffuse_product
-            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz);
+    if (diffuse_weight_2 > 0.0) {
+        vec3 diffuse_product_2 = SR_UsdPreviewSurface_diffuseColor
+            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz;
+        color += diffuse_product_2 * (body_weight * diffuse_weight_2 * u_envLightIntensity);
+    }
     // coating
     if (SR_UsdPreviewSurface_clearcoat > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_roughness), shading_normal, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            vec3 coating_product = light.color
-                * mx_fresnel_schlick(light.cosine, vec3(coating_fresnel_facing), vec3(1.0));
+            vec3 coating_product = light.color * mx_fresnel_schlick(light.cosine, vec3(coating_fresnel_f0), vec3(1.0));
             color += coating_product * (SR_UsdPreviewSurface_clearcoat * coating_scale * light.weight);
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // metal, reflection
@@ -374,8 +398,8 @@ void main()
                 color += reflection_product
                     * (metal_ggx_reflected.weight
                     * (metal_ggx_reflected.color
-                    * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_facing, f90)));
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+                    * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // refraction
@@ -389,7 +413,7 @@ void main()
                 * (body_weight * refraction_weight
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_UsdPreviewSurface_ior))));
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // opacity

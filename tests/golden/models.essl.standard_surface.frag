@@ -17,14 +17,15 @@ struct mx_GgxSamples {
     float area;
     vec3 v;
     float masking;
-    vec3 top;
+    float reach;
     float step;
+    float texels;
     float weight;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float spread;
+    float texels;
 };
 struct mx_GgxLight {
     vec3 color;
@@ -91,13 +92,11 @@ in vec3 vd_normalWorld;
 in vec3 vd_tangentWorld;
 out vec4 out1;
 
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
-float mx_fresnel_dielectric(const float cosine, const float ior)
+// The same facing the viewer.
+float mx_fresnel_dielectric_facing(const float ior)
 {
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, ior * ior);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
+    float r = (1.0 - ior) / (1.0 + ior);
+    return r * r;
 }
 
 // A channel of one polarisation after interference.
@@ -126,7 +125,8 @@ float mx_film_z(const float a, const vec2 r, const float d)
     return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(2.2084, 1.001122, -0.0066121)));
 }
 
-// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
+// x the cosine in the perpendicular part, and the permittivity times the cosine in the parallel part.
 vec2 mx_film_amplitude(const vec2 x, const vec2 u)
 {
     return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
@@ -170,7 +170,7 @@ vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
         return mx_film_index_facing(n * n, vec3(0.0), film, film_ior);
-    return vec3(mx_fresnel_dielectric(1.0, n.x));
+    return vec3(mx_fresnel_dielectric_facing(n.x));
 }
 
 // Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
@@ -204,19 +204,26 @@ vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
     float cosine = max(abs(dot(N, V)), 1e-8);
     return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
-        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+        mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
-    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
-    return dot(slope, slope) + cos_h * cos_h;
+    vec2 parts = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -226,8 +233,21 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
+// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
+// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_dielectric(const float cosine, const float ior)
+{
+    float k = 0.5 * (ior * ior - 1.0);
+    float c2 = max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
 }
 
 // Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
@@ -240,18 +260,19 @@ void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 io
     extinction = sqrt(max((greatest - ior) * (ior - vec3(1.0) / greatest), vec3(0.0)));
 }
 
-// |(x + iy - u - iv) / (x + iy + u + iv)|^2
-float mx_fresnel_ratio(const vec2 x, const vec2 u)
-{
-    return dot(x - u, x - u) / dot(x + u, x + u);
-}
-
-// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
-// perpendicular part, the permittivity times the cosine in the parallel part.
+// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
+// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
+// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(const float cosine, const float re, const float im)
 {
-    vec2 u = mx_fresnel_refract(cosine, re, im);
-    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * vec2(re, im), u));
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float t = re - s;
+    float norm = sqrt(t * t + im * im);
+    float g = cosine * sqrt(max(2.0 * (norm + t), 0.0));
+    float b = norm * c2 + s * s;
+    float a = norm + c2;
+    return (a - g) * b / ((a + g) * (b + g * s));
 }
 
 // One channel after the other, which needs a third of the registers.
@@ -320,19 +341,25 @@ float mx_subsurface_light(const float radius, const float curvature, const float
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
-float mx_half_turn(const float t)
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(const vec3 d)
 {
-    float t2 = t * t;
-    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+float mx_half_turn(const float sine, const float cosine)
+{
+    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    float radius = length(d.xz);
-    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
+    float square = mx_map_square(d);
+    float stretch = inversesqrt(square);
+    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The frame of a round lobe has V above its x.
@@ -343,45 +370,44 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
     mat3 frame = mat3(x, cross(lobe.N, x), lobe.N);
     vec3 v = vec3((V * frame).xy, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float reach = length(v * stretch);
+    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, stretch.x * stretch.y, v, lobe.masking, top, share * top.z,
-        share * (v.z + lobe.masking));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
+        * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float spread)
+// Light of a unit direction in the picture, filtered over as many texels.
+vec3 mx_filtered_light(const vec3 d, const float texels)
 {
-    float level = 0.5 * log2(spread / length(d.xz));
-    level += float(u_envRadianceMips) - 1.17425;
-    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
-// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top, `top` = v + z.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
+// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
+// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
+// it lies below the top of the cap, v.z + reach at most.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
 }
 
 // The light that the facet of sample i reflects.
@@ -389,10 +415,11 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
-    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float part = cosine * facet.shrink;
+    vec3 l = 2.0 * part * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -407,15 +434,15 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), s.weight
-        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
+        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
 {
     // SR_standard_surface
-    float coat_front = SR_standard_surface_coat_IOR * 4.0
-        / ((SR_standard_surface_coat_IOR + 1.0) * (SR_standard_surface_coat_IOR + 1.0));
+    float coat_sum = SR_standard_surface_coat_IOR + 1.0;
+    float coat_front = SR_standard_surface_coat_IOR * 4.0 / (coat_sum * coat_sum);
     vec3 N = normalize(vd_normalWorld);
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     float absolute = abs(dot(N, V));
@@ -438,18 +465,19 @@ void main()
     vec3 reflection_scale = mix(mx_fresnel_facing(vec3(SR_standard_surface_specular_IOR),
         SR_standard_surface_thin_film_thickness, SR_standard_surface_thin_film_IOR), vec3(1.0), 0.04761905) * difference
         + vec3(1.0);
-    float fresnel_bare = mx_fresnel_dielectric(1.0, SR_standard_surface_coat_IOR);
+    float reflection_r = (1.0 - SR_standard_surface_specular_IOR) / (SR_standard_surface_specular_IOR + 1.0);
+    float coating_r = (1.0 - SR_standard_surface_coat_IOR) / coat_sum;
     vec2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
     vec2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
-    float coating_scale = mix(fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coating_difference = 1.0 - SR_standard_surface_coat
-        * (mix(fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+        * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     vec3 clamped_coat_tint = clamp(mix(vec3(1.0), SR_standard_surface_coat_color, SR_standard_surface_coat), 0.0, 1.0);
     vec3 body_weight = (vec3(1.0) - reflection_scale
-        * (SR_standard_surface_specular * (mix(mx_fresnel_dielectric(1.0, SR_standard_surface_specular_IOR), 1.0,
-        albedo.y) * albedo.x))) * (coating_difference * clamped_coat_tint);
+        * (SR_standard_surface_specular * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
+        * (coating_difference * clamped_coat_tint);
     float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
@@ -491,19 +519,28 @@ void main()
     float curvature = max(length(fwidth(Nf)) / length(fwidth(vd_positionWorld)), 0.01);
     vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // fuzz, translucent, diffuse
+        vec3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        vec3 d = u_lightData[i].position - vd_positionWorld;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio : 0.0;
-        float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - vd_positionWorld;
+            vec3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // fuzz, translucent, diffuse
         vec3 color_2 = u_lightData[i].color;
-        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float cos_l = dot(L, Nf);
         float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
@@ -513,33 +550,33 @@ void main()
         float fuzz_product_2 = cos_l_2 * ((s + 2.0)
             * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
         vec3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
-        color += directional_light_choice
-            * (color_2 * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
+        color += intensity * (color_2 * (diffuse_response
+            + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
-        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (SR_standard_surface_coat > 0.0)
-            color += color_2 * (directional_light_choice
+            color += color_2 * (intensity
                 * (SR_standard_surface_coat * coating_scale
                 * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, SR_standard_surface_coat_IOR))));
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_visible)
-            color += directional_light_choice
-                * (color_2 * (metal_product
-                * (ggx_light * mx_fresnel(cosine, re, im, SR_standard_surface_thin_film_thickness,
+            color += intensity * (color_2
+                * (metal_product * (ggx_light
+                * mx_fresnel(cosine, re, im, SR_standard_surface_thin_film_thickness,
                 SR_standard_surface_thin_film_IOR))));
         // reflection
         if (reflection_visible)
-            color += directional_light_choice
-                * (color_2 * (reflection_product
-                * (ggx_light * mx_fresnel(cosine, vec3(SR_standard_surface_specular_IOR),
-                SR_standard_surface_thin_film_thickness, SR_standard_surface_thin_film_IOR))));
+            color += intensity * (color_2
+                * (reflection_product * (ggx_light
+                * mx_fresnel(cosine, vec3(SR_standard_surface_specular_IOR), SR_standard_surface_thin_film_thickness,
+                SR_standard_surface_thin_film_IOR))));
         // scatter
         if (scatter_weight > 0.0) {
             float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
             float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
-            color += directional_light_choice
-                * (color_2 * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
+            color += intensity * (color_2
+                * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
                 mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
         }
     }
@@ -564,7 +601,7 @@ void main()
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (SR_standard_surface_coat * coating_scale
                 * (light.weight * mx_fresnel_dielectric(light.cosine, SR_standard_surface_coat_IOR)));
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // metal, reflection
@@ -589,7 +626,7 @@ void main()
                         * (metal_ggx_reflected.color
                         * mx_film_index(metal_ggx_reflected.cosine, reflection_vector, vec3(0.0),
                         SR_standard_surface_thin_film_thickness, SR_standard_surface_thin_film_IOR)));
-                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -606,7 +643,7 @@ void main()
                         * (metal_ggx_reflected.weight
                         * (metal_ggx_reflected.color
                         * mx_fresnel_dielectric(metal_ggx_reflected.cosine, SR_standard_surface_specular_IOR)));
-                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
@@ -627,7 +664,7 @@ void main()
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_standard_surface_specular_IOR))));
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // opacity

@@ -14,14 +14,15 @@ struct mx_GgxSamples {
     float area;
     vec3 v;
     float masking;
-    vec3 top;
+    float reach;
     float step;
+    float texels;
     float weight;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float spread;
+    float texels;
 };
 struct mx_GgxLight {
     vec3 color;
@@ -156,19 +157,12 @@ vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
     return n;
 }
 
-mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
-{
-    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha,
-        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
-}
-
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
-    vec3 slope = cross(H, lobe.N) / lobe.alpha.x;
-    return dot(slope, slope) + cos_h * cos_h;
+    vec3 slope = H - cos_h * lobe.N;
+    return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -178,17 +172,21 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
+// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
+// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
 float mx_fresnel_dielectric(const float cosine, const float ior)
 {
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, ior * ior);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
+    float k = 0.5 * (ior * ior - 1.0);
+    float c2 = max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
 }
 
 // Rodrigues' formula; the axis has unit length.
@@ -198,19 +196,26 @@ vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
     float cosine = max(abs(dot(N, V)), 1e-8);
     return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
-        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+        mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
 float mx_ggx_stretched_2(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
-    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
-    return dot(slope, slope) + cos_h * cos_h;
+    vec2 parts = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -220,8 +225,8 @@ float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched_2(lobe, V + L, lobe.cosine + dot(lobe.N, L));
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
@@ -259,19 +264,32 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float fi
     return mx_fresnel_schlick(cosine, n, f90);
 }
 
-// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
-float mx_half_turn(const float t)
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(const vec3 d)
 {
-    float t2 = t * t;
-    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+float mx_half_turn(const float sine, const float cosine)
+{
+    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    float radius = length(d.xz);
-    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
+    float square = mx_map_square(d);
+    float stretch = inversesqrt(square);
+    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
 // The frame of a round lobe has V above its x.
@@ -281,45 +299,45 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
     vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float reach = lobe.masking;
+    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, stretch.x * stretch.y, v,
-        lobe.masking, top, share * top.z, share * (v.z + lobe.masking));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
+        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
+        * weight);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float spread)
+// Light of a unit direction in the picture, filtered over as many texels.
+vec3 mx_filtered_light(const vec3 d, const float texels)
 {
-    float level = 0.5 * log2(spread / length(d.xz));
-    level += float(u_envRadianceMips) - 1.17425;
-    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
-// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top, `top` = v + z.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
+// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
+// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
+// it lies below the top of the cap, v.z + reach at most.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
 }
 
 // The light that the facet of sample i reflects.
@@ -327,10 +345,11 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
-    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float part = cosine * facet.shrink;
+    vec3 l = 2.0 * part * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
 }
 
 // The frame of a round lobe has V above its x.
@@ -341,10 +360,12 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
     mat3 frame = mat3(x, cross(lobe.N, x), lobe.N);
     vec3 v = vec3((V * frame).xy, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float reach = length(v * stretch);
+    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, stretch.x * stretch.y, v, lobe.masking, top, share * top.z,
-        share * (v.z + lobe.masking));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
+        * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -359,8 +380,8 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), s.weight
-        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
+        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -372,8 +393,7 @@ void main()
     // SR_gltf_pbr
     vec3 Nf = faceforward(N, -V, N);
     float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
-    vec3 fresnel_facing = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0),
-        0.0);
+    vec3 fresnel_f0 = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
     vec3 f90 = vec3(max(SR_gltf_pbr_specular, 0.0));
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
     vec2 specular_roughness = clamp(vec2(mix(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
@@ -382,11 +402,11 @@ void main()
     float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
-    vec3 product = mix(fresnel_facing, f90, albedo.y) * albedo.x;
+    vec3 product = mix(fresnel_f0, f90, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
-    vec3 reflection_scale = difference * mix(fresnel_facing, f90, 0.04761905) + vec3(1.0);
+    vec3 reflection_scale = difference * mix(fresnel_f0, f90, 0.04761905) + vec3(1.0);
     float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
-    vec3 reflection_film_scale = mix(mx_fresnel_facing(fresnel_facing, SR_gltf_pbr_iridescence_thickness,
+    vec3 reflection_film_scale = mix(mx_fresnel_facing(fresnel_f0, SR_gltf_pbr_iridescence_thickness,
         SR_gltf_pbr_iridescence_ior), f90, 0.04761905) * difference + vec3(1.0);
     float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
@@ -404,19 +424,20 @@ void main()
     float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
     float diffuse_weight = dielectric_weight * (1.0 - SR_gltf_pbr_transmission);
     vec3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), N, V);
+    float ggx_masking = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
+    mx_GgxLobe coating_vector = mx_GgxLobe(Nf, cos_v, vec3(0.0), vec2(coat_lobe), ggx_masking);
     float s = 1.0 / max(sheen_rough, 0.005);
     vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
     float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
-    vec3 fresnel_facing_2 = max(SR_gltf_pbr_base_color, 0.0);
+    vec3 fresnel_facing = max(SR_gltf_pbr_base_color, 0.0);
     vec3 metal_film_product = (difference
-        * mix(mx_fresnel_facing(fresnel_facing_2, SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior),
+        * mix(mx_fresnel_facing(fresnel_facing, SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior),
         vec3(1.0), 0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
     vec3 specular_tangent = mx_rotate3d(normalize(vd.tangentWorld),
         radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
     mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
     float metal_bare_weight = SR_gltf_pbr_metallic * (1.0 - SR_gltf_pbr_iridescence);
-    vec3 metal_bare_product = (difference * mix(fresnel_facing_2, vec3(1.0), 0.04761905) + vec3(1.0))
+    vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
     bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
     vec3 reflection_film_product = reflection_film_scale
@@ -424,69 +445,78 @@ void main()
     float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
     vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // diffuse
+        vec3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio : 0.0;
-        float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - vd.positionWorld;
+            vec3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // diffuse
         vec3 color_2 = u_lightData[i].color;
-        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
-        color += directional_light_choice * (color_2 * (cos_l / 3.1415927 * diffuse_product));
+        color += intensity * (color_2 * (cos_l / 3.1415927 * diffuse_product));
         // coating
         float v_dot_l = dot(V, L);
-        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0)
-            color += color_2 * (directional_light_choice
+            color += color_2 * (intensity
                 * (SR_gltf_pbr_clearcoat * coating_scale
-                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, 1.5))));
+                * (mx_ggx_light(coating_vector, V, L) * mx_fresnel_dielectric(cosine, 1.5))));
         // fuzz
         if (sheen_weight > 0.0) {
             float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
             float fuzz_product_2 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
                 / 6.2831855);
-            color += directional_light_choice
-                * (color_2 * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
+            color += intensity * (color_2 * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
         }
         // metal_film
         float ggx_light = mx_ggx_light_2(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (metal_film_product
-                * (ggx_light * mx_fresnel(cosine, fresnel_facing_2, vec3(1.0), SR_gltf_pbr_iridescence_thickness,
+            color += intensity * (color_2
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing, vec3(1.0), SR_gltf_pbr_iridescence_thickness,
                 SR_gltf_pbr_iridescence_ior))));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (metal_bare_product
-                * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing_2, vec3(1.0)))));
+            color += intensity * (color_2
+                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, vec3(1.0)))));
         // reflection_film
         if (reflection_film_visible)
-            color += directional_light_choice
-                * (color_2 * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, fresnel_facing, f90, SR_gltf_pbr_iridescence_thickness,
+            color += intensity * (color_2
+                * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_f0, f90, SR_gltf_pbr_iridescence_thickness,
                 SR_gltf_pbr_iridescence_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, f90))));
+            color += intensity * (color_2
+                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_f0, f90))));
     }
     // environment
     // fuzz
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
-    if (sheen_weight > 0.0)
-        color += fuzz_product * part * (sheen_albedo * u_envLightIntensity);
+    if (sheen_weight > 0.0) {
+        float fuzz_product_3 = u_envLightIntensity * (sheen_albedo * (sheen_weight * coating_difference));
+        color += SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product_3;
+    }
     // diffuse
     if (diffuse_weight > 0.0)
-        color += u_envLightIntensity * (diffuse_product * part);
+        color += SR_gltf_pbr_base_color * part * (body_weight * diffuse_weight * u_envLightIntensity);
     // coating
     if (SR_gltf_pbr_clearcoat > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), N, V);
@@ -495,7 +525,7 @@ void main()
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (SR_gltf_pbr_clearcoat * coating_scale
                 * (light.weight * mx_fresnel_dielectric(light.cosine, 1.5)));
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // metal_film, metal_bare, reflection_film, reflection
@@ -510,28 +540,28 @@ void main()
                     color += metal_film_product
                         * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
-                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2, vec3(1.0),
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0),
                         SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior)));
                 // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
                         * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2, vec3(1.0))));
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0))));
                 // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
                         * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
-                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90,
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90,
                         SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior)));
                 // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
                         * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90)));
-                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90)));
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -540,24 +570,24 @@ void main()
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 vec3 metal_bare_product_2 = metal_film_ggx_reflected.weight
                     * (metal_film_ggx_reflected.color
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing_2, vec3(1.0)));
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0)));
                 color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
                 // reflection_film
                 vec3 reflection_product_2 = metal_film_ggx_reflected.weight
                     * (metal_film_ggx_reflected.color
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, f90));
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90));
                 if (reflection_film_visible)
                     color += reflection_film_product * reflection_product_2;
                 // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product * reflection_product_2;
-                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
     // refraction
     if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
-        vec3 refraction_tint = fresnel_facing_2 * (u_refractionTwoSided ? fresnel_facing_2 : vec3(1.0));
+        vec3 refraction_tint = fresnel_facing * (u_refractionTwoSided ? fresnel_facing : vec3(1.0));
         vec3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -565,7 +595,7 @@ void main()
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_gltf_pbr_ior))));
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // opacity

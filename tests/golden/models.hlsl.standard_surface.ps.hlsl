@@ -14,14 +14,15 @@ struct mx_GgxSamples {
     float area;
     float3 v;
     float masking;
-    float3 top;
+    float reach;
     float step;
+    float texels;
     float weight;
 };
 struct mx_GgxFacet {
     float3 h;
     float shrink;
-    float spread;
+    float texels;
 };
 struct mx_GgxLight {
     float3 color;
@@ -115,8 +116,8 @@ mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float
     return made;
 }
 
-mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float3 top,
-    float step, float weight)
+mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float reach,
+    float step, float texels, float weight)
 {
     mx_GgxSamples made;
     made.to_map = to_map;
@@ -124,18 +125,19 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     made.area = area;
     made.v = v;
     made.masking = masking;
-    made.top = top;
+    made.reach = reach;
     made.step = step;
+    made.texels = texels;
     made.weight = weight;
     return made;
 }
 
-mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float spread)
+mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float texels)
 {
     mx_GgxFacet made;
     made.h = h;
     made.shrink = shrink;
-    made.spread = spread;
+    made.texels = texels;
     return made;
 }
 
@@ -148,13 +150,11 @@ mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
     return made;
 }
 
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
-float mx_fresnel_dielectric(float cosine, float ior)
+// The same facing the viewer.
+float mx_fresnel_dielectric_facing(float ior)
 {
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    float2 a = cosine * float2(1.0, ior * ior);
-    float2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
+    float r = (1.0 - ior) / (1.0 + ior);
+    return r * r;
 }
 
 // A channel of one polarisation after interference.
@@ -183,7 +183,8 @@ float mx_film_z(float a, float2 r, float d)
     return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
 }
 
-// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
+// x the cosine in the perpendicular part, and the permittivity times the cosine in the parallel part.
 float2 mx_film_amplitude(float2 x, float2 u)
 {
     return float2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
@@ -228,7 +229,7 @@ float3 mx_fresnel_facing(float3 n, float film, float film_ior)
 {
     if (film > 0.0)
         return mx_film_index_facing(n * n, float3(0.0, 0.0, 0.0), film, film_ior);
-    return (float3)mx_fresnel_dielectric(1.0, n.x);
+    return (float3)mx_fresnel_dielectric_facing(n.x);
 }
 
 // Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
@@ -263,19 +264,26 @@ float3 mx_rotate3d(float3 v, float angle, float3 axis)
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(float cosine, float area)
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float cosine = max(abs(dot(N, V)), 1e-8);
     return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
-        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+        mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
 float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
 {
-    float3 slope = float3(float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
-    return dot(slope, slope) + cos_h * cos_h;
+    float2 parts = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -285,8 +293,21 @@ float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
+// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
+// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float k = 0.5 * (ior * ior - 1.0);
+    float c2 = max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
 }
 
 // Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
@@ -299,18 +320,19 @@ void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out
     extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
 }
 
-// |(x + iy - u - iv) / (x + iy + u + iv)|^2
-float mx_fresnel_ratio(float2 x, float2 u)
-{
-    return dot(x - u, x - u) / dot(x + u, x + u);
-}
-
-// Fresnel equations for a permittivity (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
-// perpendicular part, the permittivity times the cosine in the parallel part.
+// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
+// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
+// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(float cosine, float re, float im)
 {
-    float2 u = mx_fresnel_refract(cosine, re, im);
-    return 0.5 * (mx_fresnel_ratio(float2(cosine, 0.0), u) + mx_fresnel_ratio(cosine * float2(re, im), u));
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float t = re - s;
+    float norm = sqrt(t * t + im * im);
+    float g = cosine * sqrt(max(2.0 * (norm + t), 0.0));
+    float b = norm * c2 + s * s;
+    float a = norm + c2;
+    return (a - g) * b / ((a + g) * (b + g * s));
 }
 
 // One channel after the other, which needs a third of the registers.
@@ -381,19 +403,25 @@ float mx_subsurface_light(float radius, float curvature, float cos_l)
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
-float mx_half_turn(float t)
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(float3 d)
 {
-    float t2 = t * t;
-    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+float mx_half_turn(float sine, float cosine)
+{
+    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
-    float radius = length(d.xz);
-    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
-    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
+    float square = mx_map_square(d);
+    float stretch = rsqrt(square);
+    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The frame of a round lobe has V above its x.
@@ -404,45 +432,45 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
     float3x3 frame = float3x3(x, cross(lobe.N, x), lobe.N);
     float3 v = float3(mul(frame, V).xy, lobe.cosine);
     float3 stretch = float3(lobe.alpha, 1.0);
-    float3 top = normalize(v * stretch) + float3(0.0, 0.0, 1.0);
+    float reach = length(v * stretch);
+    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, stretch.x * stretch.y, v, lobe.masking, top,
-        share * top.z, share * (v.z + lobe.masking));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, reach, share
+        * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-float3 mx_filtered_light(float3 d, float spread)
+// Light of a unit direction in the picture, filtered over as many texels.
+float3 mx_filtered_light(float3 d, float texels)
 {
-    float level = 0.5 * log2(spread / length(d.xz));
-    level += float(u_envRadianceMips) - 1.17425;
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), level).xyz;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
+        * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
-// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top, `top` = v + z.
-float3 mx_ggx_cap(float2 around, float depth, float3 top)
+// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
+// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
+// it lies below the top of the cap, v.z + reach at most.
+float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 {
-    return float3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+    return float3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 {
-    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
     float3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return make_mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+    return make_mx_GgxFacet(h, shrink, spread * spread * s.texels);
 }
 
 // The light that the facet of sample i reflects.
@@ -450,10 +478,11 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
-    float3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float part = cosine * facet.shrink;
+    float3 l = 2.0 * part * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.spread), s.weight * u_envLightIntensity * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -468,8 +497,8 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = facet.h * sqrt(facet.shrink);
-    return make_mx_GgxLight(mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.spread), s.weight
-        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.texels), s.weight
+        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main(
@@ -501,17 +530,18 @@ void main(
     float difference = 1.0 / albedo.x - 1.0;
     float3 reflection_scale = lerp(mx_fresnel_facing((float3)specular_IOR, thin_film_thickness, thin_film_IOR),
         float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
-    float fresnel_bare = mx_fresnel_dielectric(1.0, coat_IOR);
+    float reflection_r = (1.0 - specular_IOR) / (specular_IOR + 1.0);
+    float coating_r = (1.0 - coat_IOR) / (coat_IOR + 1.0);
     float2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
     float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
-    float coating_scale = lerp(fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_scale = lerp(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coating_difference = 1.0 - coat
-        * (lerp(fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+        * (lerp(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     float3 clamped_coat_tint = clamp(lerp(float3(1.0, 1.0, 1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
     float3 body_weight = (float3(1.0, 1.0, 1.0) - reflection_scale
-        * (SR_standard_surface_specular * (lerp(mx_fresnel_dielectric(1.0, specular_IOR), 1.0, albedo.y) * albedo.x)))
+        * (SR_standard_surface_specular * (lerp(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
         * (coating_difference * clamped_coat_tint);
     float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
         23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
@@ -554,19 +584,28 @@ void main(
     float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
     float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // fuzz, translucent, diffuse
+        float3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        float3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        float3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio : 0.0;
-        float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            float3 d = u_lightData[i].position - vd.positionWorld;
+            float3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // fuzz, translucent, diffuse
         float3 color_2 = u_lightData[i].color;
-        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float cos_l = dot(L, Nf);
         float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
@@ -576,31 +615,30 @@ void main(
         float fuzz_product_2 = cos_l_2 * ((s + 2.0)
             * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
         float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
-        color += directional_light_choice
-            * (color_2 * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
+        color += intensity * (color_2 * (diffuse_response
+            + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
-        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coat > 0.0)
-            color += color_2 * (directional_light_choice
+            color += color_2 * (intensity
                 * (coat * coating_scale * (mx_ggx_light(coating_lobe, V, L)
                 * mx_fresnel_dielectric(cosine, coat_IOR))));
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_visible)
-            color += directional_light_choice
-                * (color_2 * (metal_product
-                * (ggx_light * mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR))));
+            color += intensity * (color_2
+                * (metal_product * (ggx_light * mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR))));
         // reflection
         if (reflection_visible)
-            color += directional_light_choice
-                * (color_2 * (reflection_product
-                * (ggx_light * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR))));
+            color += intensity * (color_2
+                * (reflection_product * (ggx_light
+                * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR))));
         // scatter
         if (scatter_weight > 0.0) {
             float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
             float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
-            color += directional_light_choice
-                * (color_2 * (float3(scatter_subsurface_light, scatter_subsurface_light_2,
+            color += intensity * (color_2
+                * (float3(scatter_subsurface_light, scatter_subsurface_light_2,
                 mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
         }
     }
@@ -627,7 +665,7 @@ void main(
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (coat * coating_scale
                 * (light.weight * mx_fresnel_dielectric(light.cosine, coat_IOR)));
-            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // metal, reflection
@@ -651,7 +689,7 @@ void main(
                         * (metal_ggx_reflected.color
                         * mx_film_index(metal_ggx_reflected.cosine, reflection_vector, float3(0.0, 0.0, 0.0),
                         thin_film_thickness, thin_film_IOR)));
-                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         } else {
             float2 turn = float2(1.0, 0.0);
@@ -668,7 +706,7 @@ void main(
                         * (metal_ggx_reflected.weight
                         * (metal_ggx_reflected.color
                         * mx_fresnel_dielectric(metal_ggx_reflected.cosine, specular_IOR)));
-                turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
@@ -688,7 +726,7 @@ void main(
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, specular_IOR))));
-            turn = turn * -0.7373689 + float2(-turn.y, turn.x) * 0.6754903;
+            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // opacity

@@ -14,14 +14,15 @@ struct mx_GgxSamples {
     float area;
     vec3 v;
     float masking;
-    vec3 top;
+    float reach;
     float step;
+    float texels;
     float weight;
 };
 struct mx_GgxFacet {
     vec3 h;
     float shrink;
-    float spread;
+    float texels;
 };
 struct mx_GgxLight {
     vec3 color;
@@ -97,15 +98,6 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
-float mx_fresnel_dielectric(const float cosine, const float ior)
-{
-    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, ior * ior);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
-}
-
 // OpenPBR Surface specification, "Microfacet model".
 vec2 mx_open_pbr_anisotropy(const float roughness, const float anisotropy)
 {
@@ -127,6 +119,13 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
     return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
+}
+
+// The same facing the viewer.
+float mx_fresnel_dielectric_facing(const float ior)
+{
+    float r = (1.0 - ior) / (1.0 + ior);
+    return r * r;
 }
 
 // A channel of one polarisation after interference.
@@ -156,7 +155,8 @@ float mx_film_x(const float a, const vec2 r, const float d)
         + mx_film_terms(a, r, d, vec3(2.2399, 0.153868, -0.0045282)));
 }
 
-// Complex amplitude of an interface in one polarisation, with x and u as in mx_fresnel_ratio.
+// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
+// x the cosine in the perpendicular part, and the permittivity times the cosine in the parallel part.
 vec2 mx_film_amplitude(const vec2 x, const vec2 u)
 {
     return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
@@ -199,7 +199,7 @@ vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
         return mx_film_index_facing(n * n, film, film_ior);
-    return vec3(mx_fresnel_dielectric(1.0, n.x));
+    return vec3(mx_fresnel_dielectric_facing(n.x));
 }
 
 // Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
@@ -230,19 +230,26 @@ float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, 
     return max(w.z, 0.0) / 3.1415927 * scale * scale;
 }
 
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
     float cosine = max(abs(dot(N, V)), 1e-8);
     return mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
-        sqrt(cosine * cosine + alpha.x * alpha.y * (1.0 - cosine * cosine)));
+        mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness.
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
-    vec3 slope = vec3(vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha, 0.0);
-    return dot(slope, slope) + cos_h * cos_h;
+    vec2 parts = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
 // The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
@@ -252,8 +259,21 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float cos_l = max(dot(lobe.N, L), 1e-8);
     float square = 2.0 + 2.0 * dot(V, L);
     float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
-    return square * square * cos_l / (6.2831855 * area * e * e
-        * (lobe.cosine * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * lobe.masking));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
+// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
+// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_dielectric(const float cosine, const float ior)
+{
+    float k = 0.5 * (ior * ior - 1.0);
+    float c2 = max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
 }
 
 // Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
@@ -364,19 +384,25 @@ float mx_fujii_albedo(const float cosine, const float r)
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
-// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
-float mx_half_turn(const float t)
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(const vec3 d)
 {
-    float t2 = t * t;
-    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+float mx_half_turn(const float sine, const float cosine)
+{
+    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
-    float radius = length(d.xz);
-    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
+    float square = mx_map_square(d);
+    float stretch = inversesqrt(square);
+    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // Albedo of what the lobe scatters more than once, relative to `color`.
@@ -393,45 +419,44 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
     mat3 frame = mat3(x, cross(lobe.N, x), lobe.N);
     vec3 v = vec3((V * frame).xy, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
+    float reach = length(v * stretch);
+    float area = stretch.x * stretch.y;
     float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, stretch.x * stretch.y, v, lobe.masking, top, share * top.z,
-        share * (v.z + lobe.masking));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
+        * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
-// Light of a unit direction in the picture, filtered over the solid angle of a sample, in hemispheres (Krivanek and
-// Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const vec3 d, const float spread)
+// Light of a unit direction in the picture, filtered over as many texels.
+vec3 mx_filtered_light(const vec3 d, const float texels)
 {
-    float level = 0.5 * log2(spread / length(d.xz));
-    level += float(u_envRadianceMips) - 1.17425;
-    return textureLod(u_envRadiance, mx_map_point(d), level).xyz;
+    return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
 // of the reflection model.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
-    return 1.0 / (cos_v * sqrt(cos_l * cos_l + area * (1.0 - cos_l * cos_l)) + cos_l * masking);
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
-// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top, `top` = v + z.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
+// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
+// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
+// it lies below the top of the cap, v.z + reach at most.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.top);
+    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
     vec3 h = cap * s.stretch;
     float shrink = 1.0 / dot(h, h);
     float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.weight * s.area);
+    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
 }
 
 // The light that the facet of sample i reflects.
@@ -439,10 +464,11 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float cosine = dot(s.v, facet.h);
-    vec3 l = 2.0 * facet.shrink * cosine * facet.h - s.v;
+    float part = cosine * facet.shrink;
+    vec3 l = 2.0 * part * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.spread), s.weight * u_envLightIntensity * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), clamp(cosine * sqrt(facet.shrink), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -457,8 +483,8 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = facet.h * sqrt(facet.shrink);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.spread), s.weight
-        * u_envLightIntensity * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
+        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -484,7 +510,7 @@ void main()
     float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
         * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
     float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
-    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
+    float r = (1.0 - ior) / (ior + 1.0);
     vec2 roughness = mx_open_pbr_anisotropy(mix(SR_open_pbr_surface_specular_roughness,
         pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
         1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
@@ -492,30 +518,31 @@ void main()
     float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(absolute, 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
-    float product = mix(fresnel_bare, 1.0, albedo.y) * albedo.x;
+    float product = mix(r * r, 1.0, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
-    float reflection_scale = difference * mix(fresnel_bare, 1.0, 0.04761905) + 1.0;
+    float reflection_scale = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
     vec3 reflection_throughput = vec3(1.0 - product * reflection_scale);
     float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
     float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
     vec3 reflection_film_scale = mix(mx_fresnel_facing(vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
         * difference + vec3(1.0);
-    float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
-    float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
-    float x = (cos_v - r * (r * (r * (1.7932 - r * (r * 0.95943)) - 1.14885) - 0.193854) / (r + 0.046391)) / width;
+    float fuzz_r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
+    float width = fuzz_r * (fuzz_r * 1.58491 + 0.0206607) / (fuzz_r * (fuzz_r + 1.32227) + 0.0379424);
+    float x = (cos_v - fuzz_r * (fuzz_r * (fuzz_r * (1.7932 - fuzz_r * (fuzz_r * 0.95943)) - 1.14885) - 0.193854)
+        / (fuzz_r + 0.046391)) / width;
     float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
-    float fuzz_product = r * (r * (r * 0.119681 - 0.0207818) + 0.000654023);
+    float fuzz_product = fuzz_r * (fuzz_r * (fuzz_r * 0.119681 - 0.0207818) + 0.000654023);
     float fuzz_product_2 = SR_open_pbr_surface_fuzz_weight
-        * max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
-    float coating_fresnel_bare = mx_fresnel_dielectric(1.0, coat_ior);
+        * max(fuzz_ratio + fuzz_product / (fuzz_r * (fuzz_r - 1.92021) + 1.26264), 0.0);
+    float coating_r = (1.0 - coat_ior) / (coat_ior + 1.0);
     vec2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
         SR_open_pbr_surface_coat_roughness_anisotropy);
     vec2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
-    float coating_scale = mix(coating_fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coated_weight = (1.0 - fuzz_product_2)
-        * (1.0 - coat_weight * (mix(coating_fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
+        * (1.0 - coat_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
     vec3 substrate_darkened_weight = coated_weight
         * clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0);
     float coat_escape = coat_front / (coat_ior * coat_ior);
@@ -577,63 +604,67 @@ void main()
     float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
     float diffuse_greater_2 = max(1.0 - mean, 1e-8);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // sheet_front, sheet_back
+        vec3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio : 0.0;
-        float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float directional_light_choice = type == 1 ? u_lightData[i].intensity : point_light_choice;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - vd.positionWorld;
+            vec3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // sheet_front, sheet_back
         vec3 color_2 = u_lightData[i].color;
-        vec3 L = type == 1 ? -u_lightData[i].direction : to_light;
         float cos_l = dot(L, Nf);
         float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
         float s = v_dot_l - cos_v * cos_l_2;
         float greater = max(cos_l_2, cos_v);
         vec3 sheet_front_response = sheet_front_product * (cos_l_2 / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += directional_light_choice
-            * (color_2 * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
+        color += intensity * (color_2 * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
         // fuzz
         if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_3));
+            color += intensity * (color_2 * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
         // coating
-        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0));
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coat_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (coating_product
-                * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior))));
+            color += color_2 * (intensity
+                * (coating_product * (mx_ggx_light(coating_lobe, V, L) * mx_fresnel_dielectric(cosine, coat_ior))));
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (metal_film_product
-                * (ggx_light * mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior))));
+            color += intensity * (color_2
+                * (metal_film_product * (ggx_light
+                * mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior))));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (metal_bare_product
-                * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
+            color += intensity * (color_2
+                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
         // reflection_film
         if (reflection_film_visible)
-            color += directional_light_choice
-                * (color_2 * (reflection_film_product
+            color += intensity * (color_2
+                * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, thin_film_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += directional_light_choice
-                * (color_2 * (reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior))));
+            color += intensity * (color_2 * (reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior))));
         // scatter
         if (scatter_weight > 0.0) {
             float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
             float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
-            color += directional_light_choice
-                * (color_2 * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
+            color += intensity * (color_2
+                * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
                 mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
         }
         // diffuse
@@ -642,10 +673,9 @@ void main()
             vec3 diffuse_product_2 = fujii_multiple
                 * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8)
                 / diffuse_greater_2);
-            color += directional_light_choice
-                * (color_2 * (diffuse_product
-                * (cos_l_2 / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
-                + diffuse_product_2))));
+            color += intensity * (color_2
+                * (diffuse_product * (cos_l_2 / 3.1415927
+                * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum + diffuse_product_2))));
         }
     }
     // environment
@@ -672,7 +702,7 @@ void main()
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (coating_product * (light.weight * mx_fresnel_dielectric(light.cosine, coat_ior)));
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // metal_film, metal_bare, reflection_film, reflection
@@ -709,7 +739,7 @@ void main()
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_dielectric(metal_film_ggx_reflected.cosine, ior)));
-                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -735,7 +765,7 @@ void main()
                     color += reflection_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight * reflection_film_fresnel_dielectric));
-                turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
@@ -757,7 +787,7 @@ void main()
                 * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, ior))));
-            turn = turn * -0.7373689 + vec2(-turn.y, turn.x) * 0.6754903;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // opacity

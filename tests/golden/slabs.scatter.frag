@@ -115,12 +115,12 @@ vec2 mx_ggx_albedo(const vec2 roughness, const float c)
     return mx_ggx_albedo_fit(a, a / (a + c), c);
 }
 
-// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
-// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
-// cap is below its top, `top` = v + z.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 top)
+// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
+// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
+// it lies below the top of the cap, v.z + reach at most.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(top.xy + sqrt(depth * (2.0 - depth)) * around, top.z - depth);
+    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
 }
 
 // What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is
@@ -132,8 +132,9 @@ void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3
     mat3 frame = mx_frame(faceforward(N, -V, N), X);
     vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     vec3 stretch = vec3(alpha, 1.0);
-    vec3 top = normalize(v * stretch) + vec3(0.0, 0.0, 1.0);
-    vec3 h = normalize(mx_ggx_cap(cos(6.2831855 * (xi.x - vec2(0.0, 0.25))), xi.y * top.z, top) * stretch);
+    float reach = length(vec3(v.xy * alpha, v.z));
+    vec3 h = normalize(mx_ggx_cap(cos(6.2831855 * (xi.x - vec2(0.0, 0.25))), xi.y * (v.z + reach), v * stretch, reach)
+        * stretch);
     float cos_h = clamp(dot(v, h), 1e-8, 1.0);
     vec3 f = mx_fresnel_schlick(cos_h, n);
     float share = 1.0;
@@ -352,7 +353,7 @@ void scatter()
     mat3 frame = mx_frame(Nf, X);
     vec3 metal_reflection_product = metal_reflection_ggx_compensation
         * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, vd.lightWorld.xyz);
-    float cosine = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.5, 1e-8, 1.0));
+    float cosine = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0));
     vec3 sum_4 = metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way_3));
     float sum_5 = vd.lightWorld.w * (greater_5 / sum_2
         * mx_ggx_pdf(vec2(0.29886922), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
@@ -375,43 +376,54 @@ void scatter()
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        vec3 L_4;
+        float intensity;
         int type = u_lightData[i].type;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float magnitude_d = length(d);
-        float ratio_4 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio_4 : 0.0;
-        float point_light_choice = type == 2 ? ratio_4 : spot_light_choice;
-        vec3 directional_light_L = type == 1 ? -u_lightData[i].direction : to_light;
-        float c_4 = dot(N, directional_light_L);
+        if (type == 1) {
+            L_4 = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 to_light = normalize(d);
+            float ratio_4 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L_4 = to_light;
+                intensity = ratio_4;
+            } else {
+                L_4 = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio_4 : 0.0;
+            }
+        }
+        float c_4 = dot(N, L_4);
         float way_4 = inversesqrt(c_4 * c_4 + 1.25) * 1.5;
         vec3 milk_medium_transmitted_3;
         vec3 milk_medium_3 = mx_medium_layer(way_4, milk_medium_transmitted_3);
-        vec3 milk_medium_ratio_2 = milk_medium * milk_medium_3 / milk_medium_constant;
-        vec3 sum_10 = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_4));
-        vec3 product_3 = milk_medium_ratio_2 * (max(dot(Nf, directional_light_L), 0.0) / 3.1415927) * sum_10;
+        vec3 slab_medium_bsdf_eval = milk_medium * milk_medium_3 / milk_medium_constant
+            * (max(dot(Nf, L_4), 0.0) / 3.1415927);
+        vec3 product_3 = slab_medium_bsdf_eval
+            * (milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_4)));
         vec3 metal_reflection_product_2 = metal_reflection_ggx_compensation
-            * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, directional_light_L);
-        float cosine_2 = sqrt(clamp(dot(vd.viewWorld, directional_light_L) * 0.5 + 0.5, 1e-8, 1.0));
-        vec3 sum_11 = metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way_4));
-        vec3 sum_12 = product_3 + metal_reflection_product_2 * mx_fresnel_schlick(cosine_2, metal_constant) * sum_11;
+            * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_4);
+        float cosine_2 = sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0));
+        vec3 sum_10 = metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way_4));
+        vec3 sum_11 = product_3 + metal_reflection_product_2 * mx_fresnel_schlick(cosine_2, metal_constant) * sum_10;
         vec3 fresnel_2 = mx_fresnel_schlick(cosine_2, vec3(0.04));
         vec3 milk_reflection_slab_reflection_bsdf_eval_2 = milk_reflection_ggx_compensation
-            * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, directional_light_L) * fresnel_2;
-        vec3 product_4 = fresnel_2 * (coat_reflection_ggx_compensation
-            * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, directional_light_L) * 0.5);
-        vec3 sum_13 = sum_12 + milk_reflection_slab_reflection_bsdf_eval_2
-            * (difference + ratio * pow(clamped, vec3(way_4))) + product_4;
-        vec3 product_5 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : point_light_choice) * sum_13;
-        float greater_8 = max(dot(product_5, vec3(0.33333334)), 0.0);
+            * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, L_4) * fresnel_2;
+        vec3 sum_12 = sum_11 + milk_reflection_slab_reflection_bsdf_eval_2
+            * (difference + ratio * pow(clamped, vec3(way_4)));
+        vec3 sum_13 = sum_12 + fresnel_2
+            * (coat_reflection_ggx_compensation * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, L_4) * 0.5);
+        vec3 product_4 = u_lightData[i].color * intensity * sum_13;
+        float greater_8 = max(dot(product_4, vec3(0.33333334)), 0.0);
         sum_9 += greater_8;
         if (sum_9 * chance < greater_8) {
-            L_3 = directional_light_L;
+            L_3 = L_4;
             distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
-            light = product_5 / greater_8;
+            light = product_4 / greater_8;
         }
         if (greater_8 > 0.0) {
             float ratio_5 = (sum_9 * chance - greater_8) / (sum_9 - greater_8);

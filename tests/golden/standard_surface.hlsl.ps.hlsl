@@ -33,19 +33,25 @@ struct VertexData {
     [[vk::location(1)]] float3 normalWorld : TEXCOORD1;
 };
 
-// atan(t) over pi for |t| <= 1, within 2.6e-5; the built-in function takes thrice as long.
-float mx_half_turn(float t)
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(float3 d)
 {
-    float t2 = t * t;
-    return t * (0.3180596 + t2 * (t2 * (0.0465574 - 0.0124098 * t2) - 0.1022332));
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+float mx_half_turn(float sine, float cosine)
+{
+    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
-    float radius = length(d.xz);
-    float turn = mx_half_turn(d.x / max(abs(d.z) + radius, 1e-8));
-    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - 2.0 * mx_half_turn(d.y / (1.0 + radius)));
+    float square = mx_map_square(d);
+    float stretch = rsqrt(square);
+    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 void main(
@@ -60,21 +66,30 @@ void main(
     float3 N = faceforward(direction, -V, direction);
     float cos_v = max(abs(dot(direction, V)), 1e-8);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // diffuse
+        float3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        float3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        float3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio : 0.0;
-        float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float3 L = type == 1 ? -u_lightData[i].direction : to_light;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            float3 d = u_lightData[i].position - vd.positionWorld;
+            float3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // diffuse
         float cos_l = max(dot(L, N), 1e-8);
         float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.36 / max(cos_l, cos_v) + 0.73913044;
-        float3 diffuse_product = u_lightData[i].color * (cos_l / 3.1415927 * float3(0.5, 0.25, 0.15) * diffuse_sum);
-        color += (type == 1 ? u_lightData[i].intensity : point_light_choice) * diffuse_product;
+        color += intensity * (u_lightData[i].color * (cos_l / 3.1415927 * float3(0.5, 0.25, 0.15) * diffuse_sum));
     }
     // environment
     // diffuse

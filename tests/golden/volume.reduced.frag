@@ -36,19 +36,29 @@ void main()
     // lights
     vec3 smoke_product = path_blend * (one_minus_st_outx * depth_product * 1.2);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        // smoke
+        vec3 L;
+        float intensity;
         int type = u_lightData[i].type;
-        vec3 d = u_lightData[i].position - vd.positionWorld;
-        float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 to_light = normalize(d);
-        float spot_light_choice = type == 3
-            ? smoothstep(spot_light_difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-            * ratio : 0.0;
-        float point_light_choice = type == 2 ? ratio : spot_light_choice;
-        float smoke_d = dot(V, type == 1 ? -u_lightData[i].direction : to_light) * 0.8 + 1.16;
-        vec3 smoke_product_2 = u_lightData[i].color * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product);
-        color += (type == 1 ? u_lightData[i].intensity : point_light_choice) * smoke_product_2;
+        if (type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - vd.positionWorld;
+            vec3 to_light = normalize(d);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (type == 2) {
+                L = to_light;
+                intensity = ratio;
+            } else {
+                L = to_light;
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // smoke
+        float smoke_d = dot(V, L) * 0.8 + 1.16;
+        color += intensity * (u_lightData[i].color * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product));
     }
     out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
 }
