@@ -262,6 +262,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
         return;
     }
     uint32_t num = shader->lights.len;
+    assert(num > 0);
     struct one_light *lights = ARENA_ARRAY(shader->arena, struct one_light, num);
     for (uint32_t i = num; i-- > 0;)
         sample_one(shader, host, &shader->lights.items[i], &lights[i]);
