@@ -71,6 +71,7 @@ static const struct {
     {"random", "random"},
     {"lightWorld", "light"},
     {"normalMoved", "moved"},
+    {"matter", "at_level"},
 };
 
 static const char *hit_value(const char *name)
@@ -140,6 +141,7 @@ static void append_fill(struct source *source, const mxg_result *result)
     append(source,
            "vec3 dx_point, dy_point, dx_normal, dy_normal;\nvec2 dx_texcoord, dy_texcoord;\n"
            "mat4 to_object; // of the object at the hit\n"
+           "vec2 at_level;  // of matter, and the number that picks what is there\n"
            "vec4 hit_value(uint i);\n"
            "float trace_occlusion(vec3 normal, vec3 view, float angle, float limit);\n\n");
     append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, "
@@ -198,6 +200,18 @@ static void append_aovs(struct source *source, const mxg_result *result, const s
     append(source, "}\n\n");
 }
 
+/* True if the surface is a pile of matter, through which light walks at random. */
+static bool is_matter(const mxg_result *result)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        if (variable.block == MXG_BLOCK_OUTPUTS && strcmp(variable.name, "out9") == 0)
+            return true;
+    }
+    return false;
+}
+
 static bool compile(struct kernel *kernel, const struct aovs *aovs)
 {
     struct source source = {0};
@@ -212,6 +226,7 @@ static bool compile(struct kernel *kernel, const struct aovs *aovs)
     append_aovs(&source, kernel->bind->result, aovs);
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
+    append(&source, is_matter(kernel->bind->result) ? "#define MATTER\n" : "");
     append(&source, kernel->info.displaced ? "#define DISPLACED\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);

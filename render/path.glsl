@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), TRACER_SET
-// and, where they hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
+// and, where they hold, LIGHTS (lights are bound), TRANSPARENT (light may go through) and MATTER (a surface is a pile of matter).
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
 // kernel runs.
@@ -20,6 +20,7 @@ struct Path {
     vec3 medium; uint num_shadows;
     vec3 light; uint phase;
     Hit hit;                                        // of a path that waits
+    Hit place; vec2 matter; float depth; uint goes; // of a path in matter: where, its level, of the level's thickness, and how
     uint waits_for, number, random, waits;          // number of the sample
     Shadow shadows[2];
 };
@@ -199,7 +200,7 @@ vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 weights)
     return a * (1.0 - weights.x - weights.y) + b * weights.x + c * weights.y;
 }
 
-struct Point { vec3 position, facet; };
+struct Point { vec3 position, facet, normal; };
 
 vec3 beside(Point point, vec3 direction)
 {
@@ -272,6 +273,7 @@ Point shade(Hit hit, vec3 direction, vec4 light)
     vec3 rest = mixed(a.rest.xyz, b.rest.xyz, c.rest.xyz, hit.weights);
     vec3 moved = normalize(mixed(a.moved.xyz, b.moved.xyz, c.moved.xyz, hit.weights));
     find_differentials(a, b, c, point.facet, direction, hit.distance * length(camera.right.xyz) / float(camera.frame.x));
+    point.normal = dot(moved, direction) > 0.0 ? -moved : moved;
     met = hit;
     to_object = objects[a.object].to_object;
     fill_vertex_data(rest, normal, tangent, texcoord, -direction, next_random(), light, moved);
@@ -341,6 +343,16 @@ bool wait(inout Path path, Hit hit)
     return false;
 }
 
+// What goes through a surface as it comes, where scatter() has run.
+vec3 goes_straight()
+{
+#ifdef MATTER
+    return out11.rgb;
+#else
+    return vec3(0.0);
+#endif
+}
+
 // Follows the ray to a light to its end, or false where it has to wait.
 bool follow_shadow(inout Path path)
 {
@@ -359,9 +371,12 @@ bool follow_shadow(inout Path path)
             return wait(path, hit);
         }
 #ifdef TRANSPARENT
+        at_level = vec2(-1.0, next_random().x);
         ray.origin = shade(hit, ray.direction, vec4(0.0)).position + ray.direction * NEAR;
         ray.limit -= hit.distance;
         if (next_random().x < out1.a)
+            ray.light.rgb *= goes_straight();
+        if (!is_light(ray.light.rgb))
             break;
 #endif
     }
@@ -369,16 +384,40 @@ bool follow_shadow(inout Path path)
     return true;
 }
 
-// What a path does next. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole.
-const uint GOING = 0u, CROSSING = 1u, ENDED = 2u;
+// What a path does next. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole. IN_MATTER: it
+// goes through a pile of matter on a surface.
+const uint GOING = 0u, CROSSING = 1u, ENDED = 2u, IN_MATTER = 3u;
+
+void count_turn(inout Path path)
+{
+    if (path.turns == 0u)
+        keep_aovs(gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x, path.number == 0u);
+    ++path.turns;
+}
+
+#ifdef MATTER
+void enter_matter(inout Path path, Hit hit, Point point, vec4 towards); // matter.glsl
+void go_on_in_matter(inout Path path);
+#endif
+
+// The next level of a pile; false where the path has to wait.
+bool follow_matter(inout Path path)
+{
+    path.waits_for = objects[corners[path.place.triangle * 3u].object].shader;
+    if (path.waits_for != uint(camera.environment[1].w))
+        return wait(path, path.place);
+    path.waits = 0u;
+#ifdef MATTER
+    go_on_in_matter(path);
+#endif
+    return true;
+}
 
 // Where a path goes that has met a surface.
 void bounce(inout Path path, Point point, vec4 towards)
 {
     path.light += path.through * out1.rgb;
-    if (path.turns == 0u)
-        keep_aovs(gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x, path.number == 0u);
-    ++path.turns;
+    count_turn(path);
     vec4 next = out2, weight = out3;
     vec3 inside = out4.rgb;
     gather(path, point, towards);
@@ -417,12 +456,18 @@ bool follow_ray(inout Path path)
         return true;
     ++path.hits;
     vec4 towards = draw_environment(next_random());
+    at_level = vec2(-1.0, next_random().x);
     Point point = shade(hit, path.direction, towards);
     path.through *= pow(path.medium, vec3(hit.distance));
-    if (next_random().x >= out1.a)
+    if (next_random().x >= out1.a) {
         path.origin = point.position + path.direction * NEAR;
-    else
-        bounce(path, point, towards);
+        return true;
+    }
+#ifdef MATTER
+    enter_matter(path, hit, point, towards);
+#else
+    bounce(path, point, towards);
+#endif
     return true;
 }
 
@@ -454,6 +499,8 @@ bool follow(inout Path path)
             goes = follow_shadow(path);
         if (goes && path.phase == CROSSING)
             goes = cross_solid(path);
+        else if (goes && path.phase == IN_MATTER)
+            goes = follow_matter(path);
         else if (goes && path.phase == GOING)
             goes = follow_ray(path);
     }
@@ -525,7 +572,8 @@ void main()
             atomicAdd(waiting[path.waits_for], 1u);
             break;
         }
-        sum += vec4(path.light, path.turns > 0u ? 1.0 : 0.0);
+        float covered = path.turns > 0u ? 1.0 : 1.0 - dot(path.through, vec3(1.0 / 3.0)); // but for what goes straight on
+        sum += vec4(path.light, covered);
         if (path.number + 1u == end)
             break;
         path = begin(pixel, path.number + 1u);

@@ -24,7 +24,7 @@ enum {
     NUM_BINDINGS = NUM_BUFFERS + 1,
     GROUP = 8,
     SAMPLES_AT_ONCE = 16,
-    PATH_SIZE = 208
+    PATH_SIZE = 240
 };
 
 struct camera { /* layout as in path.glsl */
