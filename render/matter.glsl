@@ -9,21 +9,13 @@
 const uint DOWN = 1u, BENT = 2u; // away from where it came in; as it is outside, where it enters a medium of index 1.5
 const int MAX_COLLISIONS = 4096;
 
-// Henyey and Greenstein 1941.
-float phase(float g, float cosine)
-{
-    float square = 1.0 + g * g - 2.0 * g * cosine;
-    return (1.0 - g * g) / (4.0 * PI * square * sqrt(square));
-}
-
-// A direction with the density of phase(); `from`: where light goes.
+// A direction after a collision; `from`: before (Henyey and Greenstein 1941).
 vec3 draw_phase(float g, vec3 from, vec2 xi)
 {
     float part = (1.0 - g * g) / (1.0 - g + 2.0 * g * xi.x);
     float cosine = abs(g) < 1e-3 ? 1.0 - 2.0 * xi.x : (1.0 + g * g - part * part) / (2.0 * g);
-    vec3 x = normalize(abs(from.x) > 0.5 ? vec3(-from.z, 0.0, from.x) : vec3(0.0, from.z, -from.y)), y = cross(from, x);
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0)), turn = 2.0 * PI * xi.y;
-    return normalize(from * cosine + (x * cos(turn) + y * sin(turn)) * sine);
+    return normalize(frame_of(from) * vec3(sine * cos(turn), sine * sin(turn), cosine));
 }
 
 // How far light goes over how deep it gets.
@@ -31,16 +23,6 @@ float slope(Path path, vec3 up)
 {
     float cosine = dot(path.direction, up);
     return (path.goes & BENT) != 0u ? 1.5 * inversesqrt(1.25 + cosine * cosine) : 1.0 / max(abs(cosine), 1e-4);
-}
-
-// What a collision sends to a light there, until it leaves the medium. spread: one over the density of directions drawn to such lights.
-vec3 send(Path path, vec3 from, vec3 up, vec3 to, float spread)
-{
-    float cosine = dot(to, up), density = phase(out9.a, dot(from, to));
-    float room = cosine > 0.0 ? path.depth : 1.0 - path.depth;
-    if (as_drawn() && cosine <= 0.0)
-        return vec3(0.0);
-    return path.through * density / (1.0 + spread * density) * exp(-out10.rgb * room / max(abs(cosine), 1e-4));
 }
 
 // Follows the path to its next collision in a medium, or out of it: false. One channel draws the way, and the mean of all densities weighs
@@ -57,26 +39,11 @@ bool collide(inout Path path, vec3 up, vec4 xi)
     return way < room;
 }
 
-// A collision: light comes from lights, and goes on.
-void turn(inout Path path, vec3 up, vec2 xi, vec4 towards, inout vec3 around, inout vec3 lamp)
+void walk(inout Path path, vec3 up)
 {
-    vec3 from = (path.goes & BENT) != 0u ? refract(path.direction, (path.goes & DOWN) != 0u ? up : -up, 1.0 / 1.5) : path.direction;
-    around += send(path, from, up, towards.xyz, towards.w);
-#ifdef LIGHTS
-    lamp += send(path, from, up, out6.xyz, 0.0);
-#endif
-    path.direction = draw_phase(out9.a, from, xi);
-    path.density = phase(out9.a, dot(from, path.direction));
-    path.goes = dot(path.direction, up) < 0.0 ? DOWN : 0u;
-}
-
-void walk(inout Path path, Point point, vec4 towards)
-{
-    vec3 around = vec3(0.0), lamp = vec3(0.0);
     vec4 xi = next_random();
-    int collisions = 0;
-    for (; collide(path, point.normal, xi); xi = next_random()) {
-        if (collisions++ == 0)
+    for (int collisions = 1; collide(path, up, xi); ++collisions, xi = next_random()) {
+        if (collisions == 1)
             count_turn(path);
         float most = max(path.through.x, max(path.through.y, path.through.z));
         if (most < 0.05)
@@ -85,12 +52,23 @@ void walk(inout Path path, Point point, vec4 towards)
             path.through = vec3(0.0);
             break;
         }
-        turn(path, point.normal, xi.zw, towards, around, lamp);
+        bool bends = (path.goes & BENT) != 0u;
+        vec3 from = bends ? refract(path.direction, (path.goes & DOWN) != 0u ? up : -up, 1.0 / 1.5) : path.direction;
+        path.direction = draw_phase(out9.a, from, xi.zw);
+        path.goes = dot(path.direction, up) < 0.0 ? DOWN : 0u;
     }
-    add_light(path, point, towards.xyz, FAR, out5.rgb * towards.w * environment(towards.xyz) * around);
+}
+
+// Light that a medium scattered leaves the pile evenly to the side of `up`.
+void leave_evenly(inout Path path, Point point, vec3 up, vec4 towards)
+{
+    float density = max(dot(towards.xyz, up), 0.0) / PI, spread = towards.w;
+    add_light(path, point, towards.xyz, FAR, path.through * environment(towards.xyz) * (density * spread / (1.0 + spread * density)));
 #ifdef LIGHTS
-    add_light(path, point, out6.xyz, min(out6.w, FAR), out7.rgb * lamp);
+    add_light(path, point, out6.xyz, min(out6.w, FAR), path.through * out7.rgb * (max(dot(out6.xyz, up), 0.0) / PI));
 #endif
+    path.direction = draw_cosine(frame_of(up), 1.0, next_random().xy);
+    path.density = dot(path.direction, up) / PI;
 }
 
 void meet_lobe(inout Path path, Point point, vec4 towards)
@@ -112,7 +90,7 @@ void go_through(inout Path path, Point point, vec4 towards)
     if ((path.goes & DOWN) != 0u)
         path.light += path.through * out1.rgb;
     if (is_medium)
-        walk(path, point, towards);
+        walk(path, point.normal);
     else if ((path.goes & DOWN) != 0u)
         meet_lobe(path, point, towards);
     bool down = (path.goes & DOWN) != 0u;
@@ -120,11 +98,13 @@ void go_through(inout Path path, Point point, vec4 towards)
     path.depth = down ? 0.0 : 1.0;
     path.phase = IN_MATTER;
     if (path.matter.x < 0.0) {
-        path.phase = GOING;
+        bool is_drawn = !(as_drawn() && down && path.turns > 0u); // a drawn picture has no light from there
+        path.phase = is_drawn ? GOING : ENDED;
+        if (is_drawn && is_medium && (path.goes & BENT) == 0u)
+            leave_evenly(path, point, down ? -point.normal : point.normal, towards);
         path.origin = beside(point, path.direction);
     }
-    bool is_behind = as_drawn() && down && path.turns > 0u; // a drawn picture has no light from there
-    if (!is_light(path.through) || (is_behind && path.phase == GOING))
+    if (!is_light(path.through))
         path.phase = ENDED;
 }
 

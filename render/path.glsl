@@ -236,8 +236,22 @@ void find_differentials(Corner a, Corner b, Corner c, vec3 facet, vec3 direction
     dy_texcoord = texcoord * weights[1];
 }
 
-// The part of the cone around the normal that nothing closes up to `limit`; `angle`: half of the cone's, in degrees. Rays are cosine-weighted:
-// Pharr, Jakob, Humphreys, "Physically Based Rendering", section A.5.3, with the sine of the cone as the radius of the disk.
+// Axes whose last one is z.
+mat3 frame_of(vec3 z)
+{
+    vec3 x = normalize(abs(z.x) > 0.5 ? vec3(-z.z, 0.0, z.x) : vec3(0.0, z.z, -z.y));
+    return mat3(x, cross(z, x), z);
+}
+
+// A direction in a cone around z with a density like its cosine; `radius`: the sine of half the cone's angle (Pharr, Jakob, Humphreys,
+// "Physically Based Rendering", section A.5.3, with a smaller disk).
+vec3 draw_cosine(mat3 frame, float radius, vec2 xi)
+{
+    float square = radius * radius * xi.x, turn = 2.0 * PI * xi.y;
+    return frame * vec3(sqrt(square) * cos(turn), sqrt(square) * sin(turn), sqrt(1.0 - square));
+}
+
+// The part of the cone around the normal that nothing closes up to `limit`; `angle`: half of the cone's, in degrees.
 float trace_occlusion(vec3 normal, vec3 view, float angle, float limit)
 {
     const int RAYS = 16;
@@ -245,15 +259,14 @@ float trace_occlusion(vec3 normal, vec3 view, float angle, float limit)
          c = corners[met.triangle * 3u + 2u].position_s.xyz;
     vec3 n = dot(normal, view) < 0.0 ? -normal : normal, facet = cross(b - a, c - a);
     facet = normalize(dot(facet, n) < 0.0 ? -facet : facet);
-    vec3 x = normalize(abs(n.x) > 0.5 ? vec3(-n.z, 0.0, n.x) : vec3(0.0, n.z, -n.y)), y = cross(n, x);
+    mat3 frame = frame_of(n);
     vec3 origin = mixed(a, b, c, met.weights) + facet * NEAR;
     float radius = sin(radians(clamp(angle, 0.0, 90.0)));
     int num_open = 0;
     for (int i = 0; i < RAYS; ++i) {
         Hit hit;
         vec4 xi = next_random();
-        float square = radius * radius * (float(i) + xi.x) / float(RAYS), turn = 2.0 * PI * xi.y;
-        vec3 d = sqrt(square) * (cos(turn) * x + sin(turn) * y) + sqrt(1.0 - square) * n;
+        vec3 d = draw_cosine(frame, radius, vec2((float(i) + xi.x) / float(RAYS), xi.y));
         num_open += dot(d, facet) > 0.0 && !find_hit(origin, d, min(limit, FAR), hit) ? 1 : 0;
     }
     return float(num_open) / float(RAYS);

@@ -10,7 +10,8 @@
  *     matter = vec2(level, or below 0 the first one; random number)
  *     a lobe: light from above is reflected by it, or goes on as it came:
  *         out2 = vec4(L, 2 where it goes on);  out3 = vec4(weight, density)
- *     a medium, where the extinction is not 0: the tracer walks through it
+ *     a medium, where the extinction is not 0: the tracer walks through it, and lights it itself:
+ *         out5, out7 = the light of a surface that reflects 1 from everywhere
  *     out9 = vec4(scattering, phase anisotropy), out10 = vec4(extinction, the level below or -1),
  *         both over the thickness
  *     out11 = vec4(what goes straight through the whole pile, the medium above or -1)
@@ -215,38 +216,17 @@ static ir_ref straight(struct closure_scatter *s, const struct closure_level *le
     return where(s, is_medium, attenuation(s, level->extinction, slope), through);
 }
 
-/* straight() of all levels below each one; whole: of the pile. */
-static ir_ref *straight_below(struct closure_scatter *s, ir_ref slope, ir_ref *whole)
+/* The same of the whole pile. */
+static ir_ref straight_through(struct closure_scatter *s)
 {
-    ir_ref *below = new_values(s), product = scatter_grey(s, 1.0f);
-    for (uint32_t i = s->pile->levels.len; i-- > 0;) {
+    ir_ref view = closure_view(s->shader, s->host), product = scatter_grey(s, 1.0f);
+    ir_ref slope = closure_way(s->shader, s->host, view);
+    for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         const struct closure_level *level = level_of(s, i);
-        below[i] = product;
         ir_ref passed = scatter_op2(s, IR_MUL, product, straight(s, level, slope));
         product = where(s, level->is_here, passed, product);
     }
-    *whole = product;
-    return below;
-}
-
-/* The same for light from the back: its viewer looks along it. */
-static ir_ref *from_behind(struct closure_scatter *s, ir_ref direction, ir_ref slope)
-{
-    struct closure_point *point = s->host->point;
-    ir_ref view = closure_view(s->shader, s->host), whole;
-    point->view = ir_op1(s->graph, IR_NEG, direction);
-    ir_ref *below = straight_below(s, slope, &whole);
-    point->view = view;
-    return below;
-}
-
-/* 1 / cos: light that a medium scattered leaves without a bend. */
-static ir_ref steepness(struct closure_scatter *s, ir_ref direction)
-{
-    ir_ref normal = closure_normal(s->shader, s->host);
-    ir_ref cosine = ir_op1(s->graph, IR_ABS, scatter_op2(s, IR_DOT, normal, direction));
-    cosine = scatter_op2(s, IR_MAX, cosine, scatter_number(s, 1e-4f));
-    return scatter_op2(s, IR_DIV, scatter_number(s, 1.0f), cosine);
+    return product;
 }
 
 /* The chances of the lobe and of going on, as sums of light. */
@@ -304,18 +284,14 @@ static ir_ref lobe_response(struct closure_scatter *s, ir_ref leaf, ir_ref direc
 ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid_angle)
 {
     ir_ref *values = new_values(s), black = scatter_grey(s, 0.0f), above = black;
-    ir_ref slope = steepness(s, direction), way = closure_way(s->shader, s->host, direction);
-    ir_ref in_front = scatter_is_in_front(s, direction);
-    const ir_ref *below = from_behind(s, direction, slope);
+    ir_ref way = closure_way(s->shader, s->host, direction);
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         const struct closure_level *level = level_of(s, i);
         ir_ref lobe = lobe_response(s, level->leaf, direction, solid_angle);
         values[i] = scatter_op2(s, IR_MUL, lobe, attenuation(s, above, way));
         if (!level->extinction)
             continue;
-        ir_ref escapes = attenuation(s, above, slope);
-        escapes = where(s, in_front, escapes, below[i]);
-        values[i] = where(s, has_extinction(s, level), escapes, values[i]);
+        values[i] = where(s, has_extinction(s, level), scatter_grey(s, 1.0f), values[i]);
         ir_ref more = scatter_op2(s, IR_ADD, above, level->extinction);
         above = where(s, level->is_here, more, above);
     }
@@ -409,7 +385,7 @@ void matter_sample(struct closure_scatter *s)
 void matter_write(struct closure_scatter *s)
 {
     ir_ref *scattering = new_values(s), *extinction = new_values(s), *anisotropy = new_values(s);
-    ir_ref black = scatter_grey(s, 0.0f), nothing = scatter_number(s, 0.0f), whole;
+    ir_ref black = scatter_grey(s, 0.0f), nothing = scatter_number(s, 0.0f);
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         scattering[i] = level_of(s, i)->scattering;
         extinction[i] = level_of(s, i)->extinction;
@@ -420,8 +396,8 @@ void matter_write(struct closure_scatter *s)
     rgb = at_hand(s, extinction, black);
     a = next_level(s, s->level);
     scatter_write_output(s, STR_out10, rgb, a);
-    ir_ref view = closure_view(s->shader, s->host);
-    straight_below(s, closure_way(s->shader, s->host, view), &whole);
-    scatter_write_output(s, STR_out11, whole, medium_above(s));
+    ir_ref whole = straight_through(s);
+    a = medium_above(s);
+    scatter_write_output(s, STR_out11, whole, a);
     s->shader->transparent |= !ir_const_is(s->graph, whole, 0.0f);
 }

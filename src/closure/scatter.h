@@ -52,8 +52,8 @@ void scatter_write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir
 /* ---- matter.c ---- */
 
 /*
- * The response of the level at hand to light from a direction. solid_angle 0: the light of a point,
- * which no sample finds.
+ * The response of the level at hand to light from a direction; 1 of a medium. solid_angle 0: the
+ * light of a point, which no sample finds.
  */
 ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid_angle);
 /* The emission of the level at hand, and its sample. */
