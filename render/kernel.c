@@ -2,6 +2,7 @@
 /* One shader as a kernel of the path tracer: its source, its inputs, its pipeline. */
 #include "render/trace.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -212,7 +213,7 @@ static bool is_matter(const mxg_result *result)
     return false;
 }
 
-static bool compile(struct kernel *kernel, const struct aovs *aovs)
+static bool compile(struct kernel *kernel, const struct trace_options *options)
 {
     struct source source = {0};
     char line[160];
@@ -223,7 +224,9 @@ static bool compile(struct kernel *kernel, const struct aovs *aovs)
              "layout(set = TRACER_SET, binding = 8, std430) buffer Aovs { vec4 aov_film[]; };\n",
              kernel->inputs.num_sets);
     append(&source, line);
-    append_aovs(&source, kernel->bind->result, aovs);
+    append_aovs(&source, kernel->bind->result, options->aovs);
+    snprintf(line, sizeof line, "#define PICKS %" PRIu32 "u\n", options->picks);
+    append(&source, line);
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
     append(&source, is_matter(kernel->bind->result) ? "#define MATTER\n" : "");
@@ -283,9 +286,9 @@ bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, stru
 }
 
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
-                    uint32_t push_size, const struct aovs *aovs)
+                    uint32_t push_size, const struct trace_options *options)
 {
-    return compile(kernel, aovs) && create_pipeline(gpu, kernel, set_layout, push_size);
+    return compile(kernel, options) && create_pipeline(gpu, kernel, set_layout, push_size);
 }
 
 void kernel_close(struct gpu *gpu, struct kernel *kernel)

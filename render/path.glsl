@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), TRACER_SET
 // and, where they hold, LIGHTS (lights are bound), TRANSPARENT (light may go through) and MATTER (a surface is a pile of matter).
+// PICKS paths in a row differ only in the closure that they pick where they hit first.
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
 // kernel runs.
@@ -272,6 +273,8 @@ float trace_occlusion(vec3 normal, vec3 view, float angle, float limit)
     return float(num_open) / float(RAYS);
 }
 
+uint pick = PICKS; // the part of the numbers that may pick a closure; PICKS: all
+
 // Runs scatter() at the hit.
 Point shade(Hit hit, vec3 direction, vec4 light)
 {
@@ -289,7 +292,9 @@ Point shade(Hit hit, vec3 direction, vec4 light)
     point.normal = dot(moved, direction) > 0.0 ? -moved : moved;
     met = hit;
     to_object = objects[a.object].to_object;
-    fill_vertex_data(rest, normal, tangent, texcoord, -direction, next_random(), light, moved);
+    vec4 random = next_random();
+    random.w = pick < PICKS ? (float(pick) + random.w) / float(PICKS) : random.w;
+    fill_vertex_data(rest, normal, tangent, texcoord, -direction, random, light, moved);
     scatter();
     return point;
 }
@@ -470,7 +475,9 @@ bool follow_ray(inout Path path)
     ++path.hits;
     vec4 towards = draw_environment(next_random());
     at_level = vec2(-1.0, next_random().x);
+    pick = path.turns == 0u ? path.number % PICKS : PICKS;
     Point point = shade(hit, path.direction, towards);
+    pick = PICKS;
     path.through *= pow(path.medium, vec3(hit.distance));
     if (next_random().x >= out1.a) {
         path.origin = point.position + path.direction * NEAR;
@@ -540,7 +547,7 @@ void displace(uint i)
 Path begin(uvec2 pixel, uint number)
 {
     Path path;
-    random_state = uvec4(pixel, number, 0u);
+    random_state = uvec4(pixel, number / PICKS, 0u);
     vec2 at = (vec2(pixel) + next_random().xy) / vec2(camera.frame.xy) * 2.0 - 1.0;
     path.origin = camera.eye.xyz;
     path.direction = normalize(camera.forward.xyz + at.x * camera.right.xyz - at.y * camera.up.xyz);
@@ -577,7 +584,7 @@ void main()
         path = begin(pixel, camera.frame.z);
     else {
         path = paths[index];
-        random_state = uvec4(pixel, path.number, path.random);
+        random_state = uvec4(pixel, path.number / PICKS, path.random);
     }
     vec4 sum = vec4(0.0);
     for (;;) {
