@@ -9,7 +9,7 @@ struct render_options {
     const char *output, *copy, *element, *look, *size, *mesh, *camera, *scene, *background,
         *missing_texture, *baked, *stage, *purpose, *layer_sample;
     struct arg_list settings, environments;
-    size_t samples, frame, frames, paths, bounces;
+    size_t samples, frame, frames, paths, bounces, picks;
     bool path_trace, as_drawn, list;
     const char *show; /* NULL: the materials */
 };
@@ -17,7 +17,7 @@ struct render_options {
 #define RENDER_OPTIONS_DEFAULTS \
     { \
         .mesh = "ball", .scene = "studio", .background = "backdrop", .missing_texture = "error", \
-        .samples = 32, .frame = 33, .paths = 256, .bounces = 32 \
+        .samples = 32, .frame = 33, .paths = 256, .bounces = 32, .picks = 1 \
     }
 
 enum { MAX_RENDER_ARGS = 30 };

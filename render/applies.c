@@ -27,6 +27,7 @@ static const struct {
     {"integrator", FACT_RASTER, "--path-trace selects the integrator"},
     {"paths", FACT_TRACED, "it needs --path-trace"},
     {"bounces", FACT_TRACED, "it needs --path-trace"},
+    {"picks", FACT_TRACED, "it needs --path-trace"},
     {"as-drawn", FACT_TRACED, "it needs --path-trace"},
     {"samples", FACT_SAMPLED,
      "only a raster with --environment importance samples the environment"},

@@ -202,6 +202,7 @@ static bool parse(struct job *job)
         mxg_options_set(job->cli.options, "integrator", "scatter");
         job->painter.trace.paths = (uint32_t)job->options.paths;
         job->painter.trace.bounces = (uint32_t)job->options.bounces;
+        job->painter.trace.picks = (uint32_t)job->options.picks;
         job->painter.trace.as_drawn = job->options.as_drawn;
     }
     job->values = split_settings(&job->options.settings);

@@ -2,6 +2,7 @@
 /* One shader as a kernel of the path tracer: its source, its inputs, its pipeline. */
 #include "render/trace.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,6 +72,7 @@ static const struct {
     {"random", "random"},
     {"lightWorld", "light"},
     {"normalMoved", "moved"},
+    {"matter", "at_level"},
 };
 
 static const char *hit_value(const char *name)
@@ -140,6 +142,7 @@ static void append_fill(struct source *source, const mxg_result *result)
     append(source,
            "vec3 dx_point, dy_point, dx_normal, dy_normal;\nvec2 dx_texcoord, dy_texcoord;\n"
            "mat4 to_object; // of the object at the hit\n"
+           "vec2 at_level;  // of matter, and the number that picks what is there\n"
            "vec4 hit_value(uint i);\n"
            "float trace_occlusion(vec3 normal, vec3 view, float angle, float limit);\n\n");
     append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, "
@@ -209,13 +212,12 @@ static void append_keep_aovs(struct source *source, const mxg_result *result,
         if (aovs_find(&aovs->items[i], result, AOVS_VALUE, &variable))
             append_value(source, &aovs->items[i], i, &variable);
         for (size_t k = 0; aovs_is_scattered(&aovs->items[i]) && k < num_parts; ++k, ++at) {
-            if (!aovs_find(&aovs->items[i], result, parts[k].output, &variable))
-                continue;
+            bool is_there = aovs_find(&aovs->items[i], result, parts[k].output, &variable);
             snprintf(line, sizeof line,
                      "    kept = %s%s;\n    kept = is_light(kept) ? kept : vec3(0.0);\n"
                      "    aov_film[at + %zu] = vec4(kept, 0.0);\n"
                      "    most[%zu] = max(most[%zu], kept);\n",
-                     variable.name, parts[k].factor, at, k, k);
+                     is_there ? variable.name : "vec3(0.0)", parts[k].factor, at, k, k);
             append(source, line);
         }
     }
@@ -249,7 +251,19 @@ static void append_aovs(struct source *source, const mxg_result *result, const s
     append_light_aovs(source, aovs);
 }
 
-static bool compile(struct kernel *kernel, const struct aovs *aovs)
+/* True if the surface is a pile of matter, through which light walks at random. */
+static bool is_matter(const mxg_result *result)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        if (variable.block == MXG_BLOCK_OUTPUTS && strcmp(variable.name, "out9") == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool compile(struct kernel *kernel, const struct trace_options *options)
 {
     struct source source = {0};
     char line[160];
@@ -260,9 +274,12 @@ static bool compile(struct kernel *kernel, const struct aovs *aovs)
              "layout(set = TRACER_SET, binding = 8, std430) buffer Aovs { vec4 aov_film[]; };\n",
              kernel->inputs.num_sets);
     append(&source, line);
-    append_aovs(&source, kernel->bind->result, aovs);
+    append_aovs(&source, kernel->bind->result, options->aovs);
+    snprintf(line, sizeof line, "#define PICKS %" PRIu32 "u\n", options->picks);
+    append(&source, line);
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
+    append(&source, is_matter(kernel->bind->result) ? "#define MATTER\n" : "");
     append(&source, kernel->info.displaced ? "#define DISPLACED\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
@@ -319,9 +336,9 @@ bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, stru
 }
 
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
-                    uint32_t push_size, const struct aovs *aovs)
+                    uint32_t push_size, const struct trace_options *options)
 {
-    return compile(kernel, aovs) && create_pipeline(gpu, kernel, set_layout, push_size);
+    return compile(kernel, options) && create_pipeline(gpu, kernel, set_layout, push_size);
 }
 
 void kernel_close(struct gpu *gpu, struct kernel *kernel)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), light_aovs(),
-// TRACER_SET and, where they hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
+// TRACER_SET and, where they hold, LIGHTS (lights are bound), TRANSPARENT (light may go through) and MATTER (a surface is a pile of matter).
+// PICKS paths in a row differ only in the closure that they pick where they hit first.
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
 // kernel runs.
@@ -12,7 +13,8 @@ struct Node { vec3 low; uint first; vec3 high; uint count; };
 struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
 struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
 struct Hit { float distance; uint triangle; vec2 weights; };
-struct Shadow { vec3 origin; float limit; vec3 direction; uint hits; vec3 light; uint of; }; // a ray to a light, and what it brings
+// A ray to a light, and what it brings; through: what surfaces on the way to the eye and to the light let through of that.
+struct Shadow { vec3 origin; float limit; vec3 direction; uint hits; vec3 light; uint of; vec3 through; };
 struct Path {
     vec3 origin; float density;
     vec3 direction; uint turns;
@@ -21,6 +23,7 @@ struct Path {
     vec3 light; uint phase;                         // that later hits send to the first one, which sends `weight` of it to the eye
     vec3 weight, seen;                              // seen: what the first hit sends to the eye else
     Hit hit;                                        // of a path that waits
+    Hit place; vec2 matter; float depth; uint goes; // of a path in matter: where, its level, of the level's thickness, and how
     uint waits_for, number, random, waits;          // number of the sample
     Shadow shadows[2];
 };
@@ -201,7 +204,7 @@ vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 weights)
     return a * (1.0 - weights.x - weights.y) + b * weights.x + c * weights.y;
 }
 
-struct Point { vec3 position, facet; };
+struct Point { vec3 position, facet, normal; };
 
 vec3 beside(Point point, vec3 direction)
 {
@@ -237,8 +240,22 @@ void find_differentials(Corner a, Corner b, Corner c, vec3 facet, vec3 direction
     dy_texcoord = texcoord * weights[1];
 }
 
-// The part of the cone around the normal that nothing closes up to `limit`; `angle`: half of the cone's, in degrees. Rays are cosine-weighted:
-// Pharr, Jakob, Humphreys, "Physically Based Rendering", section A.5.3, with the sine of the cone as the radius of the disk.
+// Axes whose last one is z.
+mat3 frame_of(vec3 z)
+{
+    vec3 x = normalize(abs(z.x) > 0.5 ? vec3(-z.z, 0.0, z.x) : vec3(0.0, z.z, -z.y));
+    return mat3(x, cross(z, x), z);
+}
+
+// A direction in a cone around z with a density like its cosine; `radius`: the sine of half the cone's angle (Pharr, Jakob, Humphreys,
+// "Physically Based Rendering", section A.5.3, with a smaller disk).
+vec3 draw_cosine(mat3 frame, float radius, vec2 xi)
+{
+    float square = radius * radius * xi.x, turn = 2.0 * PI * xi.y;
+    return frame * vec3(sqrt(square) * cos(turn), sqrt(square) * sin(turn), sqrt(1.0 - square));
+}
+
+// The part of the cone around the normal that nothing closes up to `limit`; `angle`: half of the cone's, in degrees.
 float trace_occlusion(vec3 normal, vec3 view, float angle, float limit)
 {
     const int RAYS = 16;
@@ -246,19 +263,20 @@ float trace_occlusion(vec3 normal, vec3 view, float angle, float limit)
          c = corners[met.triangle * 3u + 2u].position_s.xyz;
     vec3 n = dot(normal, view) < 0.0 ? -normal : normal, facet = cross(b - a, c - a);
     facet = normalize(dot(facet, n) < 0.0 ? -facet : facet);
-    vec3 x = normalize(abs(n.x) > 0.5 ? vec3(-n.z, 0.0, n.x) : vec3(0.0, n.z, -n.y)), y = cross(n, x);
+    mat3 frame = frame_of(n);
     vec3 origin = mixed(a, b, c, met.weights) + facet * NEAR;
     float radius = sin(radians(clamp(angle, 0.0, 90.0)));
     int num_open = 0;
     for (int i = 0; i < RAYS; ++i) {
         Hit hit;
         vec4 xi = next_random();
-        float square = radius * radius * (float(i) + xi.x) / float(RAYS), turn = 2.0 * PI * xi.y;
-        vec3 d = sqrt(square) * (cos(turn) * x + sin(turn) * y) + sqrt(1.0 - square) * n;
+        vec3 d = draw_cosine(frame, radius, vec2((float(i) + xi.x) / float(RAYS), xi.y));
         num_open += dot(d, facet) > 0.0 && !find_hit(origin, d, min(limit, FAR), hit) ? 1 : 0;
     }
     return float(num_open) / float(RAYS);
 }
+
+uint pick = PICKS; // the part of the numbers that may pick a closure; PICKS: all
 
 // Runs scatter() at the hit.
 Point shade(Hit hit, vec3 direction, vec4 light)
@@ -274,9 +292,12 @@ Point shade(Hit hit, vec3 direction, vec4 light)
     vec3 rest = mixed(a.rest.xyz, b.rest.xyz, c.rest.xyz, hit.weights);
     vec3 moved = normalize(mixed(a.moved.xyz, b.moved.xyz, c.moved.xyz, hit.weights));
     find_differentials(a, b, c, point.facet, direction, hit.distance * length(camera.right.xyz) / float(camera.frame.x));
+    point.normal = dot(moved, direction) > 0.0 ? -moved : moved;
     met = hit;
     to_object = objects[a.object].to_object;
-    fill_vertex_data(rest, normal, tangent, texcoord, -direction, next_random(), light, moved);
+    vec4 random = next_random();
+    random.w = pick < PICKS ? (float(pick) + random.w) / float(PICKS) : random.w;
+    fill_vertex_data(rest, normal, tangent, texcoord, -direction, random, light, moved);
     scatter();
     return point;
 }
@@ -292,13 +313,13 @@ bool is_light(vec3 color)
 // Where light goes: to the first hit from the path, the environment, a bound light; or to a later one.
 const uint BY_PATH = 0u, BY_ENVIRONMENT = 1u, BY_LIGHT = 2u, LATER = 3u;
 
-void receive(inout Path path, vec3 light, uint of)
+void receive(inout Path path, vec3 light, uint of, vec3 through)
 {
     if (of == LATER)
-        path.light += light;
+        path.light += through * light;
     else {
-        path.seen += light;
-        light_aovs(pixel_number(), of, vec3(1.0));
+        path.seen += through * light;
+        light_aovs(pixel_number(), of, through);
     }
 }
 
@@ -306,22 +327,21 @@ void receive(inout Path path, vec3 light, uint of)
 void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 light, uint of)
 {
     if (as_drawn()) // it has no shadows
-        receive(path, light, of);
+        receive(path, light, of, path.through);
     else
-        path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, light, of);
+        path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, light, of, path.through);
 }
 
 // Light that lights send to the point where scatter() has run, and that goes on from there. `arrives`: that the environment sends;
 // `most`: the most that AOVs take of it.
 void gather(inout Path path, Point point, vec3 direction, vec3 arrives, mat3 most, bool is_first)
 {
-    vec3 around = path.through * out5.rgb * arrives;
+    vec3 around = out5.rgb * arrives;
     if (is_light(max(around, most[BY_ENVIRONMENT])))
         add_light(path, point, direction, FAR, around, is_first ? BY_ENVIRONMENT : LATER);
 #ifdef LIGHTS
-    vec3 lit = path.through * out7.rgb;
-    if (is_light(max(lit, most[BY_LIGHT])))
-        add_light(path, point, out6.xyz, min(out6.w, FAR), lit, is_first ? BY_LIGHT : LATER);
+    if (is_light(max(out7.rgb, most[BY_LIGHT])))
+        add_light(path, point, out6.xyz, min(out6.w, FAR), out7.rgb, is_first ? BY_LIGHT : LATER);
 #endif
 }
 
@@ -358,6 +378,16 @@ bool wait(inout Path path, Hit hit)
     return false;
 }
 
+// What goes through a surface as it comes, where scatter() has run.
+vec3 goes_straight()
+{
+#ifdef MATTER
+    return out11.rgb;
+#else
+    return vec3(0.0);
+#endif
+}
+
 // Follows the ray to a light to its end, or false where it has to wait.
 bool follow_shadow(inout Path path)
 {
@@ -366,7 +396,7 @@ bool follow_shadow(inout Path path)
     for (; ray.hits < uint(MAX_HITS); ++ray.hits) {
         int what = meet(path, ray.origin, ray.direction, ray.limit, hit);
         if (what == NOTHING) {
-            receive(path, ray.light, ray.of);
+            receive(path, ray.light, ray.of, ray.through);
             break;
         }
         if (objects[corners[hit.triangle * 3u].object].blocks_light != 0u)
@@ -376,9 +406,12 @@ bool follow_shadow(inout Path path)
             return wait(path, hit);
         }
 #ifdef TRANSPARENT
+        at_level = vec2(-1.0, next_random().x);
         ray.origin = shade(hit, ray.direction, vec4(0.0)).position + ray.direction * NEAR;
         ray.limit -= hit.distance;
         if (next_random().x < out1.a)
+            ray.through *= goes_straight();
+        if (!is_light(ray.through))
             break;
 #endif
     }
@@ -386,8 +419,33 @@ bool follow_shadow(inout Path path)
     return true;
 }
 
-// What a path does next. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole.
-const uint GOING = 0u, CROSSING = 1u, ENDED = 2u;
+// What a path does next. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole. IN_MATTER: it
+// goes through a pile of matter on a surface.
+const uint GOING = 0u, CROSSING = 1u, ENDED = 2u, IN_MATTER = 3u;
+
+// Returns the most that AOVs take of light that comes to the first hit: `arrives` of it from the environment.
+mat3 count_turn(inout Path path, vec3 arrives)
+{
+    return path.turns++ == 0u ? keep_aovs(pixel_number(), path.number == 0u, arrives) : mat3(0.0);
+}
+
+#ifdef MATTER
+void enter_matter(inout Path path, Hit hit, Point point, vec4 towards); // matter.glsl
+void go_on_in_matter(inout Path path);
+#endif
+
+// The next level of a pile; false where the path has to wait.
+bool follow_matter(inout Path path)
+{
+    path.waits_for = objects[corners[path.place.triangle * 3u].object].shader;
+    if (path.waits_for != uint(camera.environment[1].w))
+        return wait(path, path.place);
+    path.waits = 0u;
+#ifdef MATTER
+    go_on_in_matter(path);
+#endif
+    return true;
+}
 
 // Where a path goes that has met a surface.
 void bounce(inout Path path, Point point, vec4 towards)
@@ -395,13 +453,12 @@ void bounce(inout Path path, Point point, vec4 towards)
     bool is_first = path.turns == 0u;
     vec4 next = out2, weight = out3;
     vec3 inside = out4.rgb, arrives = towards.w * environment(towards.xyz);
-    mat3 most = mat3(0.0);
-    if (is_first) {
-        path.seen = out1.rgb;
-        most = keep_aovs(pixel_number(), path.number == 0u, arrives);
+    if (is_first) { // what it has so far comes from matter before this surface
+        path.seen = path.weight * path.light + path.through * out1.rgb;
+        path.light = vec3(0.0);
     } else
         path.light += path.through * out1.rgb;
-    ++path.turns;
+    mat3 most = count_turn(path, arrives);
     gather(path, point, towards.xyz, arrives, most, is_first);
     if (is_first)
         path.weight = is_light(weight.rgb) ? weight.rgb : vec3(0.0);
@@ -441,12 +498,20 @@ bool follow_ray(inout Path path)
         return true;
     ++path.hits;
     vec4 towards = draw_environment(next_random());
+    at_level = vec2(-1.0, next_random().x);
+    pick = path.turns == 0u ? path.number % PICKS : PICKS;
     Point point = shade(hit, path.direction, towards);
+    pick = PICKS;
     path.through *= pow(path.medium, vec3(hit.distance));
-    if (next_random().x >= out1.a)
+    if (next_random().x >= out1.a) {
         path.origin = point.position + path.direction * NEAR;
-    else
-        bounce(path, point, towards);
+        return true;
+    }
+#ifdef MATTER
+    enter_matter(path, hit, point, towards);
+#else
+    bounce(path, point, towards);
+#endif
     return true;
 }
 
@@ -478,6 +543,8 @@ bool follow(inout Path path)
             goes = follow_shadow(path);
         if (goes && path.phase == CROSSING)
             goes = cross_solid(path);
+        else if (goes && path.phase == IN_MATTER)
+            goes = follow_matter(path);
         else if (goes && path.phase == GOING)
             goes = follow_ray(path);
     }
@@ -504,7 +571,7 @@ void displace(uint i)
 Path begin(uvec2 pixel, uint number)
 {
     Path path;
-    random_state = uvec4(pixel, number, 0u);
+    random_state = uvec4(pixel, number / PICKS, 0u);
     vec2 at = (vec2(pixel) + next_random().xy) / vec2(camera.frame.xy) * 2.0 - 1.0;
     path.origin = camera.eye.xyz;
     path.direction = normalize(camera.forward.xyz + at.x * camera.right.xyz - at.y * camera.up.xyz);
@@ -541,7 +608,7 @@ void main()
         path = begin(pixel, camera.frame.z);
     else {
         path = paths[index];
-        random_state = uvec4(pixel, path.number, path.random);
+        random_state = uvec4(pixel, path.number / PICKS, path.random);
     }
     vec4 sum = vec4(0.0);
     for (;;) {
@@ -549,7 +616,8 @@ void main()
             atomicAdd(waiting[path.waits_for], 1u);
             break;
         }
-        sum += vec4(path.seen + path.weight * path.light, path.turns > 0u ? 1.0 : 0.0);
+        float covered = path.turns > 0u ? 1.0 : 1.0 - dot(path.through, vec3(1.0 / 3.0)); // but for what goes straight on
+        sum += vec4(path.seen + path.weight * path.light, covered);
         if (path.turns > 0u)
             light_aovs(index, BY_PATH, path.light);
         if (path.number + 1u == end)

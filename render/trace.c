@@ -24,7 +24,7 @@ enum {
     NUM_BINDINGS = NUM_BUFFERS + 1,
     GROUP = 8,
     SAMPLES_AT_ONCE = 16,
-    PATH_SIZE = 240
+    PATH_SIZE = 304
 };
 
 struct camera { /* layout as in path.glsl */
@@ -345,7 +345,7 @@ static bool open_kernels(struct tracer *tracer, struct bind *const *binds, size_
     for (size_t i = 0; i < count; ++i) {
         *out_failed = i;
         if (!kernel_compile(tracer->gpu, &tracer->kernels[i], tracer->set_layout,
-                            sizeof(struct camera), tracer->options->aovs))
+                            sizeof(struct camera), tracer->options))
             return false;
     }
     *out_failed = 0;
@@ -390,7 +390,7 @@ bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count, uin
                             .kernels = calloc(count, sizeof *tracer.kernels),
                             .width = width,
                             .height = height};
-    uint32_t samples = options->paths;
+    uint32_t samples = options->paths * options->picks;
     *out_failed = 0;
     bool good = tracer.kernels && open_kernels(&tracer, binds, count, out_failed)
                 && (!is_displaced(&tracer) || displace(&tracer));

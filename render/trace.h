@@ -8,12 +8,14 @@
 #include "render/inputs.h"
 #include "compile/compile.h"
 
-/* path.glsl, as lines in pieces; ends with NULL. */
+/* path.glsl and matter.glsl, as lines in pieces; ends with NULL. */
 extern const char *const trace_source[];
 
 struct trace_options {
     uint32_t paths;   /* per pixel */
     uint32_t bounces; /* maximum number of bounces */
+    /* of a closure, for each path where it hits first: with equal random numbers, but evenly */
+    uint32_t picks;
     bool dark;        /* no light from the environment */
     /*
      * one bounce without shadows; a path that enters a solid leaves it at the other side without
@@ -45,9 +47,9 @@ struct kernel {
 };
 /* Binds the shader and finds its numbers: from `first_shader` on. false: see bind->reason. */
 bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, struct kernel *out);
-/* Compiles it; the tracer's set comes after the sets of the shader. aovs may be NULL. */
+/* Compiles it; the tracer's set comes after the sets of the shader. */
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
-                    uint32_t push_size, const struct aovs *aovs);
+                    uint32_t push_size, const struct trace_options *options);
 void kernel_close(struct gpu *gpu, struct kernel *kernel);
 /*
  * The values that the shader reads from an object (hit_value() in path.glsl): for each attribute

@@ -264,6 +264,32 @@ float mx_slab_medium_bsdf_way(vec3 color, float roughness, vec3 mean_free_path, 
     return MX_MEAN_WAY;
 }
 
+// Coefficients over the thickness, for light that walks through the medium at random; 0 where it is opaque. g by similarity, see
+// mx_medium_depth.
+vec3 mx_slab_medium_bsdf_scattering(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                                    vec3 N)
+{
+    if (mx_is_black(mean_free_path) || mx_is_black(color))
+        return vec3(0.0);
+    vec3 loss = mx_medium_loss(color);
+    return max(thickness, 0.0) / max(mean_free_path, 1e-6) * (1.0 - loss * loss) / (1.0 - clamp(phase_anisotropy, -0.95, 0.95) * loss * loss);
+}
+
+vec3 mx_slab_medium_bsdf_absorption(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                                    vec3 N)
+{
+    if (mx_is_black(mean_free_path))
+        return vec3(0.0);
+    return max(thickness, 0.0) / max(mean_free_path, 1e-6)
+         - mx_slab_medium_bsdf_scattering(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N);
+}
+
+float mx_slab_medium_bsdf_anisotropy(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                                     vec3 N)
+{
+    return clamp(phase_anisotropy, -0.95, 0.95);
+}
+
 // ---- slab_reflection_bsdf --------------------------------------------------------------------------------------------
 // GGX with Schlick's curve, as generalized_schlick_bsdf. What it does not reflect goes through channel by channel, so that nothing is gained.
 // Glints change what a direction gets, not the mean, so albedo, environment of rasters, samples and their densities are those of countless

@@ -94,6 +94,7 @@ ir_ref closure_operator_throughput(struct ir_graph *graph, ir_ref operator_, ir_
 struct closure_scatter;
 struct closure_scatter_layer {
     struct closure_list list;
+    const struct closure_pile *pile; /* takes the place of the list; NULL: none */
     ir_ref emission; /* 0: black */
     ir_ref alpha;    /* that the list and the emission have, but the tracer applies; 0: none */
     ir_ref is_it;    /* a bool: this layer is picked; 0: always */
@@ -110,6 +111,23 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
 void closure_scatter_end(struct closure_scatter *s, ir_ref alpha);
 /* A random number from 0 to below alpha. */
 ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha);
+
+/* matter.c: the leaves of a closure as levels from above, which light goes through at random. */
+struct closure_level {
+    ir_ref leaf;
+    ir_ref is_here; /* a bool, by random; 0: always */
+    /* of a medium: vec3, over its thickness, and a float. 0: the leaf is none */
+    ir_ref scattering, extinction, anisotropy;
+};
+struct closure_pile {
+    VEC(struct closure_level) levels;
+};
+/*
+ * False: no level is a medium that light walks through, or the closure is more than layers and
+ * mixes of lobes that reflect. is_seen_through: clear media count, too.
+ */
+bool closure_find_pile(struct shader *shader, const struct closure_host *host, ir_ref root,
+                       bool is_seen_through, struct closure_pile *out);
 
 /* volume.c: a volume behind the shaded point. */
 struct closure_volume {

@@ -55,7 +55,7 @@ void emitter_pick_layer(struct emitter *e, ir_ref slots);
 
 /* ---- surface.c ---- */
 
-/* The leaves, the emission and the AOVs of a surface, for path tracers. */
+/* The leaves, the emission and the AOVs of a surface, for path tracers. A pile stays as it is. */
 void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
                              struct closure_scatter_layer *out);
 /*

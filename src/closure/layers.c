@@ -56,6 +56,7 @@ void emitter_scatter_stack(struct emitter *e, ir_ref slots)
     struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
     for (uint32_t i = 0; i < choices.items.len; i++) {
         const struct closure_choice *choice = &choices.items.items[i];
+        layer.pile = NULL;
         emitter_find_scattering(e, &choice->layer, &layer);
         layer.is_it = choice->is_it;
         layer.chance =

@@ -32,85 +32,48 @@
  * of the light's direction, and 0 for a point light. Light that enters a solid meets the other side
  * of the solid first, so lights do not shine through it: there density is 0 and out5 black.
  */
-#include "closure/closure_priv.h"
+#include "closure/scatter.h"
 
 #include <assert.h>
 
-/* A leaf of a part or of several. */
-struct scattering {
-    ir_ref leaf;
-    ir_ref share;                   /* p; 0: never picked */
-    const struct closure_leaf **in; /* by part, with its weight there; NULL: absent */
-};
-
-/* Light that leaves the surface: that of the whole surface, or of the BSDF of an AOV. */
-struct part {
-    const struct closure_list *list; /* of the layer at hand */
-    uint32_t aov;                    /* number of the AOV, unless it is the first part */
-    uint32_t weight;                 /* a local: the weight of the sample */
-    uint32_t seen_local, lit_local;  /* of a stack: locals for what the picked layer gives */
-    ir_ref lit;                      /* what one of the lights gives */
-};
-
-struct closure_scatter {
-    struct shader *shader;
-    struct ir_graph *graph;
-    const struct closure_host *host;
-    const struct closure_lighting *lighting;
-    struct part *parts; /* the first is the surface */
-    uint32_t num_parts;
-    VEC(struct scattering) leaves;                        /* of all parts of the layer at hand */
-    uint32_t pick, direction, is_inside, density, medium; /* locals */
-    ir_ref total;
-    /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
-    ir_ref scale;
-    struct closure_copies copies; /* of the layer, whose light loop is its own */
-    /* of a stack: locals for what the picked layer gives; of a surface: what it gives */
-    bool is_stack, has_layer;
-    uint32_t emission_local, to_light, away;
-    uint32_t *aov_locals; /* by number of the AOV */
-    struct closure_aovs aovs;
-    ir_ref emission;
-};
-
-static void effect(struct closure_scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
+void scatter_effect(struct closure_scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
 {
     value = closure_in_loop(&s->copies, value);
     shader_effect(s->shader, STAGE_PIXEL,
                   (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
-static uint32_t local(struct closure_scatter *s, str_id name, ir_ref value)
+uint32_t scatter_local(struct closure_scatter *s, str_id name, ir_ref value)
 {
     uint32_t index = shader_add_local(s->shader, name, ir_type_of(s->graph, value));
-    effect(s, EFFECT_VAR, index, value);
+    scatter_effect(s, EFFECT_VAR, index, value);
     return index;
 }
 
-static ir_ref read(struct closure_scatter *s, uint32_t index)
+ir_ref scatter_read(struct closure_scatter *s, uint32_t index)
 {
     assert(index < s->shader->locals.len);
     return ir_build(s->graph, IR_LOCAL, s->shader->locals.items[index].type, index, NULL, 0);
 }
 
-static ir_ref number(struct closure_scatter *s, float value)
+ir_ref scatter_number(struct closure_scatter *s, float value)
 {
     return ir_const_float(s->graph, value);
 }
 
-static ir_ref grey(struct closure_scatter *s, float value)
+ir_ref scatter_grey(struct closure_scatter *s, float value)
 {
     return ir_const_splat(s->graph, IR_TYPE_VEC3, value);
 }
 
-static ir_ref op2(struct closure_scatter *s, enum ir_op op, ir_ref a, ir_ref b)
+ir_ref scatter_op2(struct closure_scatter *s, enum ir_op op, ir_ref a, ir_ref b)
 {
     return ir_op2(s->graph, op, a, b);
 }
 
-static ir_ref mean_of(struct closure_scatter *s, ir_ref color)
+ir_ref scatter_mean_of(struct closure_scatter *s, ir_ref color)
 {
-    return op2(s, IR_DOT, color, grey(s, 1.0f / 3.0f));
+    return scatter_op2(s, IR_DOT, color, scatter_grey(s, 1.0f / 3.0f));
 }
 
 /* The weight for light on a way through the media above. */
@@ -132,7 +95,7 @@ static bool has(const struct closure_scatter *s, ir_ref leaf, enum leaf_function
     return closure_has(s->shader, s->host, leaf, which);
 }
 
-static bool refracts(struct closure_scatter *s, ir_ref leaf)
+bool scatter_refracts(struct closure_scatter *s, ir_ref leaf)
 {
     ir_ref any = closure_view(s->shader, s->host);
     ir_ref refraction = has(s, leaf, LEAF_REFRACTION)
@@ -150,21 +113,24 @@ static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *lea
 {
     struct ir_graph *g = s->graph;
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
-           light = weight_along(s, leaf, number(s, CLOSURE_MEAN_WAY));
-    if (albedo && !refracts(s, leaf->leaf)) {
-        albedo = op2(s, IR_MUL, grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
-        light = op2(s, IR_MUL, light, op2(s, IR_ADD, grey(s, 0.1f), albedo));
+           light = weight_along(s, leaf, scatter_number(s, CLOSURE_MEAN_WAY));
+    if (albedo && !scatter_refracts(s, leaf->leaf)) {
+        albedo = scatter_op2(s, IR_MUL, scatter_grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
+        light =
+            scatter_op2(s, IR_MUL, light, scatter_op2(s, IR_ADD, scatter_grey(s, 0.1f), albedo));
     }
     assert(ir_type_of(g, light) == IR_TYPE_VEC3);
-    return op2(s, IR_MAX, mean_of(s, light), number(s, 0.0f));
+    return scatter_op2(s, IR_MAX, scatter_mean_of(s, light), scatter_number(s, 0.0f));
 }
 
 /* True if the light from L comes from the visible side. */
-static ir_ref is_in_front(struct closure_scatter *s, ir_ref direction)
+ir_ref scatter_is_in_front(struct closure_scatter *s, ir_ref direction)
 {
     ir_ref normal = closure_normal(s->shader, s->host), view = closure_view(s->shader, s->host);
-    ir_ref of_view = op2(s, IR_DOT, normal, view), of_light = op2(s, IR_DOT, normal, direction);
-    return op2(s, IR_GT, op2(s, IR_MUL, of_view, of_light), number(s, 0.0f));
+    ir_ref of_view = scatter_op2(s, IR_DOT, normal, view),
+           of_light = scatter_op2(s, IR_DOT, normal, direction);
+    return scatter_op2(s, IR_GT, scatter_op2(s, IR_MUL, of_view, of_light),
+                       scatter_number(s, 0.0f));
 }
 
 /* The medium behind a leaf, of the first part that has one; 0: none. */
@@ -183,34 +149,37 @@ static void weigh(struct closure_scatter *s, const struct scattering *leaf, ir_r
     for (uint32_t p = 0; p < s->num_parts; p++) {
         if (!leaf->in[p])
             continue;
-        ir_ref weight = op2(s, IR_MUL, weight_from(s, leaf->in[p], direction), response);
-        weight = op2(s, IR_MUL, weight, op2(s, IR_DIV, s->total, leaf->share));
-        effect(s, EFFECT_ASSIGN, s->parts[p].weight, weight);
+        ir_ref weight = scatter_op2(s, IR_MUL, weight_from(s, leaf->in[p], direction), response);
+        weight = scatter_op2(s, IR_MUL, weight, scatter_op2(s, IR_DIV, s->total, leaf->share));
+        scatter_effect(s, EFFECT_ASSIGN, s->parts[p].weight, weight);
     }
 }
 
 static void sample(struct closure_scatter *s, const struct scattering *leaf)
 {
     struct ir_graph *g = s->graph;
-    ir_ref pick = read(s, s->pick), nothing = number(s, 0.0f), one = number(s, 1.0f);
-    ir_ref is_it = op2(s, IR_GE, pick, nothing);
-    is_it = op2(s, IR_LAND, is_it, op2(s, IR_LT, pick, leaf->share));
+    ir_ref pick = scatter_read(s, s->pick), nothing = scatter_number(s, 0.0f),
+           one = scatter_number(s, 1.0f);
+    ir_ref is_it = scatter_op2(s, IR_GE, pick, nothing);
+    is_it = scatter_op2(s, IR_LAND, is_it, scatter_op2(s, IR_LT, pick, leaf->share));
     ir_ref results[3]; /* direction, f cos / pdf, pdf */
     closure_call_all(s->shader, s->host, leaf->leaf, LEAF_SAMPLE, NULL, results);
-    effect(s, EFFECT_IF, 0, is_it);
-    effect(s, EFFECT_ASSIGN, s->direction, results[0]);
+    scatter_effect(s, EFFECT_IF, 0, is_it);
+    scatter_effect(s, EFFECT_ASSIGN, s->direction, results[0]);
     weigh(s, leaf, results[0], results[1]);
-    ir_ref density = op2(s, IR_MUL, results[2], op2(s, IR_DIV, leaf->share, s->total));
+    ir_ref density =
+        scatter_op2(s, IR_MUL, results[2], scatter_op2(s, IR_DIV, leaf->share, s->total));
     if (has(s, leaf->leaf, LEAF_REFRACTION)) {
-        ir_ref in_front = is_in_front(s, results[0]), medium = medium_of(s, leaf);
+        ir_ref in_front = scatter_is_in_front(s, results[0]), medium = medium_of(s, leaf);
         density = ir_op3(g, IR_SELECT, in_front, density, nothing);
-        effect(s, EFFECT_ASSIGN, s->is_inside, ir_op3(g, IR_SELECT, in_front, nothing, one));
+        scatter_effect(s, EFFECT_ASSIGN, s->is_inside,
+                       ir_op3(g, IR_SELECT, in_front, nothing, one));
         if (medium)
-            effect(s, EFFECT_ASSIGN, s->medium, ir_convert(g, IR_TYPE_VEC3, medium));
+            scatter_effect(s, EFFECT_ASSIGN, s->medium, ir_convert(g, IR_TYPE_VEC3, medium));
     }
-    effect(s, EFFECT_ASSIGN, s->density, density);
-    effect(s, EFFECT_END, 0, 0);
-    effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(g, IR_NEG, leaf->share));
+    scatter_effect(s, EFFECT_ASSIGN, s->density, density);
+    scatter_effect(s, EFFECT_END, 0, 0);
+    scatter_effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(g, IR_NEG, leaf->share));
 }
 
 /* The leaf among those of all parts, new or not. */
@@ -238,36 +207,36 @@ static void find_leaves(struct closure_scatter *s)
 
 static void find_shares(struct closure_scatter *s)
 {
-    s->total = number(s, 0.0f);
+    s->total = scatter_number(s, 0.0f);
     for (uint32_t i = 0; i < s->leaves.len; i++) {
         struct scattering *leaf = &s->leaves.items[i];
         ir_ref share = 0;
         for (uint32_t p = 0; p < s->num_parts && has(s, leaf->leaf, LEAF_SAMPLE); p++) {
             ir_ref more = leaf->in[p] ? share_of(s, leaf->in[p]) : 0;
-            share = share && more ? op2(s, IR_MAX, share, more) : share ? share : more;
+            share = share && more ? scatter_op2(s, IR_MAX, share, more) : share ? share : more;
         }
         if (!share || ir_const_is(s->graph, share, 0.0f))
             continue;
         leaf->share = share;
-        s->total = op2(s, IR_ADD, s->total, share);
+        s->total = scatter_op2(s, IR_ADD, s->total, share);
         shader_add_closure(s->shader, leaf->leaf);
     }
 }
 
-static ir_ref random_number(struct shader *shader)
+ir_ref scatter_random_number(struct shader *shader)
 {
     return ir_component(shader->graph, shader_stream(shader, STR_random, IR_TYPE_VEC4), 3);
 }
 
-static void declare_locals(struct closure_scatter *s, ir_ref pick)
+void scatter_declare_locals(struct closure_scatter *s, ir_ref pick)
 {
-    s->pick = local(s, STR_pick, pick);
-    s->direction = local(s, STR_L, grey(s, 0.0f));
-    s->is_inside = local(s, STR_inside, number(s, 0.0f));
+    s->pick = scatter_local(s, STR_pick, pick);
+    s->direction = scatter_local(s, STR_L, scatter_grey(s, 0.0f));
+    s->is_inside = scatter_local(s, STR_inside, scatter_number(s, 0.0f));
     for (uint32_t p = 0; p < s->num_parts; p++)
-        s->parts[p].weight = local(s, STR_weight, grey(s, 0.0f));
-    s->density = local(s, STR_density, number(s, 0.0f));
-    s->medium = local(s, STR_medium, grey(s, 1.0f));
+        s->parts[p].weight = scatter_local(s, STR_weight, scatter_grey(s, 0.0f));
+    s->density = scatter_local(s, STR_density, scatter_number(s, 0.0f));
+    s->medium = scatter_local(s, STR_medium, scatter_grey(s, 1.0f));
 }
 
 static void sample_leaves(struct closure_scatter *s)
@@ -285,7 +254,9 @@ static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref directio
                        ir_ref solid_angle)
 {
     struct ir_graph *g = s->graph;
-    ir_ref sum = grey(s, 0.0f);
+    ir_ref sum = scatter_grey(s, 0.0f);
+    if (s->pile)
+        return matter_response(s, direction, solid_angle);
     for (uint32_t i = 0; i < s->leaves.len; i++) {
         const struct scattering *leaf = &s->leaves.items[i];
         if (!leaf->in[part])
@@ -294,25 +265,28 @@ static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref directio
         if (!value || !leaf->share)
             continue;
         value = ir_convert(g, IR_TYPE_VEC3, value);
-        value = op2(s, IR_MUL, value, weight_from(s, leaf->in[part], direction));
+        value = scatter_op2(s, IR_MUL, value, weight_from(s, leaf->in[part], direction));
         if (solid_angle) {
             ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
-            density = op2(s, IR_MUL, density, op2(s, IR_DIV, leaf->share, s->total));
-            value = op2(s, IR_DIV, value,
-                        op2(s, IR_ADD, number(s, 1.0f), op2(s, IR_MUL, solid_angle, density)));
+            density =
+                scatter_op2(s, IR_MUL, density, scatter_op2(s, IR_DIV, leaf->share, s->total));
+            value = scatter_op2(s, IR_DIV, value,
+                                scatter_op2(s, IR_ADD, scatter_number(s, 1.0f),
+                                            scatter_op2(s, IR_MUL, solid_angle, density)));
         }
         if (has(s, leaf->leaf, LEAF_REFRACTION))
-            value = ir_op3(g, IR_SELECT, is_in_front(s, direction), value, grey(s, 0.0f));
-        sum = op2(s, IR_ADD, sum, value);
+            value = ir_op3(g, IR_SELECT, scatter_is_in_front(s, direction), value,
+                           scatter_grey(s, 0.0f));
+        sum = scatter_op2(s, IR_ADD, sum, value);
     }
     return sum;
 }
 
-static void write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_ref a)
+void scatter_write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_ref a)
 {
     uint32_t out = shader_output(s->shader, name, IR_TYPE_VEC4);
     ir_ref parts[2] = {rgb, a};
-    effect(s, EFFECT_OUTPUT, out, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
+    scatter_effect(s, EFFECT_OUTPUT, out, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
 }
 
 /* The light of each part from one of the lights; returns the mean of the greatest. */
@@ -321,10 +295,10 @@ static ir_ref lit_parts(struct closure_scatter *s, const struct closure_light *l
     ir_ref most = 0;
     for (uint32_t p = 0; p < s->num_parts; p++) {
         ir_ref seen = response(s, p, light->direction, 0);
-        s->parts[p].lit = op2(s, IR_MUL, light->intensity, seen);
-        most = most ? op2(s, IR_MAX, most, s->parts[p].lit) : s->parts[p].lit;
+        s->parts[p].lit = scatter_op2(s, IR_MUL, light->intensity, seen);
+        most = most ? scatter_op2(s, IR_MAX, most, s->parts[p].lit) : s->parts[p].lit;
     }
-    return op2(s, IR_MAX, mean_of(s, most), number(s, 0.0f));
+    return scatter_op2(s, IR_MAX, scatter_mean_of(s, most), scatter_number(s, 0.0f));
 }
 
 /*
@@ -344,52 +318,53 @@ static ir_ref lit_parts(struct closure_scatter *s, const struct closure_light *l
 static void light_up(struct closure_scatter *s)
 {
     struct ir_graph *g = s->graph;
-    ir_ref nothing = number(s, 0.0f), random = random_number(s->shader);
-    uint32_t chance =
-        local(s, STR_chance, ir_op1(g, IR_FRACT, op2(s, IR_MUL, random, number(s, 4096.0f))));
-    uint32_t sum = local(s, STR_sum, nothing);
+    ir_ref nothing = scatter_number(s, 0.0f), random = scatter_random_number(s->shader);
+    uint32_t chance = scatter_local(
+        s, STR_chance,
+        ir_op1(g, IR_FRACT, scatter_op2(s, IR_MUL, random, scatter_number(s, 4096.0f))));
+    uint32_t sum = scatter_local(s, STR_sum, nothing);
     uint32_t *kept = ARENA_ARRAY(s->shader->arena, uint32_t, s->num_parts);
     for (uint32_t p = 0; p < s->num_parts; p++)
-        kept[p] = local(s, STR_light, grey(s, 0.0f));
+        kept[p] = scatter_local(s, STR_light, scatter_grey(s, 0.0f));
     uint32_t to_light = s->to_light, away = s->away;
     if (!s->is_stack) {
-        to_light = s->to_light = local(s, STR_L, grey(s, 0.0f));
-        away = s->away = local(s, STR_distance, nothing);
+        to_light = s->to_light = scatter_local(s, STR_L, scatter_grey(s, 0.0f));
+        away = s->away = scatter_local(s, STR_distance, nothing);
     }
-    effect(s, EFFECT_LIGHTS, 0, 0);
+    scatter_effect(s, EFFECT_LIGHTS, 0, 0);
     struct closure_light light;
     closure_sample_light(s->shader, s->host, &light);
     for (uint32_t i = 0; i < light.choice.len; i++) {
         const struct effect *part = &light.choice.items[i];
-        effect(s, (enum effect_kind)part->kind, part->index, part->value);
+        scatter_effect(s, (enum effect_kind)part->kind, part->index, part->value);
     }
     ir_ref mean = lit_parts(s, &light);
-    effect(s, EFFECT_ACCUMULATE, sum, mean);
-    ir_ref all = read(s, sum), point = op2(s, IR_MUL, read(s, chance), all),
-           is_it = op2(s, IR_LT, point, mean);
-    effect(s, EFFECT_IF, 0, is_it);
-    effect(s, EFFECT_ASSIGN, to_light, light.direction);
-    effect(s, EFFECT_ASSIGN, away, closure_light_distance(s->shader, s->host));
+    scatter_effect(s, EFFECT_ACCUMULATE, sum, mean);
+    ir_ref all = scatter_read(s, sum), point = scatter_op2(s, IR_MUL, scatter_read(s, chance), all),
+           is_it = scatter_op2(s, IR_LT, point, mean);
+    scatter_effect(s, EFFECT_IF, 0, is_it);
+    scatter_effect(s, EFFECT_ASSIGN, to_light, light.direction);
+    scatter_effect(s, EFFECT_ASSIGN, away, closure_light_distance(s->shader, s->host));
     for (uint32_t p = 0; p < s->num_parts; p++)
-        effect(s, EFFECT_ASSIGN, kept[p], op2(s, IR_DIV, s->parts[p].lit, mean));
-    effect(s, EFFECT_END, 0, 0);
-    ir_ref rest = op2(s, IR_SUB, point, mean);
-    rest = op2(s, IR_DIV, rest, op2(s, IR_SUB, read(s, sum), mean));
-    rest = ir_op3(g, IR_SELECT, is_it, op2(s, IR_DIV, point, mean), rest);
-    effect(s, EFFECT_IF, 0, op2(s, IR_GT, mean, nothing));
-    effect(s, EFFECT_ASSIGN, chance, rest);
-    effect(s, EFFECT_END, 0, 0);
-    effect(s, EFFECT_END, 0, 0);
+        scatter_effect(s, EFFECT_ASSIGN, kept[p], scatter_op2(s, IR_DIV, s->parts[p].lit, mean));
+    scatter_effect(s, EFFECT_END, 0, 0);
+    ir_ref rest = scatter_op2(s, IR_SUB, point, mean);
+    rest = scatter_op2(s, IR_DIV, rest, scatter_op2(s, IR_SUB, scatter_read(s, sum), mean));
+    rest = ir_op3(g, IR_SELECT, is_it, scatter_op2(s, IR_DIV, point, mean), rest);
+    scatter_effect(s, EFFECT_IF, 0, scatter_op2(s, IR_GT, mean, nothing));
+    scatter_effect(s, EFFECT_ASSIGN, chance, rest);
+    scatter_effect(s, EFFECT_END, 0, 0);
+    scatter_effect(s, EFFECT_END, 0, 0);
     for (uint32_t p = 0; p < s->num_parts; p++) {
-        ir_ref lit = read(s, kept[p]);
-        s->parts[p].lit = op2(s, IR_MUL, lit, read(s, sum));
+        ir_ref lit = scatter_read(s, kept[p]);
+        s->parts[p].lit = scatter_op2(s, IR_MUL, lit, scatter_read(s, sum));
     }
     s->shader->lit = true;
 }
 
 ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha)
 {
-    return ir_op2(shader->graph, IR_MUL, random_number(shader), alpha);
+    return ir_op2(shader->graph, IR_MUL, scatter_random_number(shader), alpha);
 }
 
 struct closure_scatter *closure_scatter_begin(struct shader *shader,
@@ -413,22 +388,22 @@ struct closure_scatter *closure_scatter_begin(struct shader *shader,
 /* The locals that the layers of a stack fill; before the first one. */
 static void declare_layers(struct closure_scatter *s)
 {
-    ir_ref black = grey(s, 0.0f), nothing = number(s, 0.0f);
-    declare_locals(s, nothing);
-    s->emission_local = local(s, STR_emission, black);
+    ir_ref black = scatter_grey(s, 0.0f), nothing = scatter_number(s, 0.0f);
+    scatter_declare_locals(s, nothing);
+    s->emission_local = scatter_local(s, STR_emission, black);
     for (uint32_t p = 0; p < s->num_parts; p++)
-        s->parts[p].seen_local = local(s, STR_response, black);
+        s->parts[p].seen_local = scatter_local(s, STR_response, black);
     for (uint32_t p = 0; s->lighting->lights && p < s->num_parts; p++)
-        s->parts[p].lit_local = local(s, STR_light, black);
+        s->parts[p].lit_local = scatter_local(s, STR_light, black);
     if (s->lighting->lights) {
-        s->to_light = local(s, STR_L, black);
-        s->away = local(s, STR_distance, nothing);
+        s->to_light = scatter_local(s, STR_L, black);
+        s->away = scatter_local(s, STR_distance, nothing);
     }
     s->aov_locals = ARENA_ARRAY(s->shader->arena, uint32_t, s->shader->aovs.len);
     for (uint32_t i = 0; i < s->shader->aovs.len; i++)
         if (s->shader->aovs.items[i].is_output)
             s->aov_locals[i] =
-                local(s, s->shader->aovs.items[i].name, closure_aov_value(s->shader, i, 0));
+                scatter_local(s, s->shader->aovs.items[i].name, closure_aov_value(s->shader, i, 0));
     s->is_stack = true;
 }
 
@@ -445,25 +420,26 @@ static ir_ref seen_of(struct closure_scatter *s, uint32_t part)
 /* Moves what the layer gives to the locals of the stack. */
 static void keep_layer(struct closure_scatter *s)
 {
-    effect(s, EFFECT_ASSIGN, s->emission_local, s->emission);
+    scatter_effect(s, EFFECT_ASSIGN, s->emission_local, s->emission);
     for (uint32_t p = 0; p < s->num_parts; p++)
-        effect(s, EFFECT_ASSIGN, s->parts[p].seen_local, seen_of(s, p));
+        scatter_effect(s, EFFECT_ASSIGN, s->parts[p].seen_local, seen_of(s, p));
     for (uint32_t i = 0; i < s->aovs.num; i++)
         if (s->shader->aovs.items[i].is_output && s->aovs.items[i].value)
-            effect(s, EFFECT_ASSIGN, s->aov_locals[i],
-                   closure_aov_value(s->shader, i, s->aovs.items[i].value));
+            scatter_effect(s, EFFECT_ASSIGN, s->aov_locals[i],
+                           closure_aov_value(s->shader, i, s->aovs.items[i].value));
     if (!s->lighting->lights)
         return;
     light_up(s);
     for (uint32_t p = 0; p < s->num_parts; p++)
-        effect(s, EFFECT_ASSIGN, s->parts[p].lit_local, s->parts[p].lit);
+        scatter_effect(s, EFFECT_ASSIGN, s->parts[p].lit_local, s->parts[p].lit);
 }
 
 static ir_ref scale_of(struct closure_scatter *s, ir_ref alpha)
 {
     if (closure_is_opaque(s->graph, alpha))
         return 0;
-    return op2(s, IR_DIV, number(s, 1.0f), op2(s, IR_MAX, alpha, number(s, 1e-6f)));
+    return scatter_op2(s, IR_DIV, scatter_number(s, 1.0f),
+                       scatter_op2(s, IR_MAX, alpha, scatter_number(s, 1e-6f)));
 }
 
 void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatter_layer *layer)
@@ -477,31 +453,38 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
     s->aovs = s->scale ? closure_aovs_scaled(s->graph, layer->aovs, s->scale) : layer->aovs;
     s->emission = layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3,
                                                closure_mul(s->graph, layer->emission, s->scale))
-                                  : grey(s, 0.0f);
+                                  : scatter_grey(s, 0.0f);
+    s->pile = layer->pile;
+    if (s->pile) {
+        assert(s->num_parts == 1);
+        matter_sample(s);
+        return;
+    }
     find_leaves(s);
     find_shares(s);
     if (!layer->chance) {
-        declare_locals(s, op2(s, IR_MUL, random_number(s->shader), s->total));
+        scatter_declare_locals(s,
+                               scatter_op2(s, IR_MUL, scatter_random_number(s->shader), s->total));
         sample_leaves(s);
         return;
     }
     if (!s->is_stack)
         declare_layers(s);
     if (layer->is_it)
-        effect(s, EFFECT_IF, 0, layer->is_it);
-    effect(s, EFFECT_ASSIGN, s->pick, op2(s, IR_MUL, layer->chance, s->total));
+        scatter_effect(s, EFFECT_IF, 0, layer->is_it);
+    scatter_effect(s, EFFECT_ASSIGN, s->pick, scatter_op2(s, IR_MUL, layer->chance, s->total));
     sample_leaves(s);
     keep_layer(s);
     closure_enter_loop(&s->copies, s->copies.loop + 1);
     if (layer->is_it)
-        effect(s, EFFECT_END, 0, 0);
+        scatter_effect(s, EFFECT_END, 0, 0);
 }
 
 static void write_part(struct closure_scatter *s, const struct part *part, enum aov_output which,
                        ir_ref value)
 {
     uint32_t output = closure_aov_output(s->shader, part->aov, which, IR_TYPE_VEC3);
-    effect(s, EFFECT_OUTPUT, output, value);
+    scatter_effect(s, EFFECT_OUTPUT, output, value);
 }
 
 static void write_aovs(struct closure_scatter *s)
@@ -510,15 +493,16 @@ static void write_aovs(struct closure_scatter *s)
         if (!s->shader->aovs.items[i].is_output)
             continue;
         ir_ref value =
-            s->is_stack ? read(s, s->aov_locals[i])
+            s->is_stack ? scatter_read(s, s->aov_locals[i])
                         : closure_aov_value(s->shader, i, s->aovs.num ? s->aovs.items[i].value : 0);
-        effect(s, EFFECT_OUTPUT,
-               closure_aov_output(s->shader, i, AOV_VALUE, ir_type_of(s->graph, value)), value);
+        scatter_effect(s, EFFECT_OUTPUT,
+                       closure_aov_output(s->shader, i, AOV_VALUE, ir_type_of(s->graph, value)),
+                       value);
     }
     for (uint32_t p = 1; p < s->num_parts; p++) {
         const struct part *part = &s->parts[p];
-        ir_ref seen = s->is_stack ? read(s, part->seen_local) : seen_of(s, p);
-        write_part(s, part, AOV_WEIGHT, read(s, part->weight));
+        ir_ref seen = s->is_stack ? scatter_read(s, part->seen_local) : seen_of(s, p);
+        write_part(s, part, AOV_WEIGHT, scatter_read(s, part->weight));
         write_part(s, part, AOV_RESPONSE, seen);
         if (s->lighting->lights)
             write_part(s, part, AOV_LIGHT, part->lit);
@@ -527,34 +511,36 @@ static void write_aovs(struct closure_scatter *s)
 
 static void write_lit(struct closure_scatter *s)
 {
-    ir_ref to_light = read(s, s->to_light), away = read(s, s->away);
-    write_output(s, STR_out6, to_light, away);
-    write_output(s, STR_out7, s->parts[0].lit, number(s, 0.0f));
+    ir_ref to_light = scatter_read(s, s->to_light), away = scatter_read(s, s->away);
+    scatter_write_output(s, STR_out6, to_light, away);
+    scatter_write_output(s, STR_out7, s->parts[0].lit, scatter_number(s, 0.0f));
 }
 
 void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
 {
-    ir_ref one = number(s, 1.0f), nothing = number(s, 0.0f);
+    ir_ref one = scatter_number(s, 1.0f), nothing = scatter_number(s, 0.0f);
     assert(!alpha || ir_type_of(s->graph, alpha) == IR_TYPE_FLOAT);
     closure_enter_loop(&s->copies, 0);
     if (!s->has_layer) /* a stack of nothing */
         declare_layers(s);
     if (s->is_stack)
-        s->emission = read(s, s->emission_local);
-    write_output(s, STR_out1, s->emission, alpha ? alpha : one);
-    ir_ref direction = read(s, s->direction), is_inside = read(s, s->is_inside);
-    write_output(s, STR_out2, direction, is_inside);
-    ir_ref weight = read(s, s->parts[0].weight), density = read(s, s->density);
-    write_output(s, STR_out3, weight, density);
-    write_output(s, STR_out4, read(s, s->medium), nothing);
-    ir_ref seen = s->is_stack ? read(s, s->parts[0].seen_local) : seen_of(s, 0);
-    write_output(s, STR_out5, seen, nothing);
+        s->emission = scatter_read(s, s->emission_local);
+    scatter_write_output(s, STR_out1, s->emission, alpha ? alpha : one);
+    ir_ref direction = scatter_read(s, s->direction), is_inside = scatter_read(s, s->is_inside);
+    scatter_write_output(s, STR_out2, direction, is_inside);
+    ir_ref weight = scatter_read(s, s->parts[0].weight), density = scatter_read(s, s->density);
+    scatter_write_output(s, STR_out3, weight, density);
+    scatter_write_output(s, STR_out4, scatter_read(s, s->medium), nothing);
+    ir_ref seen = s->is_stack ? scatter_read(s, s->parts[0].seen_local) : seen_of(s, 0);
+    scatter_write_output(s, STR_out5, seen, nothing);
     if (s->lighting->lights && !s->is_stack)
         light_up(s);
     for (uint32_t p = 0; s->lighting->lights && s->is_stack && p < s->num_parts; p++)
-        s->parts[p].lit = read(s, s->parts[p].lit_local);
+        s->parts[p].lit = scatter_read(s, s->parts[p].lit_local);
     if (s->lighting->lights)
         write_lit(s);
     write_aovs(s);
     s->shader->transparent = alpha && !ir_const_is(s->graph, alpha, 1.0f);
+    if (s->pile)
+        matter_write(s);
 }

@@ -172,12 +172,21 @@ static ir_ref find_scattering_of_aov(struct emitter *e, ir_ref closure, struct c
     return emission;
 }
 
+/* What does not come from the BSDF. */
+static ir_ref emission_on_top(struct emitter *e, const struct closure_surface *s)
+{
+    ir_ref unlit = s->unlit ? emitter_vec3(e, s->unlit) : 0, edf = emitter_emission(e, s->edf);
+    edf = edf ? emitter_vec3(e, edf) : 0;
+    return unlit && edf ? ir_op2(e->graph, IR_ADD, unlit, edf) : unlit ? unlit : edf;
+}
+
 void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
                              struct closure_scatter_layer *out)
 {
-    *out = (struct closure_scatter_layer){0};
+    const struct closure_pile *pile = out->pile;
+    *out = (struct closure_scatter_layer){.pile = pile};
     emitter_flatten(e, s, &out->list);
-    out->emission = e->lit.base;
+    out->emission = pile ? emission_on_top(e, s) : e->lit.base;
     out->alpha = s->premultiplied ? s->alpha : 0;
     out->aovs = s->aovs;
     out->aov_lists = ARENA_ARRAY(e->shader->arena, struct closure_list, s->aovs.num);
@@ -185,6 +194,30 @@ void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
         if (emitter_is_closure(e, s->aovs.items[i].value))
             out->aovs.items[i].value =
                 find_scattering_of_aov(e, s->aovs.items[i].value, &out->aov_lists[i]);
+}
+
+/* The BSDF of an AOV is a sum of lobes: light that walks has left no single one of them. */
+static bool shows_bsdf(const struct shader *shader)
+{
+    for (uint32_t i = 0; i < shader->aovs.len; i++)
+        if (shader->aovs.items[i].is_output && shader->aovs.items[i].type == IR_TYPE_BSDF)
+            return true;
+    return false;
+}
+
+/* Light of a pile goes through it by itself, so its opacity is 1. */
+static void emit_scattering(struct emitter *e, const struct closure_surface *s)
+{
+    struct closure_pile pile;
+    bool is_whole = closure_is_opaque(e->graph, s->alpha), is_matter = s->is_matter;
+    bool is_pile = !e->host->above && !shows_bsdf(e->shader)
+                   && (is_matter || is_whole || !s->premultiplied)
+                   && closure_find_pile(e->shader, e->host, s->bsdf, is_matter && !is_whole, &pile);
+    struct closure_scatter_layer layer = {.pile = is_pile ? &pile : NULL};
+    emitter_find_scattering(e, s, &layer);
+    struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
+    closure_scatter_layer(scatter, &layer);
+    closure_scatter_end(scatter, is_pile && is_matter ? 0 : s->alpha);
 }
 
 static void store_surface(struct emitter *e, const struct closure_surface *s, bool is_whole)
@@ -209,11 +242,7 @@ static void emit_surface(struct emitter *e, ir_ref root)
     }
     struct closure_surface s = closure_surface_of(e->shader, e->host, root);
     if (e->shader->scatters) {
-        struct closure_scatter_layer layer;
-        emitter_find_scattering(e, &s, &layer);
-        struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
-        closure_scatter_layer(scatter, &layer);
-        closure_scatter_end(scatter, s.alpha);
+        emit_scattering(e, &s);
         return;
     }
     if (e->host->only_cuts) {

@@ -30,6 +30,7 @@ background=none|plain.mtlx -o x.exr
 integrator=path|plain.mtlx -o x.png --path-trace
 paths=2|plain.mtlx -o x.png
 bounces=2|plain.mtlx -o x.png
+picks=2|plain.mtlx -o x.png
 as-drawn|plain.mtlx -o x.png
 samples=2|plain.mtlx -o x.png --environment none
 samples=2|plain.mtlx -o x.png --environment prefiltered
@@ -42,7 +43,7 @@ paths=2|--bake-environment sky -o baked
 lights=none|--bake-environment sky -o baked
 X
 check 'documents have no environment to bake' exits 2 "$render" plain.mtlx --bake-environment sky -o baked
-for count in '--samples 0' '--samples 65537' '--frame 99999999999' '--paths 0 --path-trace' '--bounces 65 --path-trace' \
+for count in '--samples 0' '--samples 65537' '--frame 99999999999' '--paths 0 --path-trace' '--bounces 65 --path-trace' '--picks 0 --path-trace' \
     '--layer-sample 1' '--layer-sample -0.1' '--layer-sample x' '--layer-sample nan' '--turntable 0' '--turntable 10001' '--camera nan,0' '--camera 0,0,inf' '--size nan'; do
     # shellcheck disable=SC2086
     check "out of range: $count" exits 2 "$render" plain.mtlx -o x.png $count

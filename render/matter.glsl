@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rest of path.glsl for piles of matter.
+//
+// A surface may be a pile of lobes and media, which scatter() has level by level (src/closure/matter.c). Light goes down and up in it, at
+// one point of the surface, until it leaves: a walk at random without positions (Guo, Hašan, Zhao 2018).
+
+#ifdef MATTER
+
+const uint DOWN = 1u, BENT = 2u; // away from where it came in; as it is outside, where it enters a medium of index 1.5
+const int MAX_COLLISIONS = 4096;
+
+// A direction after a collision; `from`: before (Henyey and Greenstein 1941).
+vec3 draw_phase(float g, vec3 from, vec2 xi)
+{
+    float part = (1.0 - g * g) / (1.0 - g + 2.0 * g * xi.x);
+    float cosine = abs(g) < 1e-3 ? 1.0 - 2.0 * xi.x : (1.0 + g * g - part * part) / (2.0 * g);
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0)), turn = 2.0 * PI * xi.y;
+    return normalize(frame_of(from) * vec3(sine * cos(turn), sine * sin(turn), cosine));
+}
+
+// How far light goes over how deep it gets.
+float slope(Path path, vec3 up)
+{
+    float cosine = dot(path.direction, up);
+    return (path.goes & BENT) != 0u ? 1.5 * inversesqrt(1.25 + cosine * cosine) : 1.0 / max(abs(cosine), 1e-4);
+}
+
+// Follows the path to its next collision in a medium, or out of it: false. One channel draws the way, and the mean of all densities weighs
+// it.
+bool collide(inout Path path, vec3 up, vec4 xi)
+{
+    vec3 chance = path.through / (path.through.x + path.through.y + path.through.z), extinction = out10.rgb * slope(path, up);
+    float drawn = xi.x < chance.x ? extinction.x : xi.x < chance.x + chance.y ? extinction.y : extinction.z;
+    bool down = (path.goes & DOWN) != 0u;
+    float room = down ? 1.0 - path.depth : path.depth, way = min(-log(1.0 - xi.y) / drawn, room);
+    vec3 passed = exp(-extinction * way), density = way < room ? passed * extinction : passed;
+    path.depth = way < room ? path.depth + (down ? way : -way) : down ? 1.0 : 0.0;
+    path.through *= (way < room ? out9.rgb / max(out10.rgb, 1e-20) : vec3(1.0)) * density / dot(chance, density);
+    return way < room;
+}
+
+void walk(inout Path path, vec3 up)
+{
+    vec4 xi = next_random();
+    for (int collisions = 1; collide(path, up, xi); ++collisions, xi = next_random()) {
+        if (collisions == 1)
+            count_turn(path, vec3(0.0));
+        float most = max(path.through.x, max(path.through.y, path.through.z));
+        if (most < 0.05)
+            path.through *= next_random().x < 0.5 ? 2.0 : 0.0;
+        if (!is_light(path.through) || collisions == MAX_COLLISIONS) {
+            path.through = vec3(0.0);
+            break;
+        }
+        bool bends = (path.goes & BENT) != 0u;
+        vec3 from = bends ? refract(path.direction, (path.goes & DOWN) != 0u ? up : -up, 1.0 / 1.5) : path.direction;
+        path.direction = draw_phase(out9.a, from, xi.zw);
+        path.goes = dot(path.direction, up) < 0.0 ? DOWN : 0u;
+    }
+}
+
+// Light that a medium scattered leaves the pile evenly to the side of `up`.
+void leave_evenly(inout Path path, Point point, vec3 up, vec4 towards)
+{
+    float density = max(dot(towards.xyz, up), 0.0) / PI, spread = towards.w;
+    add_light(path, point, towards.xyz, FAR, environment(towards.xyz) * (density * spread / (1.0 + spread * density)), LATER);
+#ifdef LIGHTS
+    add_light(path, point, out6.xyz, min(out6.w, FAR), out7.rgb * (max(dot(out6.xyz, up), 0.0) / PI), LATER);
+#endif
+    path.direction = draw_cosine(frame_of(up), 1.0, next_random().xy);
+    path.density = dot(path.direction, up) / PI;
+}
+
+void meet_lobe(inout Path path, Point point, vec4 towards)
+{
+    gather(path, point, towards.xyz, towards.w * environment(towards.xyz), mat3(0.0), false);
+    path.through *= out3.rgb;
+    if (out2.w > 1.5)
+        return;
+    count_turn(path, vec3(0.0));
+    path.direction = normalize(out2.xyz);
+    path.density = out3.w;
+    path.goes = BENT;
+}
+
+// Goes through the level for which scatter() has run.
+void go_through(inout Path path, Point point, vec4 towards)
+{
+    bool is_medium = out10.r + out10.g + out10.b > 0.0;
+    if ((path.goes & DOWN) != 0u)
+        path.light += path.through * out1.rgb;
+    if (is_medium)
+        walk(path, point.normal);
+    else if ((path.goes & DOWN) != 0u)
+        meet_lobe(path, point, towards);
+    bool down = (path.goes & DOWN) != 0u;
+    path.matter.x = down ? out10.w : out11.w;
+    path.depth = down ? 0.0 : 1.0;
+    path.phase = IN_MATTER;
+    if (path.matter.x < 0.0) {
+        bool is_drawn = !(as_drawn() && down && path.turns > 0u); // a drawn picture has no light from there
+        path.phase = is_drawn ? GOING : ENDED;
+        if (is_drawn && is_medium && (path.goes & BENT) == 0u)
+            leave_evenly(path, point, down ? -point.normal : point.normal, towards);
+        path.origin = beside(point, path.direction);
+    }
+    if (!is_light(path.through))
+        path.phase = ENDED;
+}
+
+void enter_matter(inout Path path, Hit hit, Point point, vec4 towards)
+{
+    if (path.turns == 0u)
+        path.weight = vec3(1.0); // `light` has the light of the whole pile
+    path.place = hit;
+    path.matter = at_level;
+    path.goes = DOWN | BENT;
+    path.depth = 0.0;
+    go_through(path, point, towards);
+}
+
+void go_on_in_matter(inout Path path)
+{
+    vec4 towards = draw_environment(next_random());
+    at_level = path.matter;
+    // scatter() looks from above
+    Point point = shade(path.place, (path.goes & DOWN) != 0u ? path.direction : -path.direction, towards);
+    go_through(path, point, towards);
+}
+
+#endif

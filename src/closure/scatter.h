@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What the files share that write the function for path tracers: scatter.c for a list of leaves,
+ * matter.c for a pile of matter.
+ */
+#ifndef MXG_CLOSURE_SCATTER_H
+#define MXG_CLOSURE_SCATTER_H
+
+#include "closure/closure_priv.h"
+
+/* A leaf of a part or of several. */
+struct scattering {
+    ir_ref leaf;
+    ir_ref share;                   /* p; 0: never picked */
+    const struct closure_leaf **in; /* by part, with its weight there; NULL: absent */
+};
+
+/* Light that leaves the surface: that of the whole surface, or of the BSDF of an AOV. */
+struct part {
+    const struct closure_list *list; /* of the layer at hand */
+    uint32_t aov;                    /* number of the AOV, unless it is the first part */
+    uint32_t weight;                 /* a local: the weight of the sample */
+    uint32_t seen_local, lit_local;  /* of a stack: locals for what the picked layer gives */
+    ir_ref lit;                      /* what one of the lights gives */
+};
+
+struct closure_scatter {
+    struct shader *shader;
+    struct ir_graph *graph;
+    const struct closure_host *host;
+    const struct closure_lighting *lighting;
+    struct part *parts; /* the first is the surface */
+    uint32_t num_parts;
+    VEC(struct scattering) leaves;                        /* of all parts of the layer at hand */
+    uint32_t pick, direction, is_inside, density, medium; /* locals */
+    ir_ref total;
+    /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
+    ir_ref scale;
+    struct closure_copies copies; /* of the layer, whose light loop is its own */
+    /* of a stack: locals for what the picked layer gives; of a surface: what it gives */
+    bool is_stack, has_layer;
+    uint32_t emission_local, to_light, away;
+    uint32_t *aov_locals; /* by number of the AOV */
+    struct closure_aovs aovs;
+    ir_ref emission;
+    const struct closure_pile *pile; /* NULL: a list of leaves */
+    ir_ref level;                    /* of a pile: float, the level at hand */
+};
+
+void scatter_effect(struct closure_scatter *s, enum effect_kind kind, uint32_t index, ir_ref value);
+/* A local variable with this value; its number. */
+uint32_t scatter_local(struct closure_scatter *s, str_id name, ir_ref value);
+ir_ref scatter_read(struct closure_scatter *s, uint32_t local);
+ir_ref scatter_number(struct closure_scatter *s, float value);
+ir_ref scatter_grey(struct closure_scatter *s, float value);
+ir_ref scatter_op2(struct closure_scatter *s, enum ir_op op, ir_ref a, ir_ref b);
+ir_ref scatter_mean_of(struct closure_scatter *s, ir_ref color);
+/* The fourth random number. */
+ir_ref scatter_random_number(struct shader *shader);
+/* True if the light from there comes from the visible side. */
+ir_ref scatter_is_in_front(struct closure_scatter *s, ir_ref direction);
+/* True if a leaf sends light to the other side. */
+bool scatter_refracts(struct closure_scatter *s, ir_ref leaf);
+/* The locals of the outputs 2 to 4; pick: the initial value of the local of this name. */
+void scatter_declare_locals(struct closure_scatter *s, ir_ref pick);
+void scatter_write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_ref a);
+
+/* ---- matter.c ---- */
+
+/*
+ * The response of the level at hand to light from a direction; 1 of a medium. solid_angle 0: the
+ * light of a point, which no sample finds.
+ */
+ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid_angle);
+/* The emission of the level at hand, and its sample. */
+void matter_sample(struct closure_scatter *s);
+/* The outputs that only piles have. */
+void matter_write(struct closure_scatter *s);
+
+#endif
