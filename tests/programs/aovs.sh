@@ -92,7 +92,7 @@ EOF
 picture() { "$render" look.mtlx --stage stage.usda --camera /a/down -q -s 16 "$@"; }
 for mode in raster traced; do
     options=(--look L --mattes -o $mode.exr) tolerance=0.001
-    [ $mode = traced ] && options+=(--path-trace --paths 512) tolerance=0.05
+    [ $mode = traced ] && options+=(--path-trace --paths 4096) tolerance=0.1
     check "$mode" exits 0 picture "${options[@]}"
     check 'channels' test "$(python3 "$here/exr.py" $mode.exr)" = 'A B G R id is matte.000 matte.050 of base.B of base.G of base.R v'
     # the weights of the layers: top 0.4 * 0.5, base (1 - 0.2) * 0.5
