@@ -185,10 +185,10 @@ vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, v
                  float film_ior)
 {
     return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior)
+         * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior)
          * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
                                    : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness),
-                                                  mx_ggx_wide(roughness), V, L))
-         * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior);
+                                                  mx_ggx_wide(roughness), V, L));
 }
 
 // ---- environment ----------------------------------------------------------------------------------------------------
