@@ -17,7 +17,7 @@ static void residuals(const double *p, double *out, void *user_data)
 {
     (void)user_data;
     for (int i = 0; i < POINTS; ++i) {
-        double angle = 0.5 * pi * (i + 0.5) / POINTS, value = p[DEGREE];
+        double angle = 0.5 * pi * i / (POINTS - 1), value = p[DEGREE];
         for (int k = DEGREE; k-- > 0;)
             value = p[k] + cos(angle) * value;
         out[i] = sin(angle) * value - angle / pi;

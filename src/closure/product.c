@@ -102,6 +102,10 @@ ir_ref closure_product(struct ir_graph *g, ir_ref value, ir_ref weight)
     assert(f.counts[0] + f.counts[1] + f.counts[2] + f.counts[3] + 1 == f.count);
     ir_ref constant = product_of(g, &f, IS_VECTOR, 0);
     constant = closure_mul(g, constant, product_of(g, &f, 0, 0));
-    ir_ref varying = product_of(g, &f, VARIES | IS_VECTOR, 0);
-    return closure_mul(g, closure_mul(g, varying, product_of(g, &f, VARIES, 0)), constant);
+    bool is_number = constant && ir_type_of(g, constant) == IR_TYPE_FLOAT;
+    /* numbers before vectors, the last one first: Fresnel's factor is often one number in three */
+    ir_ref product = product_of(g, &f, VARIES, is_number ? constant : 0);
+    for (unsigned i = f.counts[VARIES | IS_VECTOR]; i-- > 0;)
+        product = closure_mul(g, product, f.items[VARIES | IS_VECTOR][i]);
+    return is_number ? product : closure_mul(g, product, constant);
 }

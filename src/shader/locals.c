@@ -34,7 +34,9 @@ enum {
     COST_CALL = 32,
     COST_LOCAL = 2,
     /* cheaper to compute in each round of a loop than to keep in a register */
-    MAX_COST_IN_LOOP = 3,
+    MAX_COST_IN_LOOP = 2,
+    /* the same for a condition, which needs no register and reads better in its place */
+    MAX_COST_OF_CONDITION = 3,
     /* a dearer arm of a choice is worth a branch, which a GPU takes where all pixels agree */
     MAX_COST_OF_ARM = 3
 };
@@ -196,7 +198,8 @@ static bool is_cheap(const struct plan *plan)
         || plan->chars > MAX_REPEATED_CHARS)
         return false;
     if (plan->flags & PLAN_MOVED)
-        return plan->cost <= MAX_COST_IN_LOOP;
+        return plan->cost
+               <= (plan->type == IR_TYPE_BOOL ? MAX_COST_OF_CONDITION : MAX_COST_IN_LOOP);
     return (uint32_t)plan->cost * plan->uses <= (uint32_t)plan->cost + COST_LOCAL + plan->uses;
 }
 

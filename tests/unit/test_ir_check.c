@@ -83,7 +83,7 @@ static const struct {
      "the operand cannot be indexed so"},
     {"%1 = uniform int\n%2 = uniform float\n%3 = sample int %1", 3, ARG, 2,
      "the operand is no number of a loop"},
-    {"%1 = uniform int\n%2 = uniform float\n%3 = local float %1", 3, ARG, 2,
+    {"%1 = context int\n%2 = uniform float\n%3 = local float %1", 3, ARG, 2,
      "the operand is no number of a light"},
     {"%1 = sample int", 1, TYPE, IR_TYPE_VEC2, "neither the index nor the turn of a sample"},
     {"callee \"f\" function 1\n%1 = call float", 1, ATTR, 1, "there is no such callee"},

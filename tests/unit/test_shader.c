@@ -275,6 +275,16 @@ SCHEDULE_TEST(local_in_two_effects, "var acc acc",
               effect(f, EFFECT_VAR, f->color, vec3_of(f, number(f, 0)));
               ir_ref a = op1(f, IR_SIN, read_color(f)); accumulate(f, a);
               accumulate(f, op2(f, IR_ADD, a, dear(f, "b")));)
+SCHEDULE_TEST(variable_of_the_light_loop, "lights{ var assign a acc acc }",
+              uint32_t L = shader_add_local(&f->shader, word(f, "L"), IR_TYPE_VEC3);
+              f->shader.locals.items[L].is_settled = true;
+              ir_ref light = ir_build(&f->graph, IR_CONTEXT, IR_TYPE_INT, IR_LIGHT_INDEX, NULL, 0);
+              name(f, "a");
+              ir_ref a = op1(f, IR_NORMALIZE,
+                             ir_build(&f->graph, IR_LOCAL, IR_TYPE_VEC3, L, &light, 1));
+              name(f, ""); effect(f, EFFECT_LIGHTS, 0, 0); effect(f, EFFECT_VAR, L, 0);
+              effect(f, EFFECT_ASSIGN, L, light_direction(f)); accumulate(f, a);
+              accumulate(f, op2(f, IR_MUL, a, a)); effect(f, EFFECT_END, 0, 0);)
 SCHEDULE_TEST(several_results, "a acc acc", ir_ref u = uniform(f, "u", IR_TYPE_FLOAT); name(f, "a");
               ir_ref c = call(f, "two", &u, 1); name(f, "");
               accumulate(f, vec3_of(f, result(f, c, 0, IR_TYPE_FLOAT)));
@@ -306,6 +316,7 @@ static void test_schedule(void)
     derivative_out_of_arm();
     local_in_its_effect();
     local_in_two_effects();
+    variable_of_the_light_loop();
     several_results();
     part_of_a_local();
 }

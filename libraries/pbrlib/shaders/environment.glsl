@@ -25,7 +25,7 @@ mat3 mx_map_frame(mat3 frame)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5. The program fits/turn.c makes the constants.
 float mx_half_turn(float sine, float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The square of the distance of a unit direction from the axis of the picture, never 0.

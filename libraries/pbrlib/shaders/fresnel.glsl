@@ -13,18 +13,23 @@
 
 // ---- bare interfaces ------------------------------------------------------------------------------------------------
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the index:
-//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2,  s = 1 - c^2,  g^2 = c^2 + 2k,  2k = ior^2 - 1
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one times the index:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2,  s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
 // Since (c - g)(c + g) = -2k, all of it is over one square, with one root. The least c^2 makes total internal reflection come out as 1.
-float mx_fresnel_dielectric(float cosine, float ior)
+float mx_fresnel_permittivity(float cosine, float re)
 {
-    float k = 0.5 * (ior * ior - 1.0);
-    float c2 = mx_known(ior >= 1.0) ? cosine * cosine : max(cosine * cosine, -2.0 * k);
+    float k = 0.5 * (re - 1.0);
+    float c2 = mx_known(re >= 1.0) ? cosine * cosine : max(cosine * cosine, -2.0 * k);
     float s = 1.0 - c2;
     float cg2 = c2 * (c2 + 2.0 * k);
     float divisor = (1.0 + k) * (c2 + sqrt(cg2)) + k;
-    float r = k / (mx_known(ior > 1.0) ? divisor : max(divisor, MX_EPSILON));
+    float r = k / (mx_known(re > 1.0) ? divisor : max(divisor, MX_EPSILON));
     return (cg2 + s * s) * (r * r);
+}
+
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    return mx_fresnel_permittivity(cosine, ior * ior);
 }
 
 // The same facing the viewer.
@@ -54,6 +59,8 @@ vec2 mx_fresnel_refract(float cosine, float re, float im)
 //     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(float cosine, float re, float im)
 {
+    if (mx_known(im == 0.0))
+        return mx_fresnel_permittivity(cosine, re);
     float c2 = cosine * cosine;
     float s = 1.0 - c2;
     float t = re - s;

@@ -185,10 +185,10 @@ vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, v
                  float film_ior)
 {
     return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior)
+         * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior)
          * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
                                    : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness),
-                                                  mx_ggx_wide(roughness), V, L))
-         * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior);
+                                                  mx_ggx_wide(roughness), V, L));
 }
 
 // ---- environment ----------------------------------------------------------------------------------------------------
@@ -259,18 +259,20 @@ mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3
 // A facet by its normal.
 struct mx_GgxFacet {
     vec3 h;       // of any length
-    float shrink; // 1 over the square of its length
+    float cosine; // of v, times that length
+    float mirror; // h times this is v and its mirror image together
     float texels; // of the environment's picture
 };
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before, by its `turn`.
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before, by its `turn`. Their
+// density follows from `mirror`, since twice the product of v and h is the square of the normal before `stretch`.
 mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
 {
     vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
     vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // What a sample brings: the weight stands beside the light, so that it scales Fresnel's factor, which may be one number.
@@ -284,19 +286,18 @@ struct mx_GgxLight {
 mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink; // of h that is below v
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, MX_EPSILON);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
-                       s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, MX_EPSILON, 1.0)));
+                       s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+                       sqrt(clamp(0.5 * (facet.mirror * facet.cosine), MX_EPSILON, 1.0)));
 }
 
 // The light that comes through it and a solid sphere of an index behind it. A visible normal weighs 1 / G1.
 mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 h = facet.h * sqrt(facet.shrink);
+    vec3 h = normalize(facet.h);
     return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5 / s.v.z,
                        clamp(dot(s.v, h), MX_EPSILON, 1.0));
 }
@@ -308,7 +309,7 @@ vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string
 {
     mx_GgxLight light = mx_ggx_transmitted(s, ior, i, turn);
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 h = facet.h * sqrt(facet.shrink);
+    vec3 h = normalize(facet.h);
     vec3 inside = refract(-s.v, h, 1.0 / ior);
     vec3 turned = reflect(-s.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
     vec3 f = mx_fresnel(light.cosine, model, n, k, f90, exponent, film, film_ior);
