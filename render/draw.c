@@ -4,8 +4,8 @@
 #include "render/inputs.h"
 #include "render/stored.h"
 
-#include <stdio.h>
 #include <assert.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
