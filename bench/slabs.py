@@ -108,8 +108,9 @@ def reason_of(made):
 def measure(mxgen, document, size, variants):
     """The differences by variant, 0 where the shader stays the same; for a document that is not drawn the reason."""
     source = source_of(mxgen, document)
+    sources = {name: source_of(mxgen, document, *options) for name, options in variants.items()}
+    changed = [name for name in variants if not source or source != sources[name]]
     result = {name: 0.0 for name in variants}
-    changed = [name for name in variants if not source or source != source_of(mxgen, document, *variants[name])]
     result["misfit"] = misfit_of(mxgen, document) if changed else ""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
@@ -117,10 +118,13 @@ def measure(mxgen, document, size, variants):
         whole = run(*draw, "-o", folder / "whole.ppm") if changed else None
         if whole and whole.returncode:
             return {"reason": reason_of(whole)}
+        drawn = {}  # by shader: variants may agree
         for name in changed:
-            picture = folder / (name.replace(" ", "-") + ".ppm")
-            failed = run(*draw, *variants[name], "-o", picture).returncode
-            result[name] = None if failed else compare(folder / "whole.ppm", picture)
+            key = sources[name] or name
+            if key not in drawn:
+                failed = run(*draw, *variants[name], "-o", folder / "variant.ppm").returncode
+                drawn[key] = None if failed else compare(folder / "whole.ppm", folder / "variant.ppm")
+            result[name] = drawn[key]
     return result
 
 

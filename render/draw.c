@@ -5,6 +5,7 @@
 #include "render/stored.h"
 
 #include <assert.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@ struct draw_canvas {
     struct gpu *gpu;
     uint32_t width, height;
     struct gpu_image depth;
+    float clear[4];
     uint32_t num_outputs; /* the colour is the first */
     enum draw_output kinds[DRAW_MAX_OUTPUTS];
     struct gpu_image outputs[DRAW_MAX_OUTPUTS];
@@ -185,12 +187,14 @@ static VkPipelineVertexInputStateCreateInfo vertex_input(
         .pVertexAttributeDescriptions = attributes};
 }
 
-static VkPipelineColorBlendAttachmentState premultiplied_blending(bool enabled)
+/* Colours are premultiplied. What lies behind is scaled by 1 - alpha, or by the second source. */
+static VkPipelineColorBlendAttachmentState premultiplied_blending(bool enabled, bool is_dual)
 {
     return (VkPipelineColorBlendAttachmentState){
         .blendEnable = enabled,
         .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
-        .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+        .dstColorBlendFactor =
+            is_dual ? VK_BLEND_FACTOR_SRC1_COLOR : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
         .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
         .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
         .colorWriteMask = 0xf,
@@ -280,7 +284,7 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
     uint32_t num_targets = num_targets_of(canvas, way);
     for (uint32_t i = 0; i < num_targets; ++i) {
         bool blends_here = way != WAY_LIT || canvas->kinds[i] == DRAW_BLENDED;
-        blends[i] = premultiplied_blending(draw->blend && blends_here);
+        blends[i] = premultiplied_blending(draw->blend && blends_here, draw->blends_twice);
         formats[i] = way == WAY_LIT ? format_of(canvas->kinds[i]) : stored_target_format(i);
     }
     const VkPipelineRenderingCreateInfo rendering = {
@@ -338,6 +342,8 @@ static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer co
             .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
             .loadOp = way == WAY_LIT && i > 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : load,
             .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    if (way == WAY_LIT)
+        memcpy(targets[0].clearValue.color.float32, canvas->clear, sizeof canvas->clear);
     const VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                              .imageView = canvas->depth.view,
                                              .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
@@ -351,6 +357,11 @@ static void begin_rendering(const struct draw_canvas *canvas, VkCommandBuffer co
                                   .pColorAttachments = targets,
                                   .pDepthAttachment = &depth};
     vkCmdBeginRendering(commands, &info);
+}
+
+void draw_clear_to(struct draw_canvas *canvas, const float rgba[4])
+{
+    memcpy(canvas->clear, rgba, sizeof canvas->clear);
 }
 
 /* A draw call. */
@@ -503,9 +514,13 @@ struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *dr
     }
     program->gpu = gpu;
     program->draw = draw;
-    if (create_buffers(program) && inputs_create(program->gpu, draw, &program->inputs)
-        && create_layout(program, canvas) && create_modules(program)
-        && create_pipelines(program, canvas))
+    if (draw->blends_twice && !gpu->blends_twice) {
+        gpu->id = "no-device";
+        snprintf(gpu->reason, sizeof gpu->reason,
+                 "the device cannot blend with a second source, as '--transparency dual' needs");
+    } else if (create_buffers(program) && inputs_create(program->gpu, draw, &program->inputs)
+               && create_layout(program, canvas) && create_modules(program)
+               && create_pipelines(program, canvas))
         return program;
     draw_close(program);
     return NULL;

@@ -57,8 +57,9 @@ struct draw {
     uint32_t num_attributes, num_blocks, num_textures;
     struct draw_object *objects; /* malloc */
     uint32_t num_objects;
-    bool has_holes; /* of DRAW_STORES: another program draws its depth */
-    bool blend;     /* colours are premultiplied, and triangles are sorted from far to near */
+    bool has_holes;    /* of DRAW_STORES: another program draws its depth */
+    bool blends_twice; /* with a second source: what the surface lets through */
+    bool blend;        /* colours are premultiplied, and triangles are sorted from far to near */
     enum draw_role role;
 };
 
@@ -88,9 +89,12 @@ void draw_read_output(const struct draw_canvas *canvas, uint32_t location, float
 /* Compiles the program and uploads its inputs; NULL: see gpu->reason. `draw` must outlive it. */
 struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *draw);
 
+/* What the colour is where nothing is drawn, in the next frames; transparent black by default. */
+void draw_clear_to(struct draw_canvas *canvas, const float rgba[4]);
+
 /*
  * Draws all objects of the programs with the current blocks and indices to RGBA floats, top row
- * first, cleared to 0: programs that store, with the passes over what they stored; opaque programs;
+ * first: programs that store, with the passes over what they stored; opaque programs;
  * then the objects of the others from far to near. false: see gpu->reason.
  */
 bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs, size_t count,

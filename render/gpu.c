@@ -117,6 +117,8 @@ static bool create_device(struct gpu *gpu)
     if (gpu->can_store)
         features = (VkPhysicalDeviceFeatures){.fragmentStoresAndAtomics = VK_TRUE,
                                               .shaderStorageImageWriteWithoutFormat = VK_TRUE};
+    features.dualSrcBlend = has.dualSrcBlend;
+    gpu->blends_twice = has.dualSrcBlend;
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .pNext = &wanted,
                                      .pEnabledFeatures = &features,

@@ -18,6 +18,7 @@ struct gpu {
     VkCommandPool pool;
     VkPhysicalDeviceMemoryProperties memory;
     bool can_store;    /* pixel stages may write images: stored.h */
+    bool blends_twice; /* pixel stages may have a second source for blending */
     uint32_t max_size; /* of pictures and textures, in pixels */
     const char *id;    /* id of the first failure: "device-lost"… */
     char reason[256];  /* "" without a failure */

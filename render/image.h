@@ -27,6 +27,8 @@ struct image {
     uint32_t width, height;
     bool is_float; /* float, otherwise uint8_t */
     void *pixels;  /* malloc; NULL: no image */
+    /* of a float picture: how much it shows of what lies behind, RGB; NULL: 1 - alpha; malloc */
+    float *through;
     /* number of consecutive array layers of this size; 0: one, not an array */
     uint32_t layers;
     /*
@@ -76,7 +78,9 @@ bool image_write(const char *path, const struct image *image, char *reason, size
 static inline void image_finish(struct image *image)
 {
     free(image->pixels);
+    free(image->through);
     image->pixels = NULL;
+    image->through = NULL;
 }
 
 static inline uint32_t image_level_size(uint32_t size, uint32_t level)

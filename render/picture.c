@@ -425,23 +425,60 @@ static bool take_aovs(struct painting *painting)
     return true;
 }
 
-bool painting_draw(struct painting *painting, struct image *out)
+/* A frame in front of a colour, in the samples. */
+static bool draw_samples(struct painting *painting, const float behind[4])
 {
-    struct painter *painter = painting->painter;
-    *out = (struct image){0};
     struct render *renders = calloc(painting->num_parts + 1, sizeof *renders);
     for (size_t i = 0; renders && i < painting->num_parts; ++i)
         renders[i] = painting->parts[i].render;
+    draw_clear_to(painting->canvas, behind);
     bool drawn = renders && (!painting->passes.stored || passes_aim(&painting->passes))
                  && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
     free(renders);
     if (!drawn) {
         const struct bind *bind = painting->parts[0].bind;
-        report_error(&painter->cli->report, bind->id, "%s", bind->reason);
-        return false;
+        report_error(&painting->painter->cli->report, bind->id, "%s", bind->reason);
     }
+    return drawn;
+}
+
+static bool has_two_sources(const struct painting *painting)
+{
+    for (size_t i = 0; i < painting->num_parts; ++i)
+        if (painting->parts[i].bind->draw.blends_twice)
+            return true;
+    return false;
+}
+
+/* How much the picture shows of what lies behind: its difference in front of white. */
+static bool find_through(struct painting *painting, struct image *picture)
+{
+    static const float white[4] = {1, 1, 1, 0};
+    size_t count = (size_t)picture->width * picture->height;
+    struct image bright;
+    if (!draw_samples(painting, white))
+        return false;
+    picture->through = malloc(count * 3 * sizeof(float));
+    if (!picture->through || !resolve(painting->painter, painting->samples, true, &bright))
+        return report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
+    const float *with = bright.pixels, *without = picture->pixels;
+    for (size_t i = 0; i < 3 * count; ++i)
+        picture->through[i] = with[i / 3 * 4 + i % 3] - without[i / 3 * 4 + i % 3];
+    image_finish(&bright);
+    return true;
+}
+
+bool painting_draw(struct painting *painting, struct image *out)
+{
+    static const float nothing[4] = {0};
+    struct painter *painter = painting->painter;
+    *out = (struct image){0};
+    if (!draw_samples(painting, nothing))
+        return false;
     if (!resolve(painter, painting->samples, true, out) || !take_aovs(painting))
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    if (has_two_sources(painting) && !find_through(painting, out))
+        return false;
     tell_bad_pixels(painter, painting, out);
     return true;
 }
@@ -608,12 +645,15 @@ bool picture_develop(const struct painter *painter, const struct image *linear, 
     uint8_t *pixel = out->pixels;
     for (uint32_t y = 0; pixel && y < linear->height; ++y) {
         for (uint32_t x = 0; x < linear->width; ++x, in += 4, pixel += 4) {
-            double behind[4], through = 1 - fmin(in[3], 1);
+            double behind[4], rest = 1 - fmin(in[3], 1);
+            const float *through = linear->through;
             background(painter, x, y, behind);
-            double alpha = fmin(in[3], 1) + through * behind[3];
-            for (size_t c = 0; c < 3; ++c) /* 8-bit files are not premultiplied */
-                pixel[c] = encode_srgb((painter->exposure * in[c] + through * behind[c])
+            double alpha = fmin(in[3], 1) + rest * behind[3];
+            for (size_t c = 0; c < 3; ++c) { /* 8-bit files are not premultiplied */
+                double shown = through ? through[3 * ((size_t)y * linear->width + x) + c] : rest;
+                pixel[c] = encode_srgb((painter->exposure * in[c] + shown * behind[c])
                                        / fmax(alpha, 1e-6));
+            }
             pixel[3] = (uint8_t)(alpha * 255 + 0.5);
         }
     }

@@ -53,6 +53,15 @@ static void write_location(struct spell *spell, enum shader_block block, uint32_
     spell_text(spell, ") ");
 }
 
+/* Both sources of a blend have the first location. */
+static void write_place(struct spell *spell, const struct shader_variable *variable)
+{
+    if (variable->block == BLOCK_OUTPUTS && variable->semantic == STR_transmittance)
+        spell_text(spell, "layout(location = 0, index = 1) ");
+    else
+        write_location(spell, variable->block, variable->location);
+}
+
 static void write_members(struct spell *spell, enum shader_block block)
 {
     SPELL_EACH_OF_BLOCK(i, spell, block)
@@ -152,7 +161,7 @@ static void write_attributes(struct spell *spell, enum shader_block block, const
         if (!spell_uses(spell, variable))
             continue;
         if (*qualifier)
-            write_location(spell, block, variable->location);
+            write_place(spell, variable);
         if (variable->flat && *qualifier)
             spell_text(spell, "flat ");
         spell_text(spell, qualifier);

@@ -43,7 +43,8 @@ const struct target target_glsl = {
     .name = "glsl",
     .materialx_name = "genglsl",
     .brief = "GLSL for desktop OpenGL 3.3 and later",
-    .caps = GLSL_CAPS | CAP_UNIFORM_DEFAULTS | CAP_BLOCK_OPTION | CAP_BLOCK_STAGE_IO | CAP_STORES,
+    .caps = GLSL_CAPS | CAP_UNIFORM_DEFAULTS | CAP_BLOCK_OPTION | CAP_BLOCK_STAGE_IO | CAP_STORES
+            | CAP_TWO_SOURCES,
     .versions = versions,
     .syntax = &glsl_syntax,
     .frame = &glsl_frame,

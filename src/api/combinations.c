@@ -58,6 +58,9 @@ static void check_combination(struct generation *g, const struct combination *c)
 static void check_target(struct generation *g)
 {
     const struct target *target = g->result->target;
+    if (has_value(g, OPTION_transparency, "dual") && !(target->caps & CAP_TWO_SOURCES))
+        tell_clash(g, option_key(OPTION_transparency), "dual", "target", target->name,
+                   "only the targets vulkan and glsl have a second source to blend with");
     const char *version = g->options[OPTION_version].text;
     bool packs = generation_packs(g);
     const char *option = option_key(packs ? OPTION_form : OPTION_pipeline),

@@ -338,6 +338,7 @@ void generation_start_closures(struct generation *g)
         .flips_v = g->options[OPTION_texture_origin].number != 0,
         .encodes = g->options[OPTION_encode].number != 0,
     };
+    g->result->shader.has_two_sources = g->lighting.transparency == TRANSPARENCY_DUAL;
     generation_defer(g);
     g->closure_host.occludes = g->options[OPTION_layering].number == LAYERING_OCCLUDING;
     g->closure_host.keeps_color = g->lighting.transparency == TRANSPARENCY_OPAQUE
@@ -473,6 +474,8 @@ static bool check_outputs(struct generation *g)
     uint32_t num =
                  shader->first_of_block[BLOCK_OUTPUTS + 1] - shader->first_of_block[BLOCK_OUTPUTS],
              limit = (uint32_t)g->options[OPTION_max_outputs].number;
+    if (shader->has_two_sources)
+        limit = 2; /* a blend with two sources has one attachment */
     struct text list;
     if (!shader->aovs.len || shader->scatters || generation_packs(g) || g->result->target->closures
         || num <= limit)

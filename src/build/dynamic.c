@@ -240,6 +240,7 @@ static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 static bool build_layer(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
+    dynamic_check_thickness(build, dynamic_arg(build, STR_top));
     return op_of(build, "layer", (const char *const[]){"top", "base"}, 2, results);
 }
 

@@ -24,5 +24,7 @@ bool dynamic_slab_mix(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_slab_coverage(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_slab_select(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results);
+/* Warns of a <layer> with a slab in its top whose light depends on a thickness. */
+void dynamic_check_thickness(const mxg_build *build, ir_ref top);
 
 #endif

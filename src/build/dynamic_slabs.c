@@ -114,6 +114,51 @@ static void check_slab(const mxg_build *build, const str_id *names, const ir_ref
         check_bounds(build, names[checked[i].input], args[checked[i].input], checked[i].in);
 }
 
+/* ---- Thickness ---- */
+
+/* True for a slab with a medium that light goes through, also behind a uniform. */
+static bool needs_thickness(struct builder *b, ir_ref slab)
+{
+    struct ir_value value;
+    ir_ref path = ir_arg(b->graph, slab, SLAB_mean_free_path);
+    return !build_initial(b, path, &value) || value.w[0].f > 0 || value.w[1].f > 0
+           || value.w[2].f > 0;
+}
+
+/* The operands of an operator that have its thickness: the bits 0 and 1. */
+static unsigned operands_of(uint8_t op)
+{
+    switch (op) {
+    case IR_CLOSURE_MIX:
+    case IR_CLOSURE_ADD: return 3;
+    case IR_CLOSURE_SCALE: return 1;
+    case IR_LAYER: /* has told of its own top */
+    case IR_SLAB_LAYER: return 2;
+    default: return 0;
+    }
+}
+
+void dynamic_check_thickness(const mxg_build *build, ir_ref top)
+{
+    enum { MAX_OPEN = 32, MAX_VISITS = 256 };
+    struct builder *b = build->b;
+    ir_ref open[MAX_OPEN] = {top};
+    unsigned num = top ? 1 : 0;
+    for (unsigned visits = 0; num && visits < MAX_VISITS; visits++) {
+        ir_ref ref = open[--num];
+        uint8_t op = ir_get(b->graph, ref)->op;
+        if (op == IR_SLAB && needs_thickness(b, ref)) {
+            diag_add(b->diags, DIAG_ID_slab_without_thickness,
+                     doc_place(&b->lib->doc, build->frame->node.element),
+                     build_text(b, build->def->node));
+            return;
+        }
+        for (unsigned i = 0, taken = operands_of(op); i < 2; i++)
+            if (taken >> i & 1 && ir_arg(b->graph, ref, i) && num < MAX_OPEN)
+                open[num++] = ir_arg(b->graph, ref, i);
+    }
+}
+
 /* ---- Nodes ---- */
 
 static bool finish(mxg_build *build, enum ir_op op, uint32_t attr, const ir_ref *args, unsigned n,

@@ -123,6 +123,7 @@ enum closure_transparency {
     TRANSPARENCY_OPAQUE,
     TRANSPARENCY_MASK,
     TRANSPARENCY_BLEND,
+    TRANSPARENCY_DUAL,
 };
 
 /* The option `layering`. */
@@ -167,6 +168,7 @@ struct closure_surface {
     ir_ref bsdf, edf;
     ir_ref unlit;       /* colour that does not depend on lights */
     ir_ref alpha;       /* 0 = 1 */
+    ir_ref through;     /* vec3: what it lets through, for a second source; 0: 1 - alpha */
     bool premultiplied; /* alpha already scales the parts */
     bool is_matter;     /* and alpha is what the throughput of the bsdf says */
     struct closure_aovs aovs;
@@ -198,6 +200,8 @@ struct closure_surface closure_surface_of(struct shader *shader, const struct cl
 ir_ref closure_without_aovs(const struct ir_graph *graph, ir_ref surface);
 /* Its alpha alone, for stacks: the rest of the surface need not be complete. */
 ir_ref closure_surface_alpha(struct shader *shader, ir_ref root);
+/* What the parts of a surface let through: its colour, or 1 - alpha as one. */
+ir_ref closure_surface_through(struct ir_graph *graph, const struct closure_surface *surface);
 /* The layers of a SLOTS node with their vertical ones, by slot; a vertical one itself is empty. */
 struct closure_surface *closure_slot_surfaces(struct shader *shader,
                                               const struct closure_host *host, ir_ref slots);

@@ -11,7 +11,7 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 /* output.c: a linear colour by the transfer function of sRGB (IEC 61966-2-1, section 5.2). */
 ir_ref closure_encoded(struct ir_graph *graph, ir_ref color);
 /* The colour, a vec3, and its alpha: one output of a program, two members of a function. */
-void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha);
+void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha, ir_ref through);
 /*
  * Writes a plain value as a colour: scalars are grey, two components are red and green, an alpha is
  * kept. encodes: as closure_encoded. False: the type is no value.

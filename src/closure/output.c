@@ -55,17 +55,37 @@ static void write_value(struct shader *shader, str_id name, ir_ref value)
                   (struct effect){.kind = EFFECT_OUTPUT, .index = out, .value = value});
 }
 
-void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha)
+/* The second source of a blend: what the surface lets through, and 1 - alpha. */
+static void write_second_source(struct shader *shader, ir_ref through, ir_ref alpha)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref rest = closure_one_minus(g, alpha);
+    through = through ? through : ir_convert(g, IR_TYPE_VEC3, rest);
+    ir_ref parts[2] = {through, rest};
+    bool is_called = shader->is_function;
+    ir_ref value = is_called ? through : ir_construct(g, IR_TYPE_VEC4, parts, 2);
+    const struct shader_variable variable = {.name = is_called ? STR_transmittance : STR_out2,
+                                             .block = BLOCK_OUTPUTS,
+                                             .type = ir_type_of(g, value),
+                                             .semantic = STR_transmittance};
+    uint32_t index = shader_add_variable(shader, &variable);
+    shader_effect(shader, STAGE_PIXEL,
+                  (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
+}
+
+void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha, ir_ref through)
 {
     struct ir_graph *g = shader->graph;
     assert(ir_type_of(g, color) == IR_TYPE_VEC3 && ir_type_of(g, alpha) == IR_TYPE_FLOAT);
     if (shader->is_function) {
         write_value(shader, STR_color, color);
         write_value(shader, STR_alpha, alpha);
-        return;
+    } else {
+        ir_ref parts[2] = {color, alpha};
+        write_value(shader, STR_out1, ir_construct(g, IR_TYPE_VEC4, parts, 2));
     }
-    ir_ref parts[2] = {color, alpha};
-    write_value(shader, STR_out1, ir_construct(g, IR_TYPE_VEC4, parts, 2));
+    if (shader->has_two_sources)
+        write_second_source(shader, through, alpha);
 }
 
 bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root)
@@ -89,6 +109,6 @@ bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root)
         break;
     default: return false;
     }
-    closure_write_output(shader, encodes && is_color ? closure_encoded(g, color) : color, alpha);
+    closure_write_output(shader, encodes && is_color ? closure_encoded(g, color) : color, alpha, 0);
     return true;
 }

@@ -23,6 +23,14 @@ bool closure_is_opaque(const struct ir_graph *g, ir_ref opacity)
     return !opacity || ir_const_is(g, opacity, 1.0f);
 }
 
+ir_ref closure_surface_through(struct ir_graph *g, const struct closure_surface *s)
+{
+    if (s->through)
+        return s->through;
+    ir_ref rest = s->alpha ? closure_one_minus(g, s->alpha) : ir_const_float(g, 0.0f);
+    return ir_convert(g, IR_TYPE_VEC3, rest);
+}
+
 static ir_ref scaled_closure(struct ir_graph *g, ir_ref closure, ir_ref factor)
 {
     ir_ref args[2] = {closure, factor};
@@ -74,6 +82,10 @@ static struct closure_surface mixed(const struct surfaces *s, struct closure_sur
     if (bg.unlit || fg.unlit)
         out.unlit = ir_op3(g, IR_MIX, behind, before, mix);
     out.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
+    if (bg.through || fg.through) {
+        ir_ref far = closure_surface_through(g, &bg), near = closure_surface_through(g, &fg);
+        out.through = ir_op3(g, IR_MIX, far, near, mix);
+    }
     out.aovs = closure_aovs_weighing(g, closure_aovs_mixed(g, bg.aovs, fg.aovs, mix), out.alpha);
     return out;
 }
@@ -196,6 +208,22 @@ static void find_layers(const struct surfaces *s, ir_ref slots, struct closure_s
         layers[i] = layer_of(s, slots, &next);
 }
 
+/* 1 - Σ weight (1 - what the layer lets through) */
+static ir_ref through_of_stack(const struct surfaces *s, ir_ref slots,
+                               const struct closure_surface *layers)
+{
+    struct ir_graph *g = s->graph;
+    ir_ref through = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    for (unsigned i = 0; i < ir_num_slots(g, slots); i++) {
+        struct ir_slot slot = ir_slot(g, slots, i);
+        if (!slot.surface || ir_slot_is_vertical(g, &slot))
+            continue;
+        ir_ref held = closure_one_minus(g, closure_surface_through(g, &layers[i]));
+        through = ir_op2(g, IR_SUB, through, ir_op2(g, IR_MUL, held, slot.weight));
+    }
+    return through;
+}
+
 static struct closure_surface stack_of(const struct surfaces *s, ir_ref slots)
 {
     struct closure_surface out = {0};
@@ -209,6 +237,7 @@ static struct closure_surface stack_of(const struct surfaces *s, ir_ref slots)
             out = sum(s->graph, out, closure_weighted(s->graph, layers[i], slot.weight));
     }
     out.alpha = ir_arg(s->graph, slots, 0);
+    out.through = s->shader->has_two_sources ? through_of_stack(s, slots, layers) : 0;
     out.premultiplied = true;
     out.aovs = closure_aovs_weighing(s->graph, out.aovs, out.alpha);
     return out;
@@ -221,6 +250,23 @@ static struct closure_surface with_aov(const struct surfaces *s, ir_ref ref)
     out.aovs = closure_aovs_with(s->graph, out.aovs, ir_get(s->graph, ref)->attr,
                                  ir_arg(s->graph, ref, 1), out.premultiplied ? out.alpha : 0);
     return out;
+}
+
+/* What a surface without other surfaces lets through, if that is a colour; 0: 1 - alpha. */
+static ir_ref through_of_leaf(const struct surfaces *s, ir_ref ref,
+                              const struct closure_surface *surface)
+{
+    struct ir_graph *g = s->graph;
+    const ir_ref *args = ir_args(g, ref);
+    if (!s->shader->has_two_sources)
+        return 0;
+    if (surface->is_matter)
+        return surface->bsdf ? throughput_of(s, surface->bsdf)
+                             : ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    if (ir_get(g, ref)->op != IR_SURFACE_UNLIT)
+        return 0;
+    ir_ref opacity = args[2], held = closure_one_minus(g, color_of(g, args[1]));
+    return closure_one_minus(g, ir_op2(g, IR_MUL, held, opacity));
 }
 
 /* A surface without other surfaces. */
@@ -237,6 +283,7 @@ static struct closure_surface leaf_of(const struct surfaces *s, ir_ref ref)
                                        .alpha = args[2],
                                        .premultiplied = has_opacity,
                                        .is_matter = has_opacity};
+    out.through = through_of_leaf(s, ref, &out);
     out.aovs = closure_aovs_weighing(s->graph, closure_aovs_of(s->shader),
                                      out.premultiplied ? out.alpha : 0);
     return out;

@@ -13,10 +13,10 @@ static ir_ref encoded(struct emitter *e, ir_ref color)
     return e->lighting->encodes ? closure_encoded(e->graph, color) : color;
 }
 
-static void write_surface(struct emitter *e, ir_ref color, ir_ref alpha)
+static void write_surface(struct emitter *e, ir_ref color, ir_ref alpha, ir_ref through)
 {
     ir_suggest_name(e->graph, alpha, STR_opacity, IR_NAME_ROLE);
-    closure_write_output(e->shader, encoded(e, color), alpha);
+    closure_write_output(e->shader, encoded(e, color), alpha, through);
 }
 
 /* The pixel stage discards pixels below the host's threshold. */
@@ -42,6 +42,20 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
     ir_ref rest = closure_one_minus(
         g, ir_op3(g, IR_CLAMP, mean, ir_const_float(g, 0.0f), ir_const_float(g, 1.0f)));
     return s->alpha ? ir_op2(g, IR_MUL, s->alpha, rest) : rest;
+}
+
+/* What the surface lets through, with the transmitted part. 0: 1 - alpha of the output. */
+static ir_ref output_through(struct emitter *e, const struct closure_surface *s)
+{
+    struct ir_graph *g = e->graph;
+    if (!e->shader->has_two_sources || (!e->through && !s->through))
+        return 0;
+    ir_ref one = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    ir_ref through = closure_surface_through(g, s);
+    if (!e->through)
+        return through;
+    ir_ref zero = ir_const_float(g, 0.0f), most = ir_const_float(g, 1.0f);
+    return ir_op3(g, IR_MIX, ir_op3(g, IR_CLAMP, e->through, zero, most), one, through);
 }
 
 /*
@@ -83,15 +97,15 @@ static void write_aovs(struct emitter *e, struct closure_aovs aovs, ir_ref scale
 static bool draws_all(const struct emitter *e, ir_ref alpha)
 {
     return e->lighting->transparency == TRANSPARENCY_OPAQUE
-           || (closure_is_opaque(e->graph, alpha)
-               && e->lighting->transparency != TRANSPARENCY_BLEND);
+           || (closure_is_opaque(e->graph, alpha) && e->lighting->transparency != TRANSPARENCY_BLEND
+               && !e->shader->has_two_sources);
 }
 
 void emitter_finish_surface(struct emitter *e, const struct closure_surface *s)
 {
     ir_ref alpha = output_alpha(e, s), one = ir_const_float(e->graph, 1.0f);
     if (draws_all(e, alpha)) {
-        write_surface(e, emitter_color(e), one);
+        write_surface(e, emitter_color(e), one, 0);
         write_aovs(e, s->aovs, 0, one);
         return;
     }
@@ -103,7 +117,7 @@ void emitter_finish_surface(struct emitter *e, const struct closure_surface *s)
     if (!has_alpha)
         color = ir_op2(e->graph, IR_MUL, color, s->alpha);
     alpha = e->host->keeps_color ? one : alpha;
-    write_surface(e, color, alpha);
+    write_surface(e, color, alpha, output_through(e, s));
     write_aovs(e, s->aovs, has_alpha ? 0 : s->alpha, alpha);
 }
 
@@ -278,7 +292,7 @@ static void emit_volume(struct emitter *e, ir_ref root)
     e->shader->transparent = true;
     /* no alpha test: emission may leave the background unchanged */
     e->shader->alpha = ALPHA_BLEND;
-    write_surface(e, emitter_color(e), volume.alpha);
+    write_surface(e, emitter_color(e), volume.alpha, 0);
 }
 
 bool closure_is_surface(const struct shader *shader, ir_ref root)

@@ -192,6 +192,8 @@ void shader_layout(struct shader *shader)
             if (variable->block >= BLOCK_OWN) {
                 place_uniform(shader, variable);
             } else if (shader_has_locations(shader, (enum shader_block)variable->block)) {
+                if (variable->semantic == STR_transmittance && variable->block == BLOCK_OUTPUTS)
+                    break; /* the second source of the first location */
                 variable->location = location[variable->block];
                 location[variable->block] += num_locations(variable->type);
             }

@@ -46,6 +46,7 @@ enum target_caps {
     CAP_VULKAN_ATTRIBUTES = 1 << 20, /* can write bindings of Vulkan beside its own */
     CAP_STORES = 1 << 21,            /* pixel stages can write images: the deferred pipeline */
     CAP_MEDIUMP = 1 << 22,           /* declarations can have a lower precision: --precision */
+    CAP_TWO_SOURCES = 1 << 23,       /* a pixel stage has a second source for blending */
     /* not in the tables of targets: two that follow from their members */
     CAP_LIGHTING = 1 << 29, /* the shader computes lights and layers: it has no closures */
     CAP_NETWORKS = 1 << 30, /* has `network` */

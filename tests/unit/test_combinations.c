@@ -27,7 +27,7 @@ static const struct setting {
     {"form", "form", {"program", "function", "payload"}},
     {"storage", "storage", {"dither", "round", "float"}},
     {"slots", "slots", {"blend", "stochastic"}},
-    {"transparency", "transparency", {"auto", "opaque", "mask", "blend"}},
+    {"transparency", "transparency", {"auto", "opaque", "mask", "blend", "dual"}},
     {"transmission", "transmission", {"refraction", "opacity"}},
     {"layering", "layering", {"view", "two-sided"}},
     {"encode", "encode", {"linear", "srgb"}},
