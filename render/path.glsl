@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), light_aovs(),
-// TRACER_SET and, where they hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
+// TRACER_SET, AS_DRAWN (a path goes as a drawn picture has it) and, where they hold, LIGHTS (lights are bound), TRANSPARENT (opacity may be
+// below 1) and DISPLACES (a program of its own, which moves the corners and traces nothing).
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
 // kernel runs.
@@ -39,8 +40,8 @@ layout(push_constant) uniform Camera {
     vec4 eye, right, up, forward;  // a ray through (x, y), each from -1 to 1, goes along forward + x * right + y * up
     vec4 environment[3];           // columns: from the world to the map
     uvec4 frame;                   // width, height, first sample, number of samples
-} camera;                          // eye.w: how often a path may turn; right.w: 1 where it goes as a drawn picture has it;
-                                   // up.w: brightness of the environment; forward.w: 1 to displace the corners
+} camera;                          // eye.w: how often a path may turn;
+                                   // up.w: brightness of the environment
                                    // environment[0].w: a distance that nothing has; [1].w: number of this shader
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -49,7 +50,6 @@ const float FAR = 1e29;
 const float PI = 3.14159265;
 const int MAX_HITS = 64; // those that a path goes straight through, too
 
-bool as_drawn() { return camera.right.w > 0.5; }
 uint pixel_number() { return gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x; }
 
 // ---- Random numbers: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d ----
@@ -305,7 +305,7 @@ void receive(inout Path path, vec3 light, uint of)
 // Light that comes to the point from there, unless something stands before it; what is behind `limit` is behind the light.
 void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 light, uint of)
 {
-    if (as_drawn()) // it has no shadows
+    if (AS_DRAWN) // it has no shadows
         receive(path, light, of);
     else
         path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, light, of);
@@ -412,7 +412,7 @@ void bounce(inout Path path, Point point, vec4 towards)
     path.origin = beside(point, path.direction);
     if (!is_light(is_first ? max(path.weight, most[BY_PATH]) : path.through))
         path.phase = ENDED;
-    else if (next.w > 0.5 && as_drawn()) {
+    else if (next.w > 0.5 && AS_DRAWN) {
         path.phase = CROSSING;
         path.through *= inside;
     } else if (next.w > 0.5) // into a solid or out of it
@@ -423,7 +423,7 @@ void bounce(inout Path path, Point point, vec4 towards)
 bool follow_ray(inout Path path)
 {
     Hit hit;
-    if (path.hits >= uint(MAX_HITS) || (as_drawn() && path.turns > 0u) || path.turns >= uint(camera.eye.w)) {
+    if (path.hits >= uint(MAX_HITS) || (AS_DRAWN && path.turns > 0u) || path.turns >= uint(camera.eye.w)) {
         if (path.hits < uint(MAX_HITS) && path.turns > 0u)
             path.light += path.through * meet_environment(path.direction, path.density);
         path.phase = ENDED;
@@ -476,7 +476,7 @@ bool follow(inout Path path)
     while (goes && (path.num_shadows > 0u || path.phase != ENDED)) {
         while (goes && path.num_shadows > 0u)
             goes = follow_shadow(path);
-        if (goes && path.phase == CROSSING)
+        if (goes && AS_DRAWN && path.phase == CROSSING) // or else the driver compiles scatter() once more
             goes = cross_solid(path);
         else if (goes && path.phase == GOING)
             goes = follow_ray(path);
@@ -484,10 +484,13 @@ bool follow(inout Path path)
     return goes;
 }
 
-#ifdef DISPLACED
-// Corner number i, and where it goes.
-void displace(uint i)
+#ifdef DISPLACES
+// A corner, and where it goes: of a frame of corners.
+void main()
 {
+    uint i = gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x;
+    if (gl_GlobalInvocationID.x >= camera.frame.x || i >= camera.frame.y)
+        return;
     Corner c = corners[i];
     if (objects[c.object].shader != uint(camera.environment[1].w))
         return;
@@ -498,8 +501,7 @@ void displace(uint i)
     scatter();
     film[i] = vec4(out8.xyz, 0.0);
 }
-#endif
-
+#else
 // The path of sample number `number` through the pixel; a draw of random numbers per path.
 Path begin(uvec2 pixel, uint number)
 {
@@ -521,14 +523,6 @@ Path begin(uvec2 pixel, uint number)
 void main()
 {
     uvec2 pixel = gl_GlobalInvocationID.xy;
-#ifdef DISPLACED
-    if (camera.forward.w > 0.5) {
-        uint i = pixel.y * camera.frame.x + pixel.x;
-        if (pixel.x < camera.frame.x && i < camera.frame.y)
-            displace(i);
-        return;
-    }
-#endif
     if (pixel.x >= camera.frame.x || pixel.y >= camera.frame.y)
         return;
     uint index = pixel.y * camera.frame.x + pixel.x, end = camera.frame.z + camera.frame.w;
@@ -560,3 +554,4 @@ void main()
     paths[index] = path;
     film[index] += sum;
 }
+#endif

@@ -233,7 +233,6 @@ static struct camera make_camera(const struct tracer *tracer)
     struct matrix axes = matrix_transpose(scene->view); /* of a rotation: its inverse */
     struct camera camera = {.frame = {tracer->width, tracer->height, 0, 0}};
     camera.eye[3] = (float)tracer->options->bounces;
-    camera.right[3] = tracer->options->as_drawn ? 1 : 0;
     camera.up[3] = tracer->options->dark ? 0 : 1;
     camera.environment[0][3] = (float)scene->near;
     for (size_t i = 0; i < 3; ++i) {
@@ -247,24 +246,25 @@ static struct camera make_camera(const struct tracer *tracer)
     return camera;
 }
 
-/* Runs one invocation of a shader per element of an area. */
-static bool run(struct tracer *tracer, uint32_t shader, struct camera *camera, uint32_t width,
-                uint32_t height)
+/* Runs one invocation of a shader, which traces or displaces, per element of an area. */
+static bool run(struct tracer *tracer, uint32_t shader, bool displaces, struct camera *camera,
+                uint32_t width, uint32_t height)
 {
     size_t k = 0;
     while (shader >= tracer->kernels[k].first_shader + tracer->kernels[k].num_shaders)
         ++k;
     const struct kernel *kernel = &tracer->kernels[k];
+    const struct kernel_program *program = displaces ? &kernel->displaces : &kernel->paths;
     VkCommandBuffer commands = gpu_begin(tracer->gpu);
     if (!commands)
         return false;
     camera->environment[1][3] = (float)shader;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel->pipeline);
-    inputs_bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel->layout, &kernel->bind->draw,
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->pipeline);
+    inputs_bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout, &kernel->bind->draw,
                 &kernel->inputs, shader - kernel->first_shader);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel->layout,
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout,
                             kernel->inputs.num_sets, 1, &tracer->set, 0, NULL);
-    vkCmdPushConstants(commands, kernel->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *camera,
+    vkCmdPushConstants(commands, program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *camera,
                        camera);
     vkCmdDispatch(commands, (width + GROUP - 1) / GROUP, (height + GROUP - 1) / GROUP, 1);
     return gpu_end(tracer->gpu, commands);
@@ -275,12 +275,12 @@ static bool displace(struct tracer *tracer)
 {
     enum { ROW = 1024 };
     uint32_t count = 3 * tracer->bvh.num_triangles;
-    struct camera camera = {.forward = {0, 0, 0, 1}, .frame = {ROW, count, 0, 0}};
+    struct camera camera = {.frame = {ROW, count, 0, 0}};
     float *film = tracer->buffers[FILM].mapped;
     for (size_t k = 0; k < tracer->num_kernels; ++k) {
         const struct kernel *kernel = &tracer->kernels[k];
         for (uint32_t i = 0; kernel->info.displaced && i < kernel->num_shaders; ++i)
-            if (!run(tracer, kernel->first_shader + i, &camera, ROW, (count + ROW - 1) / ROW))
+            if (!run(tracer, kernel->first_shader + i, true, &camera, ROW, (count + ROW - 1) / ROW))
                 return false;
     }
     for (size_t i = 0; i < count; ++i) /* the film has offsets */
@@ -313,11 +313,11 @@ static bool trace_samples(struct tracer *tracer, struct camera *camera)
     uint32_t *waiting = tracer->buffers[WAITING].mapped, shader = 0;
     memset(waiting, 0, tracer->num_shaders * sizeof *waiting);
     camera->environment[2][3] = 1;
-    bool good = run(tracer, 0, camera, tracer->width, tracer->height);
+    bool good = run(tracer, 0, false, camera, tracer->width, tracer->height);
     camera->environment[2][3] = 0;
     while (good && find_waiting(tracer, &shader)) {
         waiting[shader] = 0;
-        good = run(tracer, shader, camera, tracer->width, tracer->height);
+        good = run(tracer, shader, false, camera, tracer->width, tracer->height);
     }
     return good;
 }
@@ -345,7 +345,7 @@ static bool open_kernels(struct tracer *tracer, struct bind *const *binds, size_
     for (size_t i = 0; i < count; ++i) {
         *out_failed = i;
         if (!kernel_compile(tracer->gpu, &tracer->kernels[i], tracer->set_layout,
-                            sizeof(struct camera), tracer->options->aovs))
+                            sizeof(struct camera), tracer->options))
             return false;
     }
     *out_failed = 0;
