@@ -485,12 +485,13 @@ bool follow(inout Path path)
 }
 
 #ifdef DISPLACES
-// A corner, and where it goes: of a frame of corners.
+// How far a vertex moves: the film has the number of one of its corners.
 void main()
 {
-    uint i = gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x;
-    if (gl_GlobalInvocationID.x >= camera.frame.x || i >= camera.frame.y)
+    uint at = gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x;
+    if (gl_GlobalInvocationID.x >= camera.frame.x || at >= camera.frame.y)
         return;
+    uint i = floatBitsToUint(film[at].w);
     Corner c = corners[i];
     if (objects[c.object].shader != uint(camera.environment[1].w))
         return;
@@ -499,7 +500,7 @@ void main()
     fill_vertex_data(c.rest, c.normal_t.xyz, c.tangent, vec2(c.position_s.w, c.normal_t.w), c.normal_t.xyz, vec4(0.5),
                      vec4(c.normal_t.xyz, 0.0), c.normal_t.xyz);
     scatter();
-    film[i] = vec4(out8.xyz, 0.0);
+    film[at].xyz = out8.xyz;
 }
 #else
 // The path of sample number `number` through the pixel; a draw of random numbers per path.
