@@ -100,8 +100,8 @@ static uint32_t number_of_text(struct page *page, const char *text)
 
 static struct page_layer describe(struct page *page, const mxg_layer *layer)
 {
-    char *place = cli_format("%s%s%s %s:%u", layer->look, *layer->look ? "/" : "", layer->assign,
-                             layer->file, layer->line);
+    char *place = cli_format("%s%s%s %s:%u", layer->look, *layer->look && *layer->assign ? "/" : "",
+                             layer->assign, layer->file, layer->line);
     struct page_layer out = {.kind = (uint32_t)layer->kind,
                              .slot = number_of_text(page, layer->slot),
                              .material = number_of_text(page, layer->material),

@@ -263,7 +263,8 @@ static bool is_matter(const mxg_result *result)
     return false;
 }
 
-static bool compile(struct kernel *kernel, const struct trace_options *options)
+static bool compile(struct kernel *kernel, const struct trace_options *options, bool displaces,
+                    struct compiled *out)
 {
     struct source source = {0};
     char line[160];
@@ -277,25 +278,27 @@ static bool compile(struct kernel *kernel, const struct trace_options *options)
     append_aovs(&source, kernel->bind->result, options->aovs);
     snprintf(line, sizeof line, "#define PICKS %" PRIu32 "u\n", options->picks);
     append(&source, line);
+    append(&source,
+           options->as_drawn ? "const bool AS_DRAWN = true;\n" : "const bool AS_DRAWN = false;\n");
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
     append(&source, is_matter(kernel->bind->result) ? "#define MATTER\n" : "");
-    append(&source, kernel->info.displaced ? "#define DISPLACED\n" : "");
+    append(&source, displaces ? "#define DISPLACES\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
-    bool good = source.text && compile_compute(source.text, &kernel->compiled);
+    bool good = source.text && compile_compute(source.text, out);
     free(source.text);
     if (good)
         return true;
     return kernel_fail(kernel, "bad-shader",
-                       kernel->compiled.num_messages ? kernel->compiled.messages[0].text
-                                                     : "out of memory");
+                       out->num_messages ? out->messages[0].text : "out of memory");
 }
 
-static bool create_pipeline(struct gpu *gpu, struct kernel *kernel,
-                            VkDescriptorSetLayout set_layout, uint32_t push_size)
+static bool create_pipeline(struct gpu *gpu, const struct kernel *kernel,
+                            VkDescriptorSetLayout set_layout, uint32_t push_size,
+                            struct kernel_program *program)
 {
-    const struct compiled_stage *code = &kernel->compiled.stages[MXG_STAGE_PIXEL];
+    const struct compiled_stage *code = &program->compiled.stages[MXG_STAGE_PIXEL];
     VkDescriptorSetLayout layouts[DRAW_MAX_SETS + 1];
     memcpy(layouts, kernel->inputs.set_layouts, sizeof kernel->inputs.set_layouts);
     layouts[kernel->inputs.num_sets] = set_layout;
@@ -306,8 +309,8 @@ static bool create_pipeline(struct gpu *gpu, struct kernel *kernel,
                                                .pSetLayouts = layouts,
                                                .pushConstantRangeCount = 1,
                                                .pPushConstantRanges = &camera};
-    return gpu_create_compute(gpu, &layout, code->words, code->num_words, &kernel->layout,
-                              &kernel->pipeline);
+    return gpu_create_compute(gpu, &layout, code->words, code->num_words, &program->layout,
+                              &program->pipeline);
 }
 
 /* True if the pixel stage reads uniforms that differ between objects. */
@@ -338,13 +341,23 @@ bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, stru
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
                     uint32_t push_size, const struct trace_options *options)
 {
-    return compile(kernel, options) && create_pipeline(gpu, kernel, set_layout, push_size);
+    return compile(kernel, options, false, &kernel->paths.compiled)
+           && create_pipeline(gpu, kernel, set_layout, push_size, &kernel->paths)
+           && (!kernel->info.displaced
+               || (compile(kernel, options, true, &kernel->displaces.compiled)
+                   && create_pipeline(gpu, kernel, set_layout, push_size, &kernel->displaces)));
+}
+
+static void close_program(struct gpu *gpu, struct kernel_program *program)
+{
+    vkDestroyPipeline(gpu->device, program->pipeline, NULL);
+    vkDestroyPipelineLayout(gpu->device, program->layout, NULL);
+    compiled_finish(&program->compiled);
 }
 
 void kernel_close(struct gpu *gpu, struct kernel *kernel)
 {
-    vkDestroyPipeline(gpu->device, kernel->pipeline, NULL);
-    vkDestroyPipelineLayout(gpu->device, kernel->layout, NULL);
+    close_program(gpu, &kernel->paths);
+    close_program(gpu, &kernel->displaces);
     inputs_destroy(gpu, &kernel->bind->draw, &kernel->inputs);
-    compiled_finish(&kernel->compiled);
 }

@@ -98,7 +98,7 @@ void go_through(inout Path path, Point point, vec4 towards)
     path.depth = down ? 0.0 : 1.0;
     path.phase = IN_MATTER;
     if (path.matter.x < 0.0) {
-        bool is_drawn = !(as_drawn() && down && path.turns > 0u); // a drawn picture has no light from there
+        bool is_drawn = !(AS_DRAWN && down && path.turns > 0u); // a drawn picture has no light from there
         path.phase = is_drawn ? GOING : ENDED;
         if (is_drawn && is_medium && (path.goes & BENT) == 0u)
             leave_evenly(path, point, down ? -point.normal : point.normal, towards);

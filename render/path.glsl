@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), light_aovs(),
-// TRACER_SET and, where they hold, LIGHTS (lights are bound), TRANSPARENT (light may go through) and MATTER (a surface is a pile of matter).
-// PICKS paths in a row differ only in the closure that they pick where they hit first.
+// TRACER_SET, AS_DRAWN (a path goes as a drawn picture has it), PICKS (so many paths in a row differ only in the closure that they pick where
+// they hit first) and, where they hold, LIGHTS (lights are bound), TRANSPARENT (light may go through), MATTER (a surface is a pile of matter)
+// and DISPLACES (a program of its own, which moves the corners and traces nothing).
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
 // kernel runs.
@@ -42,8 +43,8 @@ layout(push_constant) uniform Camera {
     vec4 eye, right, up, forward;  // a ray through (x, y), each from -1 to 1, goes along forward + x * right + y * up
     vec4 environment[3];           // columns: from the world to the map
     uvec4 frame;                   // width, height, first sample, number of samples
-} camera;                          // eye.w: how often a path may turn; right.w: 1 where it goes as a drawn picture has it;
-                                   // up.w: brightness of the environment; forward.w: 1 to displace the corners
+} camera;                          // eye.w: how often a path may turn;
+                                   // up.w: brightness of the environment
                                    // environment[0].w: a distance that nothing has; [1].w: number of this shader
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -52,7 +53,6 @@ const float FAR = 1e29;
 const float PI = 3.14159265;
 const int MAX_HITS = 64; // those that a path goes straight through, too
 
-bool as_drawn() { return camera.right.w > 0.5; }
 uint pixel_number() { return gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x; }
 
 // ---- Random numbers: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d ----
@@ -326,7 +326,7 @@ void receive(inout Path path, vec3 light, uint of, vec3 through)
 // Light that comes to the point from there, unless something stands before it; what is behind `limit` is behind the light.
 void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 light, uint of)
 {
-    if (as_drawn()) // it has no shadows
+    if (AS_DRAWN) // it has no shadows
         receive(path, light, of, path.through);
     else
         path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, light, of, path.through);
@@ -469,7 +469,7 @@ void bounce(inout Path path, Point point, vec4 towards)
     path.origin = beside(point, path.direction);
     if (!is_light(is_first ? max(path.weight, most[BY_PATH]) : path.through))
         path.phase = ENDED;
-    else if (next.w > 0.5 && as_drawn()) {
+    else if (next.w > 0.5 && AS_DRAWN) {
         path.phase = CROSSING;
         path.through *= inside;
     } else if (next.w > 0.5) // into a solid or out of it
@@ -480,7 +480,7 @@ void bounce(inout Path path, Point point, vec4 towards)
 bool follow_ray(inout Path path)
 {
     Hit hit;
-    if (path.hits >= uint(MAX_HITS) || (as_drawn() && path.turns > 0u) || path.turns >= uint(camera.eye.w)) {
+    if (path.hits >= uint(MAX_HITS) || (AS_DRAWN && path.turns > 0u) || path.turns >= uint(camera.eye.w)) {
         if (path.hits < uint(MAX_HITS) && path.turns > 0u)
             path.light += path.through * meet_environment(path.direction, path.density);
         path.phase = ENDED;
@@ -541,7 +541,7 @@ bool follow(inout Path path)
     while (goes && (path.num_shadows > 0u || path.phase != ENDED)) {
         while (goes && path.num_shadows > 0u)
             goes = follow_shadow(path);
-        if (goes && path.phase == CROSSING)
+        if (goes && AS_DRAWN && path.phase == CROSSING) // or else the driver compiles scatter() once more
             goes = cross_solid(path);
         else if (goes && path.phase == IN_MATTER)
             goes = follow_matter(path);
@@ -551,10 +551,14 @@ bool follow(inout Path path)
     return goes;
 }
 
-#ifdef DISPLACED
-// Corner number i, and where it goes.
-void displace(uint i)
+#ifdef DISPLACES
+// How far a vertex moves: the film has the number of one of its corners.
+void main()
 {
+    uint at = gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x;
+    if (gl_GlobalInvocationID.x >= camera.frame.x || at >= camera.frame.y)
+        return;
+    uint i = floatBitsToUint(film[at].w);
     Corner c = corners[i];
     if (objects[c.object].shader != uint(camera.environment[1].w))
         return;
@@ -563,10 +567,9 @@ void displace(uint i)
     fill_vertex_data(c.rest, c.normal_t.xyz, c.tangent, vec2(c.position_s.w, c.normal_t.w), c.normal_t.xyz, vec4(0.5),
                      vec4(c.normal_t.xyz, 0.0), c.normal_t.xyz);
     scatter();
-    film[i] = vec4(out8.xyz, 0.0);
+    film[at].xyz = out8.xyz;
 }
-#endif
-
+#else
 // The path of sample number `number` through the pixel; a draw of random numbers per path.
 Path begin(uvec2 pixel, uint number)
 {
@@ -588,14 +591,6 @@ Path begin(uvec2 pixel, uint number)
 void main()
 {
     uvec2 pixel = gl_GlobalInvocationID.xy;
-#ifdef DISPLACED
-    if (camera.forward.w > 0.5) {
-        uint i = pixel.y * camera.frame.x + pixel.x;
-        if (pixel.x < camera.frame.x && i < camera.frame.y)
-            displace(i);
-        return;
-    }
-#endif
     if (pixel.x >= camera.frame.x || pixel.y >= camera.frame.y)
         return;
     uint index = pixel.y * camera.frame.x + pixel.x, end = camera.frame.z + camera.frame.w;
@@ -628,3 +623,4 @@ void main()
     paths[index] = path;
     film[index] += sum;
 }
+#endif

@@ -233,7 +233,6 @@ static struct camera make_camera(const struct tracer *tracer)
     struct matrix axes = matrix_transpose(scene->view); /* of a rotation: its inverse */
     struct camera camera = {.frame = {tracer->width, tracer->height, 0, 0}};
     camera.eye[3] = (float)tracer->options->bounces;
-    camera.right[3] = tracer->options->as_drawn ? 1 : 0;
     camera.up[3] = tracer->options->dark ? 0 : 1;
     camera.environment[0][3] = (float)scene->near;
     for (size_t i = 0; i < 3; ++i) {
@@ -247,53 +246,122 @@ static struct camera make_camera(const struct tracer *tracer)
     return camera;
 }
 
-/* Runs one invocation of a shader per element of an area. */
-static bool run(struct tracer *tracer, uint32_t shader, struct camera *camera, uint32_t width,
-                uint32_t height)
+static const struct kernel *kernel_of(const struct tracer *tracer, uint32_t shader)
 {
     size_t k = 0;
     while (shader >= tracer->kernels[k].first_shader + tracer->kernels[k].num_shaders)
         ++k;
-    const struct kernel *kernel = &tracer->kernels[k];
+    return &tracer->kernels[k];
+}
+
+/* Runs one invocation of a shader, which traces or displaces, per element of an area. */
+static bool run(struct tracer *tracer, uint32_t shader, bool displaces, struct camera *camera,
+                uint32_t width, uint32_t height)
+{
+    const struct kernel *kernel = kernel_of(tracer, shader);
+    const struct kernel_program *program = displaces ? &kernel->displaces : &kernel->paths;
     VkCommandBuffer commands = gpu_begin(tracer->gpu);
     if (!commands)
         return false;
     camera->environment[1][3] = (float)shader;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel->pipeline);
-    inputs_bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel->layout, &kernel->bind->draw,
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->pipeline);
+    inputs_bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout, &kernel->bind->draw,
                 &kernel->inputs, shader - kernel->first_shader);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel->layout,
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout,
                             kernel->inputs.num_sets, 1, &tracer->set, 0, NULL);
-    vkCmdPushConstants(commands, kernel->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *camera,
+    vkCmdPushConstants(commands, program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *camera,
                        camera);
     vkCmdDispatch(commands, (width + GROUP - 1) / GROUP, (height + GROUP - 1) / GROUP, 1);
     return gpu_end(tracer->gpu, commands);
 }
 
-/* Evaluates the displacement of the corners in the shaders, and moves them. */
-static bool displace(struct tracer *tracer)
+/* The vertices that move: the corners of one have equal attributes. */
+struct vertices {
+    size_t *first;  /* by object: the number of its first vertex */
+    uint32_t *rows; /* by vertex: its row in the film; UINT32_MAX: none */
+    uint32_t num_rows;
+};
+
+static size_t vertex_of(const struct tracer *tracer, const struct vertices *vertices,
+                        uint32_t corner)
+{
+    const struct bvh_corner *at = &tracer->bvh.corners[corner];
+    const struct mesh *mesh = &tracer->objects[at->object]->mesh;
+    return vertices->first[at->object] + mesh->indices[3 * at->triangle + corner % 3];
+}
+
+/* Writes a corner of each vertex to the film: its number, as a fourth component. */
+static bool list_vertices(const struct tracer *tracer, struct vertices *out)
+{
+    const struct object *objects = tracer->buffers[OBJECTS].mapped;
+    float *film = tracer->buffers[FILM].mapped;
+    out->first = calloc(tracer->num_objects + 1, sizeof *out->first);
+    for (uint32_t o = 0; out->first && o < tracer->num_objects; ++o)
+        out->first[o + 1] = out->first[o] + tracer->objects[o]->mesh.num_vertices;
+    size_t size = out->first ? out->first[tracer->num_objects] * sizeof *out->rows : 0;
+    out->rows = malloc(size + 1);
+    if (!out->first || !out->rows)
+        return false;
+    memset(out->rows, 0xff, size);
+    for (uint32_t c = 0; c < 3 * tracer->bvh.num_triangles; ++c) {
+        uint32_t *row = &out->rows[vertex_of(tracer, out, c)];
+        const struct object *object = &objects[tracer->bvh.corners[c].object];
+        if (*row != UINT32_MAX || !kernel_of(tracer, object->shader)->info.displaced)
+            continue;
+        memcpy(&film[4 * (size_t)out->num_rows + 3], &c, sizeof c);
+        *row = out->num_rows++;
+    }
+    return true;
+}
+
+/* Replaces the rows of vertices by those of corners, from the last on: no corner stands before the
+ * row of its vertex. */
+static void place_corners(const struct tracer *tracer, const struct vertices *vertices)
+{
+    float *film = tracer->buffers[FILM].mapped;
+    for (uint32_t c = 3 * tracer->bvh.num_triangles; c-- > 0;) {
+        uint32_t row = vertices->rows[vertex_of(tracer, vertices, c)];
+        for (size_t k = 0; k < 3; ++k) {
+            float offset = row == UINT32_MAX ? 0 : film[4 * (size_t)row + k];
+            film[4 * (size_t)c + k] = tracer->bvh.corners[c].rest[k] + offset;
+        }
+    }
+}
+
+/* Evaluates the displacement of the vertices in the shaders, and moves the corners. */
+static bool displace_vertices(struct tracer *tracer, struct vertices *vertices)
 {
     enum { ROW = 1024 };
-    uint32_t count = 3 * tracer->bvh.num_triangles;
-    struct camera camera = {.forward = {0, 0, 0, 1}, .frame = {ROW, count, 0, 0}};
-    float *film = tracer->buffers[FILM].mapped;
+    if (!list_vertices(tracer, vertices))
+        return fail_for_memory(tracer);
+    uint32_t count = vertices->num_rows;
+    struct camera camera = {.frame = {ROW, count, 0, 0}};
     for (size_t k = 0; k < tracer->num_kernels; ++k) {
         const struct kernel *kernel = &tracer->kernels[k];
         for (uint32_t i = 0; kernel->info.displaced && i < kernel->num_shaders; ++i)
-            if (!run(tracer, kernel->first_shader + i, &camera, ROW, (count + ROW - 1) / ROW))
+            if (!run(tracer, kernel->first_shader + i, true, &camera, ROW, (count + ROW - 1) / ROW))
                 return false;
     }
-    for (size_t i = 0; i < count; ++i) /* the film has offsets */
-        for (size_t c = 0; c < 3; ++c)
-            film[4 * i + c] += tracer->bvh.corners[i].rest[c];
+    place_corners(tracer, vertices);
+    size_t corners = 3 * (size_t)tracer->bvh.num_triangles;
+    float *film = tracer->buffers[FILM].mapped;
     if (!bvh_move(&tracer->bvh, film))
         return fail_for_memory(tracer);
     memcpy(tracer->buffers[NODES].mapped, tracer->bvh.nodes,
            tracer->bvh.num_nodes * sizeof *tracer->bvh.nodes);
     memcpy(tracer->buffers[CORNERS].mapped, tracer->bvh.corners,
-           count * sizeof *tracer->bvh.corners);
-    memset(film, 0, (size_t)count * 4 * sizeof *film);
+           corners * sizeof *tracer->bvh.corners);
+    memset(film, 0, corners * 4 * sizeof *film);
     return true;
+}
+
+static bool displace(struct tracer *tracer)
+{
+    struct vertices vertices = {0};
+    bool good = displace_vertices(tracer, &vertices);
+    free(vertices.first);
+    free(vertices.rows);
+    return good;
 }
 
 /* The shader for which most paths wait; false: none does. */
@@ -313,11 +381,11 @@ static bool trace_samples(struct tracer *tracer, struct camera *camera)
     uint32_t *waiting = tracer->buffers[WAITING].mapped, shader = 0;
     memset(waiting, 0, tracer->num_shaders * sizeof *waiting);
     camera->environment[2][3] = 1;
-    bool good = run(tracer, 0, camera, tracer->width, tracer->height);
+    bool good = run(tracer, 0, false, camera, tracer->width, tracer->height);
     camera->environment[2][3] = 0;
     while (good && find_waiting(tracer, &shader)) {
         waiting[shader] = 0;
-        good = run(tracer, shader, camera, tracer->width, tracer->height);
+        good = run(tracer, shader, false, camera, tracer->width, tracer->height);
     }
     return good;
 }

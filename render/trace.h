@@ -36,13 +36,20 @@ bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count, uin
                    size_t *out_failed);
 
 /* kernel.c: the shader of one `bind`, with the path tracer around it. */
+struct kernel_program {
+    struct compiled compiled;
+    VkPipelineLayout layout;
+    VkPipeline pipeline;
+};
 struct kernel {
     struct bind *bind;
     mxg_shader_info info;
-    struct compiled compiled;
     struct inputs inputs;
-    VkPipelineLayout layout;
-    VkPipeline pipeline;
+    /*
+     * displaces: moves the corners, where the shader displaces. It is a program of its own, because
+     * drivers leave out of it what displacement does not need.
+     */
+    struct kernel_program paths, displaces;
     uint32_t first_shader, num_shaders; /* numbers: one, or one for each object */
 };
 /* Binds the shader and finds its numbers: from `first_shader` on. false: see bind->reason. */
