@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Slabs in the path tracer: means of drawn and traced pictures agree within 3 percent; light that walks through white media is all there,
+# also from behind a sheet; a clear sheet takes what Beer and Lambert say; and picks of a closure change the noise, not the mean.
+# Arguments: mxgen, mxgen-render, mean_ratio, the root of the source tree.
+mxgen=$(realpath "$1") render=$(realpath "$2") mean_ratio=$(realpath "$3") root=$(realpath "$4")
+examples=$root/examples exr=$root/tests/programs/exr.py variance=$root/bench/variance.py
+. "$root/tests/programs/common.sh"
+export MESA_SHADER_CACHE_DISABLE=true
+
+# near VALUE EXPECTED TOLERANCE
+near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { print a; exit !(a > b - t && a < b + t) }'; }
+# channel FILE NAME: its mean.
+channel() { python3 "$exr" "$1" "$2" mean; }
+# trace FILE DOCUMENT ELEMENT ARGUMENT...
+trace() { exits 0 "$render" "$2" -e "$3" -q --path-trace -o "$1" "${@:4}"; }
+
+if ! has_device "$render"; then
+    skip 'there is no Vulkan device'
+    finish slab_paths
+fi
+
+# compare DOCUMENT ELEMENT MESH [OF-WHAT-IS-TRACED]
+compare() {
+    check "$2 is drawn" exits 0 "$render" "$examples/$1.mtlx" -e "$2" -q -m "$3" --lights none --size 48 --samples 128 -o drawn.exr
+    # shellcheck disable=SC2086 # arguments, divided by spaces
+    check "$2 is traced" trace traced.exr "$examples/$1.mtlx" "$2" -m "$3" --lights none --size 48 --paths 64 ${4:-}
+    check "$2 agrees" near "$("$mean_ratio" traced.exr drawn.exr)" 1 0.03
+}
+compare slabs CoatedMetal sphere    # opaque below a clear coat
+compare slabs CarPaint sphere
+compare slabs WrappedSilk sphere    # below a coat that scatters
+compare slab_blends MetalToPlastic sphere
+compare slabs MilkySheet plane --as-drawn # a drawn sheet has no light from behind
+
+# Light from everywhere: what a white pile does not let straight on comes out of it, whatever it is made of.
+{ printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'; for i in {1..32}; do printf '\200\200\200\201'; done; } >white.hdr
+cat >white.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <slab name="even" type="BSDF"><input name="diffuse_albedo" type="color3" value="1, 1, 1"/><input name="f0" type="color3" value="0, 0, 0"/>
+    <input name="mean_free_path" type="vector3" value="0.01, 0.02, 0.04"/></slab>
+  <slab name="forward" type="BSDF"><input name="diffuse_albedo" type="color3" value="1, 1, 1"/><input name="phase_anisotropy" type="float" value="0.6"/>
+    <input name="mean_free_path" type="vector3" value="0.02, 0.02, 0.02"/></slab>
+  <slab name="ground" type="BSDF"><input name="diffuse_albedo" type="color3" value="1, 1, 1"/></slab>
+  <slab_coverage name="half" type="BSDF"><input name="in" type="BSDF" nodename="forward"/><input name="weight" type="float" value="0.5"/></slab_coverage>
+  <slab_mix name="mixed" type="BSDF"><input name="fg" type="BSDF" nodename="half"/><input name="bg" type="BSDF" nodename="even"/><input name="mix" type="float" value="0.7"/></slab_mix>
+  <slab_layer name="on_ground" type="BSDF"><input name="top" type="BSDF" nodename="mixed"/><input name="base" type="BSDF" nodename="ground"/></slab_layer>
+  <slab_layer name="on_forward" type="BSDF"><input name="top" type="BSDF" nodename="mixed"/><input name="base" type="BSDF" nodename="forward"/></slab_layer>
+  <slab_surface name="Stack" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="on_ground"/></slab_surface>
+  <slab_surface name="Sheet" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="on_forward"/><input name="thin" type="boolean" value="true"/></slab_surface>
+  <slab name="dense" type="BSDF"><input name="diffuse_albedo" type="color3" value="1, 1, 1"/><input name="f0" type="color3" value="0, 0, 0"/>
+    <input name="mean_free_path" type="vector3" value="0.00125, 0.00125, 0.00125"/></slab>
+  <slab_surface name="Dense" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="dense"/><input name="thin" type="boolean" value="true"/></slab_surface>
+  <oren_nayar_diffuse_bsdf name="paper" type="BSDF"><input name="color" type="color3" value="1, 1, 1"/></oren_nayar_diffuse_bsdf>
+  <surface name="Paper" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="paper"/></surface>
+  <slab name="clear" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0, 0, 0"/>
+    <input name="mean_free_path" type="vector3" value="0.01, 0.01, 0.01"/></slab>
+  <slab_surface name="Clear" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="clear"/><input name="thin" type="boolean" value="true"/></slab_surface>
+</materialx>
+XML
+for element in Stack Sheet; do
+    check "$element in even light" trace even.exr white.mtlx $element -m sphere --lights none --environment white.hdr --size 32 --paths 256 --bounces 64
+    light=$(awk -v r="$(channel even.exr R)" -v g="$(channel even.exr G)" -v b="$(channel even.exr B)" -v a="$(channel even.exr A)" \
+        'BEGIN { print (r + g + b) / 3 + 1 - a }')
+    check "and no light is lost: $element" near "$light" 1 0.01
+done
+
+# A quad in the light of one lamp, before and behind it. A white sheet sends all of it to one side or the other.
+printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n' >quad.obj
+# lit ELEMENT Z: in the light that goes to this z.
+lit() {
+    trace lit.exr white.mtlx "$1" -m quad.obj --camera 30,20 --environment none --lights directional_light --size 24 --paths 64 \
+        --set "u_lightData[0].direction=0.3,0.2,$2" --set 'u_lightData[1].color=0,0,0' && channel lit.exr R
+}
+before=$(lit Dense -1) behind=$(lit Dense 1) paper=$(lit Paper -1)
+check 'paper has no light from behind' near "$(lit Paper 1)" 0 0.001
+check 'a sheet does' awk -v a="$behind" -v b="$paper" 'BEGIN { exit !(a > 0.1 * b) }'
+check 'and all light of a lamp goes to one side or the other' \
+    near "$(awk -v a="$before" -v b="$behind" -v c="$paper" 'BEGIN { print (a + b) / c }')" 1 0.03
+
+check 'a clear sheet' trace clear.exr white.mtlx Clear -m quad.obj --camera 0,0 --environment none --lights none --size 24 --paths 256
+check 'is seen through: exp(-1)' near "$(python3 "$exr" clear.exr A 0.5 0.5)" 0.632 0.005
+
+# Picks of a closure.
+check 'one pick' trace one.exr "$examples/slabs.mtlx" CarPaint -m sphere --lights none --size 32 --paths 512
+check 'sixteen picks' trace more.exr "$examples/slabs.mtlx" CarPaint -m sphere --lights none --size 32 --paths 32 --picks 16
+check 'have one mean' near "$("$mean_ratio" one.exr more.exr)" 1 0.03
+check 'the variance of picks' exits 0 "$variance" "$mxgen" "$examples/slabs.mtlx#CarPaint" --size 24
+check 'is that of all closures, and more' awk -F'|' '/CarPaint/ { found = 1; exit !($5 > 1.1) } END { exit !found }' out
+
+finish slab_paths
