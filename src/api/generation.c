@@ -474,11 +474,10 @@ static bool check_outputs(struct generation *g)
     uint32_t num =
                  shader->first_of_block[BLOCK_OUTPUTS + 1] - shader->first_of_block[BLOCK_OUTPUTS],
              limit = (uint32_t)g->options[OPTION_max_outputs].number;
-    if (shader->has_two_sources)
-        limit = 2; /* a blend with two sources has one attachment */
+    bool has_one_attachment = shader->has_two_sources && !shader->is_function;
     struct text list;
     if (!shader->aovs.len || shader->scatters || generation_packs(g) || g->result->target->closures
-        || num <= limit)
+        || num <= (has_one_attachment ? 2 : limit))
         return true;
     text_init(&list, &g->scratch);
     uint32_t last = g->element;
@@ -488,6 +487,13 @@ static bool check_outputs(struct generation *g)
         text_fmt(&list, "%s'%s'", list.len ? ", " : "",
                  str_text(shader->strings, shader->aovs.items[i].name));
         last = shader->aovs.items[i].element ? shader->aovs.items[i].element : last;
+    }
+    if (has_one_attachment) {
+        diag_add(diags_of(g), DIAG_ID_options_clash, doc_place(&g->document->layer.doc, last),
+                 option_key(OPTION_transparency), "dual", "aov",
+                 str_text(&g->result->strings, shader->aovs.items[0].name),
+                 "a blend with two sources has one attachment");
+        return false;
     }
     diag_add(diags_of(g), DIAG_ID_aov_limit, doc_place(&g->document->layer.doc, last),
              (unsigned)num, (unsigned)limit, text_cstr(&list));

@@ -22,13 +22,13 @@ CLEAR = 1e4, 1e4, 1e4
 SIZE = 32
 
 
-def sheet(paths, more="", inputs=""):
+def sheet(paths):
     return f"""<materialx version="1.39">
   <slab name="glass" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0, 0, 0"/>
-    <input name="mean_free_path" type="vector3" value="{", ".join(map(str, paths))}"/></slab>{more}
+    <input name="mean_free_path" type="vector3" value="{", ".join(map(str, paths))}"/></slab>
   <slab_surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="glass"/><input name="thin" type="boolean" value="true"/>
     <input name="surface_thickness" type="float" value="0.01"/></slab_surface>
-  <surfacematerial name="Glass" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/>{inputs}</surfacematerial>
+  <surfacematerial name="Glass" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
 </materialx>"""
 
 
@@ -77,6 +77,8 @@ def check_sources(folder):
     for target in "essl", "hlsl":
         made = run(MXGEN, document, "--target", target, "--transparency", "dual", "--stdout")
         check(made.returncode == 1 and "[options-clash]" in made.stderr, f"{target} has no second source: {made.stderr}")
+    made = run(MXGEN, HERE.parent / "golden" / "aov.mtlx", "--target", "vulkan", "--transparency", "dual", "--stdout")
+    check(made.returncode == 1 and "one attachment" in made.stderr, f"AOVs beside a second source: {made.stderr}")
     plain = '<oren_nayar_diffuse_bsdf name="d" type="BSDF"/><surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="d"/></surface>'
     document.write_text(f'<materialx version="1.39">{plain}</materialx>')
     made = run(MXGEN, document, "--target", "vulkan", "--transparency", "dual", "--stdout", "--interface", "reduced")
