@@ -34,7 +34,7 @@ enum {
     COST_CALL = 32,
     COST_LOCAL = 2,
     /* cheaper to compute in each round of a loop than to keep in a register */
-    MAX_COST_IN_LOOP = 2,
+    MAX_COST_IN_LOOP = 3,
     /* the same for a condition, which needs no register and reads better in its place */
     MAX_COST_OF_CONDITION = 3,
     /* a dearer arm of a choice is worth a branch, which a GPU takes where all pixels agree */

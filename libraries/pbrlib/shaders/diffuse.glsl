@@ -40,7 +40,7 @@ vec3 mx_fujii_multiple(vec3 color, float mean)
 vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 L)
 {
     float cos_l = mx_facing_cosine(N, V, L);
-    vec3 lambert = color * (cos_l / MX_PI);
+    vec3 lambert = color * (cos_l * (1.0 / MX_PI));
     float cos_v = mx_view_cosine(N, V);
     if (!energy_compensation)
     {

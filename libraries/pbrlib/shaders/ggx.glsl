@@ -144,7 +144,8 @@ float mx_ggx_stretched(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 H, flo
         return is_wide ? square - (1.0 - area) * (cos_h * cos_h) : dot(slope, slope) + area * (cos_h * cos_h);
     float along = dot(H, lobe.x);
     if (is_wide)
-        return area * dot(vec3(along * along, square - along * along - cos_h * cos_h, cos_h * cos_h), vec3(1.0 / (lobe.alpha * lobe.alpha), 1.0));
+        return area * dot(vec3(along * along, square - along * along - cos_h * cos_h, cos_h * cos_h),
+                          vec3(1.0 / (lobe.alpha * lobe.alpha), 1.0));
     vec2 parts = vec2(along, dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     return area * (dot(parts, parts) + cos_h * cos_h);
 }
