@@ -32,7 +32,12 @@ bool collide(inout Path path, vec3 up, vec4 xi)
     vec3 chance = path.through / (path.through.x + path.through.y + path.through.z), extinction = out10.rgb * slope(path, up);
     float drawn = xi.x < chance.x ? extinction.x : xi.x < chance.x + chance.y ? extinction.y : extinction.z;
     bool down = (path.goes & DOWN) != 0u;
-    float room = down ? 1.0 - path.depth : path.depth, way = min(-log(1.0 - xi.y) / drawn, room);
+    float room = down ? 1.0 - path.depth : path.depth;
+    if (out9.r + out9.g + out9.b <= 0.0) { // it only absorbs: Beer, Lambert
+        path.through *= exp(-extinction * room);
+        return false;
+    }
+    float way = min(-log(1.0 - xi.y) / drawn, room);
     vec3 passed = exp(-extinction * way), density = way < room ? passed * extinction : passed;
     path.depth = way < room ? path.depth + (down ? way : -way) : down ? 1.0 : 0.0;
     path.through *= (way < room ? out9.rgb / max(out10.rgb, 1e-20) : vec3(1.0)) * density / dot(chance, density);

@@ -253,7 +253,8 @@ struct choice {
 static struct choice choose(struct closure_scatter *s, ir_ref leaf)
 {
     struct choice c = {.through = throughput(s, leaf), .lobe = share_of_lobe(s, leaf)};
-    c.passes = scatter_op2(s, IR_MAX, scatter_mean_of(s, c.through), scatter_number(s, 0.0f));
+    c.passes = scatter_mean_of(s, c.through);
+    c.passes = scatter_op2(s, IR_MAX, c.passes, scatter_number(s, 0.0f));
     c.all = scatter_op2(s, IR_ADD, c.lobe, c.passes);
     return c;
 }
@@ -291,7 +292,8 @@ ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid
         values[i] = scatter_op2(s, IR_MUL, lobe, attenuation(s, above, way));
         if (!level->extinction)
             continue;
-        values[i] = where(s, has_extinction(s, level), scatter_grey(s, 1.0f), values[i]);
+        ir_ref is_medium = has_extinction(s, level);
+        values[i] = where(s, is_medium, scatter_grey(s, 1.0f), values[i]);
         ir_ref more = scatter_op2(s, IR_ADD, above, level->extinction);
         above = where(s, level->is_here, more, above);
     }

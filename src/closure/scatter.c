@@ -115,12 +115,14 @@ static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *lea
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
            light = weight_along(s, leaf, scatter_number(s, CLOSURE_MEAN_WAY));
     if (albedo && !scatter_refracts(s, leaf->leaf)) {
-        albedo = scatter_op2(s, IR_MUL, scatter_grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
+        albedo = ir_convert(g, IR_TYPE_VEC3, albedo);
+        albedo = scatter_op2(s, IR_MUL, scatter_grey(s, 0.9f), albedo);
         light =
             scatter_op2(s, IR_MUL, light, scatter_op2(s, IR_ADD, scatter_grey(s, 0.1f), albedo));
     }
     assert(ir_type_of(g, light) == IR_TYPE_VEC3);
-    return scatter_op2(s, IR_MAX, scatter_mean_of(s, light), scatter_number(s, 0.0f));
+    ir_ref mean = scatter_mean_of(s, light);
+    return scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
 }
 
 /* True if the light from L comes from the visible side. */
@@ -129,8 +131,8 @@ ir_ref scatter_is_in_front(struct closure_scatter *s, ir_ref direction)
     ir_ref normal = closure_normal(s->shader, s->host), view = closure_view(s->shader, s->host);
     ir_ref of_view = scatter_op2(s, IR_DOT, normal, view),
            of_light = scatter_op2(s, IR_DOT, normal, direction);
-    return scatter_op2(s, IR_GT, scatter_op2(s, IR_MUL, of_view, of_light),
-                       scatter_number(s, 0.0f));
+    ir_ref product = scatter_op2(s, IR_MUL, of_view, of_light);
+    return scatter_op2(s, IR_GT, product, scatter_number(s, 0.0f));
 }
 
 /* The medium behind a leaf, of the first part that has one; 0: none. */
@@ -270,13 +272,14 @@ static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref directio
             ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
             density =
                 scatter_op2(s, IR_MUL, density, scatter_op2(s, IR_DIV, leaf->share, s->total));
-            value = scatter_op2(s, IR_DIV, value,
-                                scatter_op2(s, IR_ADD, scatter_number(s, 1.0f),
-                                            scatter_op2(s, IR_MUL, solid_angle, density)));
+            density = scatter_op2(s, IR_MUL, solid_angle, density);
+            density = scatter_op2(s, IR_ADD, scatter_number(s, 1.0f), density);
+            value = scatter_op2(s, IR_DIV, value, density);
         }
-        if (has(s, leaf->leaf, LEAF_REFRACTION))
-            value = ir_op3(g, IR_SELECT, scatter_is_in_front(s, direction), value,
-                           scatter_grey(s, 0.0f));
+        if (has(s, leaf->leaf, LEAF_REFRACTION)) {
+            ir_ref in_front = scatter_is_in_front(s, direction);
+            value = ir_op3(g, IR_SELECT, in_front, value, scatter_grey(s, 0.0f));
+        }
         sum = scatter_op2(s, IR_ADD, sum, value);
     }
     return sum;
@@ -438,8 +441,8 @@ static ir_ref scale_of(struct closure_scatter *s, ir_ref alpha)
 {
     if (closure_is_opaque(s->graph, alpha))
         return 0;
-    return scatter_op2(s, IR_DIV, scatter_number(s, 1.0f),
-                       scatter_op2(s, IR_MAX, alpha, scatter_number(s, 1e-6f)));
+    ir_ref least = scatter_op2(s, IR_MAX, alpha, scatter_number(s, 1e-6f));
+    return scatter_op2(s, IR_DIV, scatter_number(s, 1.0f), least);
 }
 
 void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatter_layer *layer)
