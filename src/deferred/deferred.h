@@ -48,7 +48,7 @@ ir_ref deferred_misfit(const struct shader *shader, ir_ref root);
 struct closure_above deferred_above(struct shader *shader);
 
 /* The classes with a lighting pass, by number. */
-enum deferred_class { CLASS_EMPTY, CLASS_SIMPLE, CLASS_SINGLE, CLASS_COMPLEX, NUM_CLASSES };
+enum deferred_class { CLASS_EMPTY, CLASS_SIMPLE, CLASS_SINGLE, CLASS_COMPLEX, CLASS_SPECIAL, NUM_CLASSES };
 
 /* The passes that belong to no material, in their order; not all run in one picture. */
 enum deferred_pass {
@@ -57,6 +57,7 @@ enum deferred_pass {
     PASS_SIMPLE,
     PASS_SINGLE,
     PASS_COMPLEX,
+    PASS_SPECIAL,
     PASS_SHOW,
     PASS_LIGHT_RAYS, /* over payloads, not pixels */
     NUM_PASSES

@@ -22,8 +22,8 @@ static const struct {
     {"MX_LIT", {"lit", "image2D", "", "the picture: any format of floats"}},
     {"MX_TILES",
      {"tiles", "buffer", "std430",
-      "four commands of dispatches, (0, 1, 1, 0) at first, by class; then room for the number of "
-      "every tile, four times"}},
+      "five commands of dispatches, (0, 1, 1, 0) at first, by class; then room for the number of "
+      "every tile, five times"}},
     {"MX_FRAME",
      {"frame", "uniform", "std140",
       "mat4 from (x, y, depth, 1) in pixels to the world; uvec4 width, height, tiles in a row, "
@@ -47,6 +47,7 @@ static const struct {
     [PASS_SIMPLE] = {"light_simple", CLASS_SIMPLE, true, deferred_light, 0x1ff},
     [PASS_SINGLE] = {"light_single", CLASS_SINGLE, true, deferred_light, 0x1ff},
     [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, true, deferred_light, 0x1ff},
+    [PASS_SPECIAL] = {"light_special", CLASS_SPECIAL, true, deferred_light, 0x1ff},
     [PASS_SHOW] = {"show", CLASS_EMPTY, false, deferred_show, 0x14f},
     [PASS_LIGHT_RAYS] = {"light_rays", CLASS_COMPLEX, false, deferred_light_rays, 0x740},
 };
@@ -84,7 +85,8 @@ enum deferred_class deferred_pass_class(enum deferred_pass pass)
 
 const char *deferred_element(enum deferred_class which)
 {
-    static const char *const elements[NUM_CLASSES] = {"empty", "simple", "single", "complex"};
+    static const char *const elements[NUM_CLASSES] = {"empty", "simple", "single", "complex",
+                                                      "special"};
     assert(which < NUM_CLASSES);
     return elements[which];
 }

@@ -22,6 +22,7 @@ struct bench {
     mxg_context *context;
     mxg_options *options;
     mxg_document *document;
+    char path[1024];        /* of the document */
     mxg_bindings *bindings; /* NULL, or the stack 0 of these takes the place of elements */
 };
 
@@ -61,13 +62,14 @@ static bool add_program(struct bench *b, struct drawing *d, const char *element,
     size_t i = d->count++;
     if (!make(b, element, pipeline, storage, &d->results[i]))
         return false;
-    d->binds[i] = (struct bind){.result = d->results[i], .scene = &b->scene};
+    d->binds[i] = (struct bind){.result = d->results[i], .scene = &b->scene, .document = b->path};
     d->binds[i].draw.role = role;
     return true;
 }
 
 static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
 {
+    struct bind *const binds[] = {&d->binds[0]};
     struct passes_setup setup = {.context = b->context,
                                  .options = b->options,
                                  .scene = &b->scene,
@@ -76,6 +78,8 @@ static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
                                  .width = SIZE,
                                  .height = SIZE,
                                  .words = d->stored_words,
+                                 .binds = binds,
+                                 .num_binds = 1,
                                  .shown = shown};
     bool good = passes_open(&setup, &d->passes);
     if (!good)
@@ -390,16 +394,17 @@ static void test_sizes(struct bench *b)
 {
     static const struct {
         const char *element;
-        uint32_t bytes, class_, closures;
-    } rows[] = {{"Plain", 12, 1, 1}, {"Wax", 16, 2, 1},   {"Hazy", 20, 2, 1},
-                {"Downy", 24, 2, 1}, {"Satin", 28, 3, 1}, {"Lacquered", 40, 3, 2}};
+        uint32_t bytes, top, closures; /* top: the highest four bits of word 0 */
+    } rows[] = {{"Plain", 12, 1, 1},  {"Wax", 16, 2, 1},       {"Hazy", 20, 2, 1},
+                {"Downy", 24, 2, 1},  {"Satin", 28, 3, 1},     {"Lacquered", 40, 3, 2},
+                {"Pearly", 44, 5, 2}, {"Glittering", 60, 7, 2}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         struct drawing d;
         uint32_t words[MAX_WORDS] = {0};
         if (draw(b, rows[i].element, "round", UINT32_MAX, &d)) {
             REQUIRE_EQ(4 * written(&d, SIZE / 2, SIZE / 2, words), rows[i].bytes);
             REQUIRE_EQ(4 * d.stored_words, rows[i].bytes);
-            REQUIRE_EQ(words[0] >> 28, rows[i].class_);
+            REQUIRE_EQ(words[0] >> 28, rows[i].top);
             REQUIRE_EQ((words[1] >> 28) + 1, rows[i].closures);
             REQUIRE(stored_read(d.passes.stored, 0, 0, words, 3)); /* beside the sphere */
             REQUIRE_EQ(words[0], 0);
@@ -540,16 +545,18 @@ static void test_stack(struct bench *b)
 
 static bool open_document(struct bench *b, const char *folder, const char *name)
 {
-    char path[1024];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
+    snprintf(b->path, sizeof b->path, "%s/%s", folder, name);
     mxg_document_destroy(b->document);
     b->document = NULL;
     return REQUIRE_EQ(
-        mxg_document_load(b->context, mxg_library_builtin(b->context), path, &b->document), MXG_OK);
+        mxg_document_load(b->context, mxg_library_builtin(b->context), b->path, &b->document),
+        MXG_OK);
 }
 
 int main(int argc, char **argv)
 {
+    static const char *const specials[] = {"Pearly", "Glittering"}, *const paints[] = {
+                                                                        "FlakePaint", "PearlPaint"};
     static const char *const features[] = {"Plain", "Wax",       "Hazy",    "Downy",
                                            "Satin", "Lacquered", "Chipped", "Lantern"},
                              *const layers[] = {"CoatedMetal", "DustyFibre", "WrappedSilk",
@@ -575,6 +582,8 @@ int main(int argc, char **argv)
         test_views(&b);
         for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
             test_picture(&b, features[i]);
+        for (size_t i = 0; i < sizeof specials / sizeof *specials; ++i)
+            test_picture(&b, specials[i]);
         for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
             test_payload(&b, features[i], 38);
     }
@@ -584,6 +593,9 @@ int main(int argc, char **argv)
     if (b.document)
         for (size_t i = 0; i < sizeof layers / sizeof *layers; ++i)
             test_payload(&b, layers[i], 38);
+    if (open_document(&b, argv[1], "slab_glints.mtlx"))
+        for (size_t i = 0; i < sizeof paints / sizeof *paints; ++i)
+            test_picture(&b, paints[i]);
     mxg_options_set(b.options, "slabs", "true"); /* in both pipelines */
     if (open_document(&b, argv[2], "materials.mtlx"))
         for (size_t i = 0; i < sizeof others / sizeof *others; ++i)

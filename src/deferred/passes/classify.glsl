@@ -9,9 +9,9 @@ void main()
         mx_classes = 0u;
     barrier();
     if (!mx_is_outside(pixel))
-        atomicOr(mx_classes, 1u << (imageLoad(mx_word_0, pixel).x >> 28u & 3u));
+        atomicOr(mx_classes, 1u << mx_class(imageLoad(mx_word_0, pixel).x));
     barrier();
     uint class_ = gl_LocalInvocationIndex;
-    if (class_ < 4u && (mx_classes >> class_ & 1u) != 0u)
+    if (class_ < 5u && (mx_classes >> class_ & 1u) != 0u)
         mx_tile[class_ * mx_size.w + atomicAdd(mx_dispatch[class_].x, 1u)] = gl_WorkGroupID.y * mx_size.z + gl_WorkGroupID.x;
 }

@@ -20,7 +20,7 @@ void main()
         mx_fill(closure, point.xyz / point.w, reader.normals[0]);
         surface();
         lit.xyz += out1.xyz;
-#if MX_CLASS != 3
+#if MX_CLASS < 3
         break;
 #endif
     }
