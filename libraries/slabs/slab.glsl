@@ -376,10 +376,10 @@ float mx_slab_mark_bsdf_way(vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughn
     return MX_MEAN_WAY;
 }
 
-// The mean free path over the thickness. Of a body: the radius of its scattered light over the radius of the surface.
+// The mean free path over the thickness. Of a body: the radius of its scattered light, for shaders that do not spread it over that of the surface.
 vec3 mx_slab_free_path(vec3 mean_free_path, float thickness, float is_thick, vec3 N, vec3 P)
 {
     if (is_thick > 0.0)
-        return mx_curvature(N, P) * max(mean_free_path, 0.1);
+        return (option_sss == 1 ? 1.0 : mx_curvature(N, P)) * max(mean_free_path, 0.1);
     return mean_free_path / max(thickness, 1e-6);
 }

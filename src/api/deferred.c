@@ -26,6 +26,7 @@ struct deferred_layout generation_storage(const struct option_value *options,
         .set = (uint32_t)options[OPTION_binding_set].number + 1,
         .sets = target->caps & CAP_SETS,
         .is_payload = is_payload,
+        .diffuses = !is_payload && options[OPTION_sss].number,
     };
 }
 

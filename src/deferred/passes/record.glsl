@@ -36,9 +36,9 @@ struct MxRecord
     uint core, body, weights[2], medium, lobes, fuzz, anisotropy, tint, glints[4], normal;
 };
 
-uint mx_class(uint word_0)
+uint mx_class(uint first)
 {
-    return (word_0 >> 20u & MX_IS_SPECIAL) != 0u ? MX_SPECIAL : word_0 >> 28u;
+    return (first >> 20u & MX_IS_SPECIAL) != 0u ? MX_SPECIAL : first >> 28u;
 }
 
 // What a closure has.
