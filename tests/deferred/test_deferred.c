@@ -6,119 +6,10 @@
  */
 #include "unit/test.h"
 
-#include "render/passes.h"
-
-#include <mxgen/scene.h>
+#include "deferred/drawing.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-enum { SIZE = 96, PIXELS = SIZE * SIZE, MAX_WORDS = 48, PAYLOAD_WORDS = 16 };
-#define MARK 0xdeadbeefu
-
-struct bench {
-  struct gpu gpu;
-  struct scene scene;
-  mxg_context *context;
-  mxg_options *options;
-  mxg_document *document;
-  char path[1024]; /* of the document */
-  mxg_bindings
-      *bindings; /* NULL, or the stack 0 of these takes the place of elements */
-};
-
-/* A material on the sphere. */
-struct drawing {
-  struct draw_canvas *canvas;
-  struct passes passes;
-  struct bind binds[2];
-  struct render renders[2];
-  mxg_result *results[2];
-  size_t count;
-  uint32_t stored_words, layout;
-  float *pixels;
-};
-
-static bool make(struct bench *b, const char *element, const char *pipeline,
-                 const char *storage, mxg_result **out) {
-  mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-  desc.target = "vulkan";
-  desc.element = b->bindings ? NULL : element;
-  desc.bindings = b->bindings;
-  desc.options = b->options;
-  mxg_options_set(b->options, "pipeline", pipeline);
-  mxg_options_set(b->options, "storage", storage);
-  mxg_status status = mxg_generate(b->context, b->document, &desc, out);
-  mxg_diagnostic first = {sizeof first};
-  if (*out &&
-      mxg_diagnostics_get(mxg_result_diagnostics(*out), 0, &first) == MXG_OK &&
-      first.severity <= MXG_SEVERITY_WARNING)
-    printf("%s: %s\n", element, first.message);
-  return REQUIRE_EQ(status, MXG_OK);
-}
-
-static bool add_program(struct bench *b, struct drawing *d, const char *element,
-                        const char *pipeline, const char *storage,
-                        enum draw_role role) {
-  size_t i = d->count++;
-  if (!make(b, element, pipeline, storage, &d->results[i]))
-    return false;
-  d->binds[i] = (struct bind){
-      .result = d->results[i], .scene = &b->scene, .document = b->path};
-  d->binds[i].draw.role = role;
-  return true;
-}
-
-static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown) {
-  struct bind *const binds[] = {&d->binds[0]};
-  struct passes_setup setup = {.context = b->context,
-                               .options = b->options,
-                               .scene = &b->scene,
-                               .gpu = &b->gpu,
-                               .canvas = d->canvas,
-                               .width = SIZE,
-                               .height = SIZE,
-                               .words = d->stored_words,
-                               .binds = binds,
-                               .num_binds = 1,
-                               .shown = shown};
-  bool good = passes_open(&setup, &d->passes);
-  if (!good)
-    printf("%s\n", d->passes.reason);
-  if (good)
-    stored_mark(d->passes.stored, MARK);
-  return REQUIRE(good);
-}
-
-/* Draws an element; storage NULL: forward. Call close_drawing in any case. */
-static bool draw(struct bench *b, const char *element, const char *storage,
-                 uint32_t shown, struct drawing *d) {
-  *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float))};
-  d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
-  if (!add_program(b, d, element, storage ? "deferred" : "forward",
-                   storage ? storage : "float", DRAW_LIT))
-    return false;
-  mxg_shader_info info = {sizeof info};
-  mxg_result_info(d->results[0], &info);
-  d->stored_words = info.stored_words;
-  d->layout = info.layout;
-  if (info.stored_words) {
-    d->binds[0].draw.role = DRAW_STORES;
-    d->binds[0].draw.has_holes = info.alpha == MXG_ALPHA_MASK;
-    if (!open_passes(b, d, shown) ||
-        (d->binds[0].draw.has_holes &&
-         !add_program(b, d, element, "depth", storage, DRAW_CUTS)))
-      return false;
-  }
-  bool good = true;
-  for (size_t i = 0; good && i < d->count; ++i) {
-    good = render_open(&d->renders[i], d->canvas, &b->gpu, &d->binds[i]);
-    if (!good)
-      printf("%s: %s\n", element, d->binds[i].reason);
-  }
-  return REQUIRE(good &&
-                 render_frame(d->renders, d->count, d->canvas, d->pixels));
-}
 
 /* ---- Rays ---- */
 
@@ -163,424 +54,300 @@ static const char hits_source[] =
     "    payloads[pixel] = surface(";
 
 /* Vertex data of a hit. */
-static const char *hit_value(const char *name) {
-  static const char *const values[][2] = {
-      {"positionWorld", "point"},
-      {"normalWorld", "normal"},
-      {"tangentWorld", "tangent"},
-      {"viewWorld", "-way"},
-      {"positionObject", "local"},
-      {"dx_positionWorld", "dx"},
-      {"dx_normalWorld", "dx"},
-      {"dy_positionWorld", "dy"},
-      {"dy_normalWorld", "dy"},
-      {"texcoord_0", "vec2(fract(atan(local.x, local.z) / 6.2831853), "
-                     "acos(-local.y) / 3.1415927)"}};
-  for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
-    if (strcmp(values[i][0], name) == 0)
-      return values[i][1];
-  return NULL;
+static const char *hit_value(const char *name)
+{
+    static const char *const values[][2] = {{"positionWorld", "point"},
+                                            {"normalWorld", "normal"},
+                                            {"tangentWorld", "tangent"},
+                                            {"viewWorld", "-way"},
+                                            {"positionObject", "local"},
+                                            {"dx_positionWorld", "dx"},
+                                            {"dx_normalWorld", "dx"},
+                                            {"dy_positionWorld", "dy"},
+                                            {"dy_normalWorld", "dy"},
+                                            {"texcoord_0",
+                                             "vec2(fract(atan(local.x, local.z) / 6.2831853), "
+                                             "acos(-local.y) / 3.1415927)"}};
+    for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
+        if (strcmp(values[i][0], name) == 0)
+            return values[i][1];
+    return NULL;
 }
 
-static bool write_hits(struct bench *b, const mxg_result *result, char *out,
-                       size_t room) {
-  size_t len = (size_t)snprintf(
-      out, room, "#version 450\n%s\nconst mat4 OF_OBJECT = mat4(",
-      mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
-  for (size_t i = 0; i < 16 && len < room; ++i)
-    len += (size_t)snprintf(out + len, room - len, "%s%.9g", i ? ", " : "",
-                            b->scene.object.world.m[i / 4][i % 4]);
-  if (len < room)
-    len += (size_t)snprintf(out + len, room - len, ");\n%s", hits_source);
-  const char *between = "";
-  for (uint32_t i = 0; i < mxg_result_num_variables(result) && len < room;
-       ++i) {
-    mxg_variable variable = {sizeof variable};
-    mxg_result_variable(result, i, &variable);
-    if (variable.block != MXG_BLOCK_VERTEX_DATA)
-      continue;
-    const char *value = hit_value(variable.name);
-    if (!REQUIRE(value))
-      printf("    a hit has no %s\n", variable.name);
-    len += (size_t)snprintf(out + len, room - len, "%s%s", between,
-                            value ? value : "vec3(0)");
-    between = ", ";
-  }
-  if (len < room)
-    len += (size_t)snprintf(out + len, room - len, ");\n}\n");
-  return REQUIRE(len < room);
+static bool write_hits(struct bench *b, const mxg_result *result, char *out, size_t room)
+{
+    size_t len = (size_t)snprintf(out, room, "#version 450\n%s\nconst mat4 OF_OBJECT = mat4(",
+                                  mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
+    for (size_t i = 0; i < 16 && len < room; ++i)
+        len += (size_t)snprintf(out + len, room - len, "%s%.9g", i ? ", " : "",
+                                b->scene.object.world.m[i / 4][i % 4]);
+    if (len < room)
+        len += (size_t)snprintf(out + len, room - len, ");\n%s", hits_source);
+    const char *between = "";
+    for (uint32_t i = 0; i < mxg_result_num_variables(result) && len < room; ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        if (variable.block != MXG_BLOCK_VERTEX_DATA)
+            continue;
+        const char *value = hit_value(variable.name);
+        if (!REQUIRE(value))
+            printf("    a hit has no %s\n", variable.name);
+        len += (size_t)snprintf(out + len, room - len, "%s%s", between, value ? value : "vec3(0)");
+        between = ", ";
+    }
+    if (len < room)
+        len += (size_t)snprintf(out + len, room - len, ");\n}\n");
+    return REQUIRE(len < room);
 }
 
 /* Draws an element by payloads alone: no mesh, no lights but those of the pass
  * over them. */
-static bool draw_rays(struct bench *b, const char *element, struct drawing *d) {
-  static char text[1 << 17];
-  *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)),
-                        .count = 1};
-  d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
-  mxg_options_set(b->options, "form", "payload");
-  bool good = make(b, element, "forward", "dither", &d->results[0]);
-  mxg_options_set(b->options, "form", "program");
-  if (!good || !write_hits(b, d->results[0], text, sizeof text))
-    return false;
-  struct passes_setup setup = {.context = b->context,
-                               .options = b->options,
-                               .scene = &b->scene,
-                               .gpu = &b->gpu,
-                               .canvas = d->canvas,
-                               .width = SIZE,
-                               .height = SIZE,
-                               .shown = UINT32_MAX,
-                               .hits = text};
-  good = passes_open(&setup, &d->passes);
-  if (!good)
-    printf("%s\n", d->passes.reason);
-  for (size_t i = 0; good && i < PIXELS * PAYLOAD_WORDS; ++i)
-    d->passes.payloads[i] = MARK;
-  return REQUIRE(good && render_frame(NULL, 0, d->canvas, d->pixels));
-}
-
-static void close_drawing(struct drawing *d) {
-  for (size_t i = 0; i < d->count; ++i)
-    render_close(&d->renders[i]);
-  draw_close_canvas(d->canvas);
-  passes_close(&d->passes);
-  for (size_t i = 0; i < d->count; ++i) {
-    bind_finish(&d->binds[i]);
-    mxg_result_destroy(d->results[i]);
-  }
-  free(d->pixels);
+static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
+{
+    static char text[1 << 17];
+    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)), .count = 1};
+    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
+    mxg_options_set(b->options, "form", "payload");
+    bool good = drawing_generate(b, element, "forward", "dither", &d->results[0]);
+    mxg_options_set(b->options, "form", "program");
+    if (!good || !write_hits(b, d->results[0], text, sizeof text))
+        return false;
+    struct passes_setup setup = {.context = b->context,
+                                 .options = b->options,
+                                 .scene = &b->scene,
+                                 .gpu = &b->gpu,
+                                 .canvas = d->canvas,
+                                 .width = SIZE,
+                                 .height = SIZE,
+                                 .shown = UINT32_MAX,
+                                 .hits = text};
+    good = passes_open(&setup, &d->passes);
+    if (!good)
+        printf("%s\n", d->passes.reason);
+    for (size_t i = 0; good && i < PIXELS * PAYLOAD_WORDS; ++i)
+        d->passes.payloads[i] = MARK;
+    return REQUIRE(good && render_frame(NULL, 0, d->canvas, d->pixels));
 }
 
 /* ---- Pictures ---- */
 
-static double displayed(float linear) {
-  double x = fmin(fmax(0.6 * linear, 0), 1);
-  return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055);
+static double displayed(float linear)
+{
+    double x = fmin(fmax(0.6 * linear, 0), 1);
+    return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055);
 }
 
 /* Of the colours as a display shows them. */
-static double psnr(const float *a, const float *b) {
-  double sum = 0;
-  for (size_t i = 0; i < PIXELS * 4; ++i) {
-    double error = i % 4 == 3 ? 0 : displayed(a[i]) - displayed(b[i]);
-    sum += error * error;
-  }
-  return sum > 0 ? 10 * log10(255 * 255 / (sum / (PIXELS * 3))) : INFINITY;
+static double psnr(const float *a, const float *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < PIXELS * 4; ++i) {
+        double error = i % 4 == 3 ? 0 : displayed(a[i]) - displayed(b[i]);
+        sum += error * error;
+    }
+    return sum > 0 ? 10 * log10(255 * 255 / (sum / (PIXELS * 3))) : INFINITY;
 }
 
-static void test_picture(struct bench *b, const char *element) {
-  static const struct {
-    const char *storage;
-    double least;
-  } kinds[] = {{"float", 45}, {"dither", 38}, {"round", 38}};
-  struct drawing forward, deferred;
-  bool good = draw(b, element, NULL, UINT32_MAX, &forward);
-  printf("%-12s", element);
-  for (size_t i = 0; good && i < sizeof kinds / sizeof *kinds; ++i) {
-    if (draw(b, element, kinds[i].storage, UINT32_MAX, &deferred)) {
-      double db = psnr(forward.pixels, deferred.pixels);
-      printf(" %s %.1f dB", kinds[i].storage, db);
-      REQUIRE(deferred.stored_words > 0);
-      REQUIRE(db > kinds[i].least);
+static void test_picture(struct bench *b, const char *element)
+{
+    static const struct {
+        const char *storage;
+        double least;
+    } kinds[] = {{"float", 45}, {"dither", 38}, {"round", 38}};
+    struct drawing forward, deferred;
+    bool good = drawing_open(b, element, NULL, UINT32_MAX, &forward);
+    printf("%-12s", element);
+    for (size_t i = 0; good && i < sizeof kinds / sizeof *kinds; ++i) {
+        if (drawing_open(b, element, kinds[i].storage, UINT32_MAX, &deferred)) {
+            double db = psnr(forward.pixels, deferred.pixels);
+            printf(" %s %.1f dB", kinds[i].storage, db);
+            REQUIRE(deferred.stored_words > 0);
+            REQUIRE(db > kinds[i].least);
+        }
+        drawing_close(&deferred);
     }
-    close_drawing(&deferred);
-  }
-  printf("\n");
-  close_drawing(&forward);
+    printf("\n");
+    drawing_close(&forward);
 }
 
 /* ---- Bands ---- */
 
 /* The error that areas of 8x8 pixels have in common: what an eye sees as bands.
  */
-static double error_of_areas(const float *a, const float *b) {
-  enum { AREA = 8 };
-  double sum = 0;
-  size_t count = 0;
-  for (size_t top = 0; top + AREA <= SIZE; top += AREA)
-    for (size_t left = 0; left + AREA <= SIZE; left += AREA) {
-      double mean[3] = {0};
-      for (size_t i = 0; i < AREA * AREA; ++i) {
-        size_t at = 4 * ((top + i / AREA) * SIZE + left + i % AREA);
-        for (size_t c = 0; c < 3; ++c)
-          mean[c] +=
-              (displayed(a[at + c]) - displayed(b[at + c])) / (AREA * AREA);
-      }
-      for (size_t c = 0; c < 3; ++c, ++count)
-        sum += mean[c] * mean[c];
-    }
-  return sqrt(sum / (double)count);
+static double error_of_areas(const float *a, const float *b)
+{
+    enum { AREA = 8 };
+    double sum = 0;
+    size_t count = 0;
+    for (size_t top = 0; top + AREA <= SIZE; top += AREA)
+        for (size_t left = 0; left + AREA <= SIZE; left += AREA) {
+            double mean[3] = {0};
+            for (size_t i = 0; i < AREA * AREA; ++i) {
+                size_t at = 4 * ((top + i / AREA) * SIZE + left + i % AREA);
+                for (size_t c = 0; c < 3; ++c)
+                    mean[c] += (displayed(a[at + c]) - displayed(b[at + c])) / (AREA * AREA);
+            }
+            for (size_t c = 0; c < 3; ++c, ++count)
+                sum += mean[c] * mean[c];
+        }
+    return sqrt(sum / (double)count);
 }
 
 /* Noise hides the bands of few bits. */
-static void test_bands(struct bench *b) {
-  static const char *const storages[] = {"dither", "round"};
-  struct drawing forward, deferred;
-  double errors[2] = {0};
-  bool good = draw(b, "Banded", NULL, UINT32_MAX, &forward);
-  for (size_t i = 0; i < 2; ++i) {
-    if (good && draw(b, "Banded", storages[i], UINT32_MAX, &deferred))
-      errors[i] = error_of_areas(forward.pixels, deferred.pixels);
-    close_drawing(&deferred);
-  }
-  printf("bands: error of areas with dither %.3f, without %.3f of 255\n",
-         errors[0], errors[1]);
-  REQUIRE(errors[1] > 0 && errors[0] < 0.5 * errors[1]);
-  close_drawing(&forward);
+static void test_bands(struct bench *b)
+{
+    static const char *const storages[] = {"dither", "round"};
+    struct drawing forward, deferred;
+    double errors[2] = {0};
+    bool good = drawing_open(b, "Banded", NULL, UINT32_MAX, &forward);
+    for (size_t i = 0; i < 2; ++i) {
+        if (good && drawing_open(b, "Banded", storages[i], UINT32_MAX, &deferred))
+            errors[i] = error_of_areas(forward.pixels, deferred.pixels);
+        drawing_close(&deferred);
+    }
+    printf("bands: error of areas with dither %.3f, without %.3f of 255\n", errors[0], errors[1]);
+    REQUIRE(errors[1] > 0 && errors[0] < 0.5 * errors[1]);
+    drawing_close(&forward);
 }
 
 /* ---- Payloads ---- */
 
 /* Pixels that face the viewer: edges differ, because a mesh has corners. */
-static bool faces(size_t pixel) {
-  double x = (double)(pixel % SIZE) + 0.5 - SIZE / 2,
-         y = (double)(pixel / SIZE) + 0.5 - SIZE / 2;
-  return hypot(x, y) < 0.36 * SIZE;
+static bool faces(size_t pixel)
+{
+    double x = (double)(pixel % SIZE) + 0.5 - SIZE / 2, y = (double)(pixel / SIZE) + 0.5 - SIZE / 2;
+    return hypot(x, y) < 0.36 * SIZE;
 }
 
 /* The words of a payload, whose neighbours stay as they were. */
-static void check_payload(struct drawing *d, size_t pixel) {
-  const uint32_t *words = d->passes.payloads + pixel * PAYLOAD_WORDS;
-  enum { USED = 11 };
-  for (size_t i = 0; i < PAYLOAD_WORDS; ++i)
-    REQUIRE(words[i] != MARK);
-  for (size_t i = USED; i < PAYLOAD_WORDS; ++i)
-    REQUIRE_EQ(words[i], 0);                 /* the host's */
-  const uint32_t *none = d->passes.payloads; /* the corner has no hit */
-  for (size_t i = 0; i < PAYLOAD_WORDS; ++i)
-    REQUIRE_EQ(none[i], MARK);
+static void check_payload(struct drawing *d, size_t pixel)
+{
+    const uint32_t *words = d->passes.payloads + pixel * PAYLOAD_WORDS;
+    enum { USED = 11 };
+    for (size_t i = 0; i < PAYLOAD_WORDS; ++i)
+        REQUIRE(words[i] != MARK);
+    for (size_t i = USED; i < PAYLOAD_WORDS; ++i)
+        REQUIRE_EQ(words[i], 0);               /* the host's */
+    const uint32_t *none = d->passes.payloads; /* the corner has no hit */
+    for (size_t i = 0; i < PAYLOAD_WORDS; ++i)
+        REQUIRE_EQ(none[i], MARK);
 }
 
 /* One slab in 64 bytes draws what forward draws with one slab. */
-static void test_payload(struct bench *b, const char *element, double least) {
-  struct drawing forward, rays;
-  mxg_options_set(b->options, "max-closures", "1");
-  if (draw(b, element, NULL, UINT32_MAX, &forward) &&
-      draw_rays(b, element, &rays)) {
-    mxg_shader_info info = {sizeof info};
-    mxg_result_info(rays.results[0], &info);
-    REQUIRE_EQ(info.stored_words, PAYLOAD_WORDS);
-    check_payload(&rays, PIXELS / 2 + SIZE / 2);
-    size_t differing = 0;
-    for (size_t i = 0; i < PIXELS; ++i) {
-      /* forward shows the inside of the ball through holes */
-      bool is_hole = rays.pixels[4 * i + 3] < 0.5f;
-      bool differs = faces(i) && !is_hole && forward.pixels[4 * i + 3] < 0.5f;
-      differing += differs;
-      for (size_t c = 0; (differs || is_hole || !faces(i)) && c < 4; ++c)
-        forward.pixels[4 * i + c] = rays.pixels[4 * i + c] = 0;
+static void test_payload(struct bench *b, const char *element, double least)
+{
+    struct drawing forward, rays;
+    mxg_options_set(b->options, "max-closures", "1");
+    if (drawing_open(b, element, NULL, UINT32_MAX, &forward) && draw_rays(b, element, &rays)) {
+        mxg_shader_info info = {sizeof info};
+        mxg_result_info(rays.results[0], &info);
+        REQUIRE_EQ(info.stored_words, PAYLOAD_WORDS);
+        check_payload(&rays, PIXELS / 2 + SIZE / 2);
+        size_t differing = 0;
+        for (size_t i = 0; i < PIXELS; ++i) {
+            /* forward shows the inside of the ball through holes */
+            bool is_hole = rays.pixels[4 * i + 3] < 0.5f;
+            bool differs = faces(i) && !is_hole && forward.pixels[4 * i + 3] < 0.5f;
+            differing += differs;
+            for (size_t c = 0; (differs || is_hole || !faces(i)) && c < 4; ++c)
+                forward.pixels[4 * i + c] = rays.pixels[4 * i + c] = 0;
+        }
+        if (!REQUIRE(differing < PIXELS / 20)) /* edges of holes */
+            printf("    %zu pixels differ\n", differing);
+        double db = psnr(forward.pixels, rays.pixels);
+        printf("%-12s payload %.1f dB\n", element, db);
+        REQUIRE(db > least);
     }
-    if (!REQUIRE(differing < PIXELS / 20)) /* edges of holes */
-      printf("    %zu pixels differ\n", differing);
-    double db = psnr(forward.pixels, rays.pixels);
-    printf("%-12s payload %.1f dB\n", element, db);
-    REQUIRE(db > least);
-  }
-  close_drawing(&rays);
-  close_drawing(&forward);
-  mxg_options_set(b->options, "max-closures", "0");
+    drawing_close(&rays);
+    drawing_close(&forward);
+    mxg_options_set(b->options, "max-closures", "0");
 }
 
 /* ---- Sizes ---- */
 
 /* The words of a pixel that the material wrote. */
-static uint32_t written(struct drawing *d, uint32_t x, uint32_t y,
-                        uint32_t *words) {
-  uint32_t count = d->stored_words;
-  if (!REQUIRE(count >= 3 && count <= MAX_WORDS) ||
-      !REQUIRE(stored_read(d->passes.stored, x, y, words, count)))
-    return 0;
-  while (count > 3 && words[count - 1] == MARK)
-    --count;
-  return count;
+static uint32_t written(struct drawing *d, uint32_t x, uint32_t y, uint32_t *words)
+{
+    uint32_t count = d->stored_words;
+    if (!REQUIRE(count >= 3 && count <= MAX_WORDS)
+        || !REQUIRE(stored_read(d->passes.stored, x, y, words, count)))
+        return 0;
+    while (count > 3 && words[count - 1] == MARK)
+        --count;
+    return count;
 }
 
 /* docs/deferred.md has this table. */
-static void test_sizes(struct bench *b) {
-  static const struct {
-    const char *element;
-    uint32_t bytes, top, closures; /* top: the highest four bits of word 0 */
-  } rows[] = {{"Plain", 12, 1, 1},  {"Wax", 16, 2, 1},
-              {"Hazy", 20, 2, 1},   {"Downy", 24, 2, 1},
-              {"Satin", 28, 3, 1},  {"Lacquered", 40, 3, 2},
-              {"Pearly", 44, 5, 2}, {"Glittering", 60, 7, 2}};
-  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
-    struct drawing d;
-    uint32_t words[MAX_WORDS] = {0};
-    if (draw(b, rows[i].element, "round", UINT32_MAX, &d)) {
-      REQUIRE_EQ(4 * written(&d, SIZE / 2, SIZE / 2, words), rows[i].bytes);
-      REQUIRE_EQ(4 * d.stored_words, rows[i].bytes);
-      REQUIRE_EQ(words[0] >> 28, rows[i].top);
-      REQUIRE_EQ((words[1] >> 28) + 1, rows[i].closures);
-      REQUIRE(
-          stored_read(d.passes.stored, 0, 0, words, 3)); /* beside the sphere */
-      REQUIRE_EQ(words[0], 0);
+static void test_sizes(struct bench *b)
+{
+    static const struct {
+        const char *element;
+        uint32_t bytes, top, closures; /* top: the highest four bits of word 0 */
+    } rows[] = {{"Plain", 12, 1, 1},  {"Wax", 16, 2, 1},       {"Hazy", 20, 2, 1},
+                {"Downy", 24, 2, 1},  {"Satin", 28, 3, 1},     {"Lacquered", 40, 3, 2},
+                {"Pearly", 44, 5, 2}, {"Glittering", 60, 7, 2}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        struct drawing d;
+        uint32_t words[MAX_WORDS] = {0};
+        if (drawing_open(b, rows[i].element, "round", UINT32_MAX, &d)) {
+            REQUIRE_EQ(4 * written(&d, SIZE / 2, SIZE / 2, words), rows[i].bytes);
+            REQUIRE_EQ(4 * d.stored_words, rows[i].bytes);
+            REQUIRE_EQ(words[0] >> 28, rows[i].top);
+            REQUIRE_EQ((words[1] >> 28) + 1, rows[i].closures);
+            REQUIRE(stored_read(d.passes.stored, 0, 0, words, 3)); /* beside the sphere */
+            REQUIRE_EQ(words[0], 0);
+        }
+        drawing_close(&d);
     }
-    close_drawing(&d);
-  }
 }
 
 /* A closure of weight 0 in a pixel is not there: the ends of the mix are one
  * slab each. */
-static void test_culling(struct bench *b) {
-  enum { SIMPLE = 1, COMPLEX = 3 };
-  static const uint32_t bytes[] = {[SIMPLE] = 12, [COMPLEX] = 32};
-  uint32_t words[MAX_WORDS], seen[4] = {0};
-  struct drawing d;
-  if (draw(b, "Chipped", "round", UINT32_MAX, &d))
-    for (uint32_t y = 0; y < SIZE; y += 4) {
-      uint32_t size = 4 * written(&d, SIZE / 2, y, words),
-               which = words[0] >> 28;
-      if (which == 0)
-        continue;
-      if (REQUIRE(which == SIMPLE || which == COMPLEX))
-        REQUIRE_EQ(size, bytes[which]);
-      ++seen[which & 3];
-    }
-  REQUIRE(seen[SIMPLE] > 0 && seen[COMPLEX] > 0);
-  close_drawing(&d);
+static void test_culling(struct bench *b)
+{
+    enum { SIMPLE = 1, COMPLEX = 3 };
+    static const uint32_t bytes[] = {[SIMPLE] = 12, [COMPLEX] = 32};
+    uint32_t words[MAX_WORDS], seen[4] = {0};
+    struct drawing d;
+    if (drawing_open(b, "Chipped", "round", UINT32_MAX, &d))
+        for (uint32_t y = 0; y < SIZE; y += 4) {
+            uint32_t size = 4 * written(&d, SIZE / 2, y, words), which = words[0] >> 28;
+            if (which == 0)
+                continue;
+            if (REQUIRE(which == SIMPLE || which == COMPLEX))
+                REQUIRE_EQ(size, bytes[which]);
+            ++seen[which & 3];
+        }
+    REQUIRE(seen[SIMPLE] > 0 && seen[COMPLEX] > 0);
+    drawing_close(&d);
 }
 
 /* ---- Debug views ---- */
 
-static void test_views(struct bench *b) {
-  static const struct {
-    const char *element;
-    uint32_t view;
-    float rgb[3];
-  } rows[] = {{"Lacquered", 1, {40 / 255.0f, 40 / 255.0f, 40 / 255.0f}},
-              {"Lacquered", 2, {2 / 255.0f, 2 / 255.0f, 2 / 255.0f}},
-              {"Plain", 0, {0, 0.6f, 0}},
-              {"Satin", 0, {0.8f, 0, 0}},
-              {"Plain", 3, {1, 1, 1}},
-              {"Plain", 5, {0.6f, 0.2f, 0.1f}}};
-  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
-    struct drawing d;
-    if (draw(b, rows[i].element, "round", rows[i].view, &d)) {
-      const float *pixel = d.pixels + 4 * (SIZE / 2 * SIZE + SIZE / 2);
-      for (size_t c = 0; c < 3; ++c)
-        if (!REQUIRE(fabsf(pixel[c] - rows[i].rgb[c]) < 0.02f))
-          printf("    %s, %s: %g\n", rows[i].element, pass_views[rows[i].view],
-                 (double)pixel[c]);
-      REQUIRE(d.pixels[3] == 0); /* nothing is stored beside the sphere */
+static void test_views(struct bench *b)
+{
+    static const struct {
+        const char *element;
+        uint32_t view;
+        float rgb[3];
+    } rows[] = {{"Lacquered", 1, {40 / 255.0f, 40 / 255.0f, 40 / 255.0f}},
+                {"Lacquered", 2, {2 / 255.0f, 2 / 255.0f, 2 / 255.0f}},
+                {"Plain", 0, {0, 0.6f, 0}},
+                {"Satin", 0, {0.8f, 0, 0}},
+                {"Plain", 3, {1, 1, 1}},
+                {"Plain", 5, {0.6f, 0.2f, 0.1f}}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        struct drawing d;
+        if (drawing_open(b, rows[i].element, "round", rows[i].view, &d)) {
+            const float *pixel = d.pixels + 4 * (SIZE / 2 * SIZE + SIZE / 2);
+            for (size_t c = 0; c < 3; ++c)
+                if (!REQUIRE(fabsf(pixel[c] - rows[i].rgb[c]) < 0.02f))
+                    printf("    %s, %s: %g\n", rows[i].element, pass_views[rows[i].view],
+                           (double)pixel[c]);
+            REQUIRE(d.pixels[3] == 0); /* nothing is stored beside the sphere */
+        }
+        drawing_close(&d);
     }
-    close_drawing(&d);
-  }
-}
-
-/* ---- Diffusion ---- */
-
-/*
- * The light behind the edge of a half plane that is lit, at the distance t into
- * it: Christensen and Burley's profile (2015), integrated over rings.
- */
-static double behind_edge(double t, double d) {
-  enum { STEPS = 4000 };
-  double dark = 0, from = fabs(t), step = 60 * d / STEPS;
-  for (int i = 0; i < STEPS; ++i) {
-    double r = from + (i + 0.5) * step,
-           ring = (exp(-r / d) + exp(-r / (3 * d))) / (4 * d);
-    dark += step * ring * acos(from / r) / acos(-1);
-  }
-  return t < 0 ? dark : 1 - dark;
-}
-
-/* A plane of wax that is lit at x > edge, because its normal there is that of
- * the light. */
-static bool parse_wax(struct bench *b, double edge) {
-  float l[4] = {0};
-  char text[2048];
-  if (!REQUIRE(scene_light(&b->scene, 0, "direction", l)))
-    return false;
-  double side = hypot(l[0], l[1]); /* facing the viewer, across the light */
-  snprintf(text, sizeof text,
-           "<materialx version='1.39'><position name='p' type='vector3' "
-           "space='world'/>"
-           "<extract name='x' type='float'><input name='in' type='vector3' "
-           "nodename='p'/>"
-           "</extract><ifgreater name='n' type='vector3'><input name='value1' "
-           "type='float' "
-           "nodename='x'/><input name='value2' type='float' value='%g'/><input "
-           "name='in1' "
-           "type='vector3' value='%g, %g, %g'/><input name='in2' "
-           "type='vector3' value='%g, %g, "
-           "%g'/></ifgreater><slab name='s' type='BSDF'><input name='f0' "
-           "type='color3' "
-           "value='0, 0, 0'/><input name='diffuse_albedo' type='color3' "
-           "value='0.5, 0.5, 0.5'/>"
-           "<input name='mean_free_path' type='vector3' value='0.1, 0.12, "
-           "0.15'/><input "
-           "name='normal' type='vector3' nodename='n'/></slab><slab_surface "
-           "name='Wax' "
-           "type='surfaceshader'><input name='bsdf' type='BSDF' "
-           "nodename='s'/></slab_surface>"
-           "</materialx>",
-           edge, -(double)l[0], -(double)l[1], -(double)l[2],
-           -l[0] * l[2] / side, -l[1] * l[2] / side, side);
-  mxg_document_destroy(b->document);
-  b->document = NULL;
-  return REQUIRE_EQ(
-      mxg_document_parse(b->context, mxg_library_builtin(b->context),
-                         "wax.mtlx", text, strlen(text), &b->document),
-      MXG_OK);
-}
-
-/* The mean of the middle rows of a column. */
-static void mean_of_column(const float *pixels, size_t column, double out[3]) {
-  enum { FIRST = SIZE / 3, END = SIZE - FIRST };
-  out[0] = out[1] = out[2] = 0;
-  for (size_t y = FIRST; y < END; ++y)
-    for (size_t c = 0; c < 3; ++c)
-      out[c] += (double)pixels[4 * (y * SIZE + column) + c] / (END - FIRST);
-}
-
-/* An even light stays as it is; the edge of a shadow is as soft as the profile
- * says. */
-static void test_diffusion(struct bench *b) {
-  static const double paths[3] = {0.1, 0.12, 0.15};
-  struct drawing even, edge, wrapped;
-  double lit[3], at[3], uneven = 0, worst = 0;
-  if (!parse_wax(b, -2) || !draw(b, "Wax", "float", UINT32_MAX, &even))
-    return;
-  mean_of_column(even.pixels, SIZE / 2, lit);
-  mxg_options_set(b->options, "sss", "wrap");
-  if (draw(b, "Wax", "float", UINT32_MAX, &wrapped)) {
-    mean_of_column(wrapped.pixels, SIZE / 2, at);
-    REQUIRE(lit[0] > 0.05 && fabs(lit[0] / at[0] - 1) < 0.03);
-    REQUIRE(even.layout != wrapped.layout);
-  }
-  close_drawing(&wrapped);
-  mxg_options_set(b->options, "sss", "diffusion");
-  for (size_t i = 0; i < PIXELS; ++i)
-    for (size_t c = 0; c < 3; ++c)
-      uneven = fmax(uneven, fabs((double)even.pixels[4 * i + c] / lit[c] - 1));
-  if (parse_wax(b, 0) && draw(b, "Wax", "float", UINT32_MAX, &edge))
-    for (size_t x = SIZE / 4; x < SIZE - SIZE / 4; ++x) {
-      mean_of_column(edge.pixels, x, at);
-      for (size_t c = 0; c < 3; ++c) {
-        double expected =
-            behind_edge(2 * ((double)x + 0.5) / SIZE - 1, paths[c]);
-        worst = fmax(worst, fabs(at[c] / lit[c] - expected));
-      }
-    }
-  printf(
-      "diffusion: even light within %.4f, the edge of a shadow within %.3f\n",
-      uneven, worst);
-  REQUIRE(uneven < 0.002);
-  REQUIRE(worst > 0 && worst < 0.04);
-  close_drawing(&edge);
-  close_drawing(&even);
-}
-
-/* In a scene of its own: a plane and one light. */
-static void test_plane(struct bench *b) {
-  scene_finish(&b->scene);
-  REQUIRE(scene_init_plane(&b->scene));
-  b->scene.num_lights = 1;
-  mxg_options_set(b->options, "environment", "none");
-  mxg_options_set(b->options, "sss", "diffusion");
-  test_diffusion(b);
 }
 
 /* ---- Stacks ---- */
@@ -589,158 +356,154 @@ enum { NUM_LAYERS = 8 };
 
 /* Eight layers of slabs, each with its colour, roughness and, but for the
  * first, mask. */
-static void write_layers(char *text, size_t size) {
-  size_t len = (size_t)snprintf(
-      text, size,
-      "<materialx version='1.39'><normal name='n' type='vector3'/>");
-  for (int i = 0; i < NUM_LAYERS; ++i)
-    len += (size_t)snprintf(
-        text + len, size - len,
-        "<slab name='b%d' type='BSDF'><input name='diffuse_albedo' "
-        "type='color3' "
-        "value='0.%d, 0.%d, 0.%d'/><input name='roughness' type='float' "
-        "value='0.%d'/></slab>"
-        "<slab_surface name='s%d' type='surfaceshader'>"
-        "<input name='bsdf' type='BSDF' nodename='b%d'/></slab_surface>"
-        "<dotproduct name='d%d' type='float'><input name='in1' type='vector3' "
-        "nodename='n'/>"
-        "<input name='in2' type='vector3' value='0.%d, -0.%d, "
-        "0.%d'/></dotproduct>"
-        "<smoothstep name='k%d' type='float'><input name='in' type='float' "
-        "nodename='d%d'/>"
-        "<input name='low' type='float' value='-0.3'/></smoothstep>"
-        "<substance name='m%d' type='material'>"
-        "<input name='surfaceshader' type='surfaceshader' nodename='s%d'/>"
-        "<input name='mask' type='float' %s/></substance>",
-        i, i + 1, 3 * i % 8 + 1, 5 * i % 8 + 1, i + 2, i, i, i, 2 * i % 9,
-        4 * i % 9, 5 * i % 9, i, i, i, i,
-        i ? (const char[]){'n', 'o', 'd', 'e', 'n', 'a', 'm', 'e', '=', '\'',
-                           'k', (char)('0' + i), '\'', 0}
-          : "value='1'");
-  len += (size_t)snprintf(text + len, size - len, "<look name='L'>");
-  for (int i = 0; i < NUM_LAYERS; ++i)
-    len += (size_t)snprintf(
-        text + len, size - len,
-        "<materialassign name='a%d' slot='00%d' material='m%d' geom='/'/>", i,
-        i, i);
-  snprintf(text + len, size - len, "</look></materialx>");
+static void write_layers(char *text, size_t size)
+{
+    size_t len =
+        (size_t)snprintf(text, size, "<materialx version='1.39'><normal name='n' type='vector3'/>");
+    for (int i = 0; i < NUM_LAYERS; ++i)
+        len +=
+            (size_t)snprintf(text + len, size - len,
+                             "<slab name='b%d' type='BSDF'><input name='diffuse_albedo' "
+                             "type='color3' "
+                             "value='0.%d, 0.%d, 0.%d'/><input name='roughness' type='float' "
+                             "value='0.%d'/></slab>"
+                             "<slab_surface name='s%d' type='surfaceshader'>"
+                             "<input name='bsdf' type='BSDF' nodename='b%d'/></slab_surface>"
+                             "<dotproduct name='d%d' type='float'><input name='in1' type='vector3' "
+                             "nodename='n'/>"
+                             "<input name='in2' type='vector3' value='0.%d, -0.%d, "
+                             "0.%d'/></dotproduct>"
+                             "<smoothstep name='k%d' type='float'><input name='in' type='float' "
+                             "nodename='d%d'/>"
+                             "<input name='low' type='float' value='-0.3'/></smoothstep>"
+                             "<substance name='m%d' type='material'>"
+                             "<input name='surfaceshader' type='surfaceshader' nodename='s%d'/>"
+                             "<input name='mask' type='float' %s/></substance>",
+                             i, i + 1, 3 * i % 8 + 1, 5 * i % 8 + 1, i + 2, i, i, i, 2 * i % 9,
+                             4 * i % 9, 5 * i % 9, i, i, i, i,
+                             i ? (const char[]){'n', 'o', 'd', 'e', 'n', 'a', 'm', 'e', '=', '\'',
+                                                'k', (char)('0' + i), '\'', 0}
+                               : "value='1'");
+    len += (size_t)snprintf(text + len, size - len, "<look name='L'>");
+    for (int i = 0; i < NUM_LAYERS; ++i)
+        len += (size_t)snprintf(text + len, size - len,
+                                "<materialassign name='a%d' slot='00%d' material='m%d' geom='/'/>",
+                                i, i, i);
+    snprintf(text + len, size - len, "</look></materialx>");
 }
 
 /* The most closures that a pixel of the middle column stores. */
-static uint32_t most_closures(struct drawing *d) {
-  uint32_t words[MAX_WORDS] = {0}, most = 0;
-  for (uint32_t y = 0; y < SIZE; y += 4)
-    if (REQUIRE(stored_read(d->passes.stored, SIZE / 2, y, words, 3)) &&
-        words[0] && (words[1] >> 28) + 1 > most)
-      most = (words[1] >> 28) + 1;
-  return most;
+static uint32_t most_closures(struct drawing *d)
+{
+    uint32_t words[MAX_WORDS] = {0}, most = 0;
+    for (uint32_t y = 0; y < SIZE; y += 4)
+        if (REQUIRE(stored_read(d->passes.stored, SIZE / 2, y, words, 3)) && words[0]
+            && (words[1] >> 28) + 1 > most)
+            most = (words[1] >> 28) + 1;
+    return most;
 }
 
 /* Each layer is stored where its mask is not 0; a budget makes fewer slabs of
  * them. */
-static void test_stack(struct bench *b) {
-  static const char *const path = "/ball";
-  static char text[1 << 14];
-  mxg_scene *scene = NULL;
-  struct drawing d;
-  write_layers(text, sizeof text);
-  mxg_document_destroy(b->document);
-  b->document = NULL;
-  if (!REQUIRE_EQ(
-          mxg_document_parse(b->context, mxg_library_builtin(b->context),
-                             "layers.mtlx", text, strlen(text), &b->document),
-          MXG_OK) ||
-      !REQUIRE_EQ(mxg_scene_create(b->context, &scene), MXG_OK) ||
-      !REQUIRE_EQ(mxg_scene_add(scene, &path, 1), MXG_OK) ||
-      !REQUIRE_EQ(mxg_bind(b->context, b->document, scene, NULL, &b->bindings),
-                  MXG_OK))
-    return;
-  REQUIRE_EQ(mxg_bindings_num_stacks(b->bindings), 1);
-  test_picture(b, "eight layers");
-  if (draw(b, "eight layers", "round", UINT32_MAX, &d))
-    REQUIRE_EQ(most_closures(&d), NUM_LAYERS);
-  close_drawing(&d);
-  mxg_options_set(b->options, "max-closures", "3");
-  test_picture(b, "three slabs");
-  if (draw(b, "three slabs", "round", UINT32_MAX, &d)) {
-    uint32_t most = most_closures(&d);
-    REQUIRE(most > 0 && most <= 3);
-  }
-  close_drawing(&d);
-  mxg_options_set(b->options, "max-closures", "0");
-  mxg_bindings_destroy(b->bindings);
-  b->bindings = NULL;
-  mxg_scene_destroy(scene);
+static void test_stack(struct bench *b)
+{
+    static const char *const path = "/ball";
+    static char text[1 << 14];
+    mxg_scene *scene = NULL;
+    struct drawing d;
+    write_layers(text, sizeof text);
+    mxg_document_destroy(b->document);
+    b->document = NULL;
+    if (!REQUIRE_EQ(mxg_document_parse(b->context, mxg_library_builtin(b->context), "layers.mtlx",
+                                       text, strlen(text), &b->document),
+                    MXG_OK)
+        || !REQUIRE_EQ(mxg_scene_create(b->context, &scene), MXG_OK)
+        || !REQUIRE_EQ(mxg_scene_add(scene, &path, 1), MXG_OK)
+        || !REQUIRE_EQ(mxg_bind(b->context, b->document, scene, NULL, &b->bindings), MXG_OK))
+        return;
+    REQUIRE_EQ(mxg_bindings_num_stacks(b->bindings), 1);
+    test_picture(b, "eight layers");
+    if (drawing_open(b, "eight layers", "round", UINT32_MAX, &d))
+        REQUIRE_EQ(most_closures(&d), NUM_LAYERS);
+    drawing_close(&d);
+    mxg_options_set(b->options, "max-closures", "3");
+    test_picture(b, "three slabs");
+    if (drawing_open(b, "three slabs", "round", UINT32_MAX, &d)) {
+        uint32_t most = most_closures(&d);
+        REQUIRE(most > 0 && most <= 3);
+    }
+    drawing_close(&d);
+    mxg_options_set(b->options, "max-closures", "0");
+    mxg_bindings_destroy(b->bindings);
+    b->bindings = NULL;
+    mxg_scene_destroy(scene);
 }
 
-static bool open_document(struct bench *b, const char *folder,
-                          const char *name) {
-  snprintf(b->path, sizeof b->path, "%s/%s", folder, name);
-  mxg_document_destroy(b->document);
-  b->document = NULL;
-  return REQUIRE_EQ(mxg_document_load(b->context,
-                                      mxg_library_builtin(b->context), b->path,
-                                      &b->document),
-                    MXG_OK);
+static bool open_document(struct bench *b, const char *folder, const char *name)
+{
+    snprintf(b->path, sizeof b->path, "%s/%s", folder, name);
+    mxg_document_destroy(b->document);
+    b->document = NULL;
+    return REQUIRE_EQ(
+        mxg_document_load(b->context, mxg_library_builtin(b->context), b->path, &b->document),
+        MXG_OK);
 }
 
-int main(int argc, char **argv) {
-  static const char *const specials[] = {"Pearly", "Glittering"},
-                           *const paints[] = {"FlakePaint", "PearlPaint"};
-  static const char *const features[] = {"Plain",   "Wax",    "Hazy",
-                                         "Downy",   "Satin",  "Lacquered",
-                                         "Chipped", "Lantern"},
-                           *const layers[] = {"CoatedMetal", "DustyFibre",
-                                              "WrappedSilk", "CarPaint"},
-                           *const others[] = {"Painted", "Brushed", "Cloth",
-                                              "Toy",     "Preview", "Disney",
-                                              "Wood"};
-  struct bench b = {0};
-  if (argc != 3)
-    return 2;
-  if (!gpu_open(&b.gpu) || !b.gpu.can_store) {
-    printf("skip: no device that can store: %s\n", b.gpu.reason);
-    return 77;
-  }
-  compile_begin();
-  REQUIRE(scene_init_sphere(&b.scene, 1));
-  REQUIRE_EQ(mxg_context_create(NULL, &b.context), MXG_OK);
-  REQUIRE_EQ(mxg_options_create(b.context, &b.options), MXG_OK);
-  mxg_options_set(b.options, "interface", "reduced");
-  mxg_options_set(b.options, "texture-modes", "shared");
-  if (open_document(&b, argv[1], "deferred.mtlx")) {
-    test_sizes(&b);
-    test_culling(&b);
-    test_views(&b);
-    for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
-      test_picture(&b, features[i]);
-    for (size_t i = 0; i < sizeof specials / sizeof *specials; ++i)
-      test_picture(&b, specials[i]);
-    for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
-      test_payload(&b, features[i], 38);
-  }
-  if (open_document(&b, argv[1], "slabs.mtlx"))
-    for (size_t i = 0; i < sizeof layers / sizeof *layers; ++i)
-      test_picture(&b, layers[i]);
-  if (b.document)
-    for (size_t i = 0; i < sizeof layers / sizeof *layers; ++i)
-      test_payload(&b, layers[i], 38);
-  if (open_document(&b, argv[1], "slab_glints.mtlx"))
-    for (size_t i = 0; i < sizeof paints / sizeof *paints; ++i)
-      test_picture(&b, paints[i]);
-  mxg_options_set(b.options, "slabs", "true"); /* in both pipelines */
-  if (open_document(&b, argv[2], "materials.mtlx"))
-    for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
-      test_picture(&b, others[i]);
-  if (b.document)
-    test_bands(&b);
-  test_stack(&b);
-  test_plane(&b);
-  mxg_document_destroy(b.document);
-  mxg_options_destroy(b.options);
-  mxg_context_destroy(b.context);
-  scene_finish(&b.scene);
-  gpu_close(&b.gpu);
-  compile_end();
-  return test_report("deferred");
+int main(int argc, char **argv)
+{
+    static const char *const specials[] = {"Pearly", "Glittering"}, *const paints[] = {
+                                                                        "FlakePaint", "PearlPaint"};
+    static const char *const features[] = {"Plain", "Wax",       "Hazy",    "Downy",
+                                           "Satin", "Lacquered", "Chipped", "Lantern"},
+                             *const layers[] = {"CoatedMetal", "DustyFibre", "WrappedSilk",
+                                                "CarPaint"},
+                             *const others[] = {"Painted", "Brushed", "Cloth", "Toy",
+                                                "Preview", "Disney",  "Wood"};
+    struct bench b = {0};
+    if (argc != 3)
+        return 2;
+    if (!gpu_open(&b.gpu) || !b.gpu.can_store) {
+        printf("skip: no device that can store: %s\n", b.gpu.reason);
+        return 77;
+    }
+    compile_begin();
+    REQUIRE(scene_init_sphere(&b.scene, 1));
+    REQUIRE_EQ(mxg_context_create(NULL, &b.context), MXG_OK);
+    REQUIRE_EQ(mxg_options_create(b.context, &b.options), MXG_OK);
+    mxg_options_set(b.options, "interface", "reduced");
+    mxg_options_set(b.options, "texture-modes", "shared");
+    if (open_document(&b, argv[1], "deferred.mtlx")) {
+        test_sizes(&b);
+        test_culling(&b);
+        test_views(&b);
+        for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
+            test_picture(&b, features[i]);
+        for (size_t i = 0; i < sizeof specials / sizeof *specials; ++i)
+            test_picture(&b, specials[i]);
+        for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
+            test_payload(&b, features[i], 38);
+    }
+    if (open_document(&b, argv[1], "slabs.mtlx"))
+        for (size_t i = 0; i < sizeof layers / sizeof *layers; ++i)
+            test_picture(&b, layers[i]);
+    if (b.document)
+        for (size_t i = 0; i < sizeof layers / sizeof *layers; ++i)
+            test_payload(&b, layers[i], 38);
+    if (open_document(&b, argv[1], "slab_glints.mtlx"))
+        for (size_t i = 0; i < sizeof paints / sizeof *paints; ++i)
+            test_picture(&b, paints[i]);
+    mxg_options_set(b.options, "slabs", "true"); /* in both pipelines */
+    if (open_document(&b, argv[2], "materials.mtlx"))
+        for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
+            test_picture(&b, others[i]);
+    if (b.document)
+        test_bands(&b);
+    test_stack(&b);
+    mxg_document_destroy(b.document);
+    mxg_options_destroy(b.options);
+    mxg_context_destroy(b.context);
+    scene_finish(&b.scene);
+    gpu_close(&b.gpu);
+    compile_end();
+    return test_report("deferred");
 }
