@@ -150,7 +150,7 @@ static bool parse_value(const char *text, const struct shape *shape, float value
     return true;
 }
 
-static const char *user_value(const struct bind *bind, const mxg_variable *variable)
+const char *bind_user_value(const struct bind *bind, const mxg_variable *variable)
 {
     const char *text = NULL;
     for (size_t i = 0; i < bind->num_values; ++i) {
@@ -164,8 +164,12 @@ static bool store_public(struct bind *bind, uint32_t object, const mxg_variable 
 {
     float values[MAX_COMPONENTS];
     memcpy(values, variable->values, sizeof values);
-    const char *text = user_value(bind, variable);
+    const char *text = bind_user_value(bind, variable);
     const struct shape *shape = find_shape(variable->type);
+    if (tints_is_number(variable)) {
+        values[0] = (float)tints_find(bind->tints, text ? text : variable->file);
+        text = NULL;
+    }
     if (!shape)
         return fail(bind, "'%s' has a type that cannot be bound: %s", variable->name,
                     variable->type);
@@ -346,7 +350,7 @@ static struct draw_texture document_texture(struct bind *bind, uint32_t index,
 {
     struct image *image = &bind->images[bind->num_images];
     bool is_checker = false,
-         good = bind_read_texture(bind, index, variable, user_value(bind, variable), image,
+         good = bind_read_texture(bind, index, variable, bind_user_value(bind, variable), image,
                                   &is_checker);
     bool is_closest = strcmp(variable->filtertype, "closest") == 0 || is_checker;
     bind->num_images += good;
@@ -363,10 +367,12 @@ static bool bind_texture(struct bind *bind, uint32_t index, const mxg_variable *
     if (bind->draw.num_textures == DRAW_MAX_TEXTURES || variable->set >= DRAW_MAX_SETS)
         return fail(bind, "the shader has more than %u textures", DRAW_MAX_TEXTURES);
     const struct scene *scene = bind->scene;
+    const bool is_tints = strcmp(variable->name, "u_tints") == 0;
     const struct image *environment = scene_image(scene, variable->name);
     bool is_test = scene->texture.pixels && !variable->num_tiles;
     bool is_albedo = strcmp(variable->name, "u_albedoTable") == 0;
     struct draw_texture texture = is_albedo     ? albedo_texture(bind)
+                                  : is_tints    ? test_texture(&bind->tints->image)
                                   : environment ? environment_texture(environment)
                                   : is_test     ? test_texture(&scene->texture)
                                                 : document_texture(bind, index, variable);

@@ -9,6 +9,7 @@
 #include "cli/outputs.h"
 #include "render/draw.h"
 #include "render/scene.h"
+#include "render/tints.h"
 
 #include <mxgen/mxgen.h>
 
@@ -39,6 +40,8 @@ struct bind {
     struct bind_fault *faults; /* the files that cannot be read, also where that is an error */
     size_t num_faults;
 
+    const struct tints *tints;   /* tables of stored materials; NULL: there are none */
+
     struct draw draw;                       /* the result */
     struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */
     uint32_t num_images;
@@ -54,6 +57,8 @@ struct bind {
  * Fills bind->draw except its code and size. false: see bind->reason. Call bind_finish in any case.
  */
 bool bind_shader(struct bind *bind);
+/* What the user says of an input; NULL: nothing. */
+const char *bind_user_value(const struct bind *bind, const mxg_variable *variable);
 /* Updates the data that depends on the camera and other uniforms of the scene. */
 bool bind_scene(struct bind *bind);
 /*

@@ -58,6 +58,11 @@ bool image_read_levels(const char *path, struct image *out, char *reason, size_t
 
 /* layers.c: combines images as array layers of the largest size. false: out of memory. */
 bool image_stack(const struct image *parts, uint32_t count, struct image *out);
+/*
+ * Combines tables, whose outer texels are the ends of their ranges, as squares of the largest size
+ * in one image, the first at the bottom. false: out of memory.
+ */
+bool image_tables(const struct image *parts, uint32_t count, struct image *out);
 
 /* True if files of this name contain linear light as floats: EXR, HDR. */
 bool image_is_linear(const char *path);

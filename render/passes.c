@@ -22,9 +22,9 @@ static const struct {
     int which; /* -1: all tiles */
     enum use use;
 } runs[] = {
-    {"classify", -1, LIGHTS},        {"compose", 0, LIGHTS},       {"light_simple", 1, LIGHTS},
-    {"light_single", 2, LIGHTS},     {"light_complex", 3, LIGHTS}, {"show", -1, SHOWS},
-    {"light_rays", -1, LIGHTS_RAYS},
+    {"classify", -1, LIGHTS},    {"compose", 0, LIGHTS},       {"light_simple", 1, LIGHTS},
+    {"light_single", 2, LIGHTS}, {"light_complex", 3, LIGHTS}, {"light_special", 4, LIGHTS},
+    {"diffuse", -1, LIGHTS},     {"show", -1, SHOWS},          {"light_rays", -1, LIGHTS_RAYS},
 };
 
 /* Makes the text of a pass; false: with the first message. */
@@ -64,7 +64,8 @@ static bool open_pass(struct passes *passes, const struct passes_setup *setup, u
     struct pass_part *part = &passes->parts[passes->num_parts++];
     if (!generate(passes, setup, index, &part->result))
         return false;
-    part->bind = (struct bind){.result = part->result, .scene = setup->scene, .is_opaque = true};
+    part->bind = (struct bind){
+        .result = part->result, .scene = setup->scene, .is_opaque = true, .tints = &passes->tints};
     if (!bind_shader(&part->bind))
         return fail(passes, part->bind.id, part->bind.reason);
     return add_pass(passes, setup, part, mxg_result_source(part->result, MXG_STAGE_PIXEL, NULL),
@@ -78,10 +79,20 @@ static bool open_hits(struct passes *passes, const struct passes_setup *setup)
            && add_pass(passes, setup, &passes->parts[passes->num_parts++], setup->hits, -1);
 }
 
+static bool open_tints(struct passes *passes, const struct passes_setup *setup)
+{
+    if (tints_open(&passes->tints, setup->binds, setup->num_binds))
+        return true;
+    for (size_t i = 0; i < setup->num_binds; ++i)
+        if (setup->binds[i]->id)
+            return fail(passes, setup->binds[i]->id, setup->binds[i]->reason);
+    return fail(passes, "render-failed", "out of memory");
+}
+
 static bool open_passes(struct passes *passes, const struct passes_setup *setup)
 {
     enum use use = setup->hits ? LIGHTS_RAYS : setup->shown != UINT32_MAX ? SHOWS : LIGHTS;
-    bool good = !setup->hits || open_hits(passes, setup);
+    bool good = open_tints(passes, setup) && (!setup->hits || open_hits(passes, setup));
     for (size_t r = 0; good && r < sizeof runs / sizeof *runs; ++r)
         for (uint32_t i = 0; good && i < mxg_num_passes(); ++i)
             if (runs[r].use == use && strcmp(mxg_pass_name(i), runs[r].name) == 0)
@@ -138,4 +149,5 @@ void passes_close(struct passes *passes)
         compiled_finish(&passes->parts[i].compiled);
         mxg_result_destroy(passes->parts[i].result);
     }
+    tints_close(&passes->tints);
 }

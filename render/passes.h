@@ -24,6 +24,7 @@ struct passes {
     uint32_t *payloads; /* words of rays, row by row; NULL: there are none */
     struct pass_part parts[STORED_MAX_PASSES];
     uint32_t num_parts;
+    struct tints tints;
     const char *id;
     char reason[512];
 };
@@ -38,6 +39,8 @@ struct passes_setup {
     uint32_t width, height, words, shown;
     /* a compute shader that writes rays with payloads, which are lit; NULL: materials are stored */
     const char *hits;
+    struct bind *const *binds; /* of materials that store; the passes have their tables of tints */
+    size_t num_binds;
 };
 
 /* false: see passes->reason. Zeroes `out` first. Call passes_close in any case, after the canvas

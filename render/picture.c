@@ -304,15 +304,22 @@ static bool open_passes(struct painting *painting, uint32_t width, uint32_t heig
                                  .width = width,
                                  .height = height,
                                  .shown = painter->shown};
-    for (size_t i = 0; i < painting->num_parts; ++i) {
+    struct bind **binds = calloc(painting->num_parts, sizeof *binds);
+    for (size_t i = 0; binds && i < painting->num_parts; ++i) {
         mxg_shader_info info = {sizeof info};
         mxg_result_info(painting->parts[i].result, &info);
         setup.words = info.stored_words > setup.words ? info.stored_words : setup.words;
+        binds[i] = painting->parts[i].bind;
     }
-    if (!setup.words || !painting->canvas)
+    setup.binds = binds;
+    setup.num_binds = painting->num_parts;
+    bool good =
+        binds && (!setup.words || !painting->canvas || passes_open(&setup, &painting->passes));
+    free(binds);
+    if (good)
         return true;
-    if (passes_open(&setup, &painting->passes))
-        return true;
+    if (!binds)
+        return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
     report_error(&painter->cli->report, painting->passes.id, "%s", painting->passes.reason);
     return false;
 }

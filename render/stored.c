@@ -17,6 +17,7 @@ enum {
     FRAME,
     PAYLOADS,
     RAYS,
+    SCATTERED,
     NUM_BINDINGS
 };
 
@@ -32,6 +33,7 @@ static const VkDescriptorType types[NUM_BINDINGS] = {
     [FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
     [PAYLOADS] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     [RAYS] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    [SCATTERED] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
 };
 
 struct frame { /* as the passes declare it */
@@ -52,7 +54,7 @@ struct stored {
     bool marks; /* fills the words with `mark` first */
     uint32_t mark;
     const struct gpu_image *lit, *depth;
-    struct gpu_image color, targets[STORED_TARGETS], words;
+    struct gpu_image color, targets[STORED_TARGETS], words, scattered;
     struct gpu_buffer tiles, frame;
     struct gpu_buffer payloads, rays; /* of stored_hold_rays */
     VkSampler sampler;
@@ -78,6 +80,9 @@ static bool create_images(struct stored *stored, uint32_t words)
         good = gpu_create_image(gpu, stored_target_format(i + 1), width, height, 0, 1, target,
                                 VK_IMAGE_ASPECT_COLOR_BIT, &stored->targets[i]);
     return good
+           && gpu_create_image(gpu, VK_FORMAT_R16G16B16A16_SFLOAT, width, height, 2, 1,
+                               VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
+                               &stored->scattered)
            && gpu_create_image(gpu, VK_FORMAT_R32_UINT, width, height, words ? words : 1, 1,
                                VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT
                                    | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -133,6 +138,7 @@ static VkImageView view_of(const struct stored *stored, uint32_t binding)
     case DEPTH: return stored->depth->view;
     case COLOR: return stored->color.view;
     case LIT: return stored->lit->view;
+    case SCATTERED: return stored->scattered.view;
     default: return stored->targets[binding - WORD_0].view;
     }
 }
@@ -154,7 +160,7 @@ static void write_set(struct stored *stored, uint32_t first, uint32_t end)
         const VkDescriptorBufferInfo buffer = {from->buffer, 0, VK_WHOLE_SIZE};
         VkDescriptorImageInfo image = {.sampler = stored->sampler,
                                        .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
-        if (i < TILES)
+        if (i < TILES || i == SCATTERED)
             image.imageView = view_of(stored, i);
         const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                             .dstSet = stored->set,
@@ -182,6 +188,7 @@ static bool create_set(struct stored *stored)
                       "making a descriptor set"))
         return false;
     write_set(stored, 0, PAYLOADS);
+    write_set(stored, SCATTERED, NUM_BINDINGS);
     return true;
 }
 
@@ -193,7 +200,7 @@ uint32_t *stored_hold_rays(struct stored *stored)
                            &stored->payloads)
         || !gpu_create_buffer(stored->gpu, usage, NULL, pixels * 8 * sizeof(float), &stored->rays))
         return NULL;
-    write_set(stored, PAYLOADS, NUM_BINDINGS);
+    write_set(stored, PAYLOADS, SCATTERED);
     return stored->payloads.mapped;
 }
 
@@ -239,6 +246,7 @@ void stored_close(struct stored *stored)
     gpu_destroy_buffer(gpu, &stored->frame);
     gpu_destroy_buffer(gpu, &stored->tiles);
     gpu_destroy_image(gpu, &stored->words);
+    gpu_destroy_image(gpu, &stored->scattered);
     for (unsigned i = 0; i < STORED_TARGETS; ++i)
         gpu_destroy_image(gpu, &stored->targets[i]);
     gpu_destroy_image(gpu, &stored->color);
@@ -320,6 +328,7 @@ void stored_begin(const struct stored *stored, VkCommandBuffer commands)
     for (unsigned i = 0; i < STORED_TARGETS; ++i)
         make_general(commands, &stored->targets[i], VK_IMAGE_ASPECT_COLOR_BIT);
     make_general(commands, &stored->words, VK_IMAGE_ASPECT_COLOR_BIT);
+    make_general(commands, &stored->scattered, VK_IMAGE_ASPECT_COLOR_BIT);
     if (!stored->marks)
         return;
     const VkClearColorValue mark = {.uint32 = {stored->mark}};

@@ -9,7 +9,7 @@
 #include "render/draw.h"
 #include "render/inputs.h"
 
-enum { STORED_TARGETS = 3, STORED_CLASSES = 4, STORED_TILE = 8, STORED_MAX_PASSES = 8 };
+enum { STORED_TARGETS = 3, STORED_CLASSES = 5, STORED_TILE = 8, STORED_MAX_PASSES = 12 };
 enum { STORED_PAYLOAD_SIZE = 64 }; /* bytes of a ray */
 
 /* A compute pass. Its draw has no code. */

@@ -5,6 +5,8 @@
 #include "../pbrlib/shaders/ggx_sampling.glsl"
 #include "glint.glsl"
 
+uniform sampler2D u_tints; // the tables of stored closures
+
 // ---- diffuse reflection of an opaque medium --------------------------------------------------------------------------
 // Chan 2018, "Material Advances in Call of Duty: WWII", divided by its directional albedo, which is 0.31 to 1.12.
 
@@ -307,55 +309,64 @@ float mx_slab_glints(float glint_density, vec2 glint_uv, vec4 glint_footprint, v
     return mx_glints(clamp(slope, -1e4, 1e4), glint_density, glint_uv, glint_footprint);
 }
 
+// Tables of stored closures: squares in one texture, one above the other.
+vec3 mx_slab_stored_tint(float index, vec2 at)
+{
+    vec2 size = vec2(textureSize(u_tints, 0));
+    return textureLod(u_tints, vec2(at.x, (index + at.y) * size.x / size.y), 0.0).xyz;
+}
+
 // The tint of light from L: the table's colour at the cosines of view and light.
-vec3 mx_slab_tint(sampler2D specular_lut, float specular_lut_weight, float cos_v, float cos_l)
+vec3 mx_slab_tint(sampler2D specular_lut, float specular_lut_weight, float specular_lut_index, float cos_v, float cos_l)
 {
     if (specular_lut_weight <= 0.0)
         return vec3(1.0);
-    vec2 edge = 0.5 / vec2(textureSize(specular_lut, 0)); // 0 and 1 are the centres of the outer texels, which do not repeat
+    vec2 size = vec2(option_stored == 1 ? textureSize(u_tints, 0).xx : textureSize(specular_lut, 0));
+    vec2 edge = 0.5 / size; // 0 and 1 are the centres of the outer texels, which do not repeat
     vec2 at = mix(edge, 1.0 - edge, clamp(vec2(cos_v, cos_l), 0.0, 1.0));
-    return mix(vec3(1.0), clamp(textureLod(specular_lut, at, 0.0).xyz, 0.0, 1.0), specular_lut_weight);
+    vec3 tint = option_stored == 1 ? mx_slab_stored_tint(specular_lut_index, at) : textureLod(specular_lut, at, 0.0).xyz;
+    return mix(vec3(1.0), clamp(tint, 0.0, 1.0), specular_lut_weight);
 }
 
 vec3 mx_slab_reflection_bsdf_eval(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
-                                  float specular_lut_weight, vec3 N, vec3 X, vec3 V, vec3 L)
+                                  float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, vec3 L)
 {
     return mx_ggx_eval(roughness, N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
-         * mx_slab_tint(specular_lut, specular_lut_weight, mx_view_cosine(N, V), abs(dot(N, L)))
+         * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), abs(dot(N, L)))
          * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
 
 // A raster tints all of its environment as at the mirror of the view.
 vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
-                                         float specular_lut_weight, vec3 N, vec3 X, vec3 V, int sample_index, vec2 sample_turn)
+                                         float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, int sample_index, vec2 sample_turn)
 {
     return mx_ggx_environment(roughness, N, X, V, sample_index, sample_turn, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
-         * mx_slab_tint(specular_lut, specular_lut_weight, mx_view_cosine(N, V), mx_view_cosine(N, V));
+         * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), mx_view_cosine(N, V));
 }
 
 vec3 mx_slab_reflection_bsdf_albedo(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
-                                    float specular_lut_weight, vec3 N, vec3 X, vec3 V)
+                                    float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
     return mx_ggx_reflectance(roughness, N, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
-         * mx_slab_tint(specular_lut, specular_lut_weight, mx_view_cosine(N, V), mx_view_cosine(N, V));
+         * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), mx_view_cosine(N, V));
 }
 
 vec3 mx_slab_reflection_bsdf_throughput(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
-                                        float specular_lut_weight, vec3 N, vec3 X, vec3 V)
+                                        float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
     return max(1.0 - mx_ggx_reflectance(roughness, N, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5), 0.0);
 }
 
 void mx_slab_reflection_bsdf_sample(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
-                                    float specular_lut_weight, vec3 N, vec3 X, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
+                                    float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
     mx_ggx_scatter(roughness, N, X, V, xi, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
-    weight *= mx_slab_tint(specular_lut, specular_lut_weight, mx_view_cosine(N, V), abs(dot(N, L)))
+    weight *= mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), abs(dot(N, L)))
             * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
 
 float mx_slab_reflection_bsdf_pdf(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
-                                  float specular_lut_weight, vec3 N, vec3 X, vec3 V, vec3 L)
+                                  float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, vec3 L)
 {
     return mx_ggx_pdf(roughness, N, X, V, L, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
 }
@@ -377,22 +388,24 @@ vec3 mx_slab_emission_bsdf_throughput(vec3 color, vec3 V)
 
 vec3 mx_slab_mark_bsdf_throughput(vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughness, float anisotropy, vec3 normal, vec3 tangent,
                                   float second_roughness, float second_roughness_weight, float fuzz_amount, vec3 fuzz_color,
-                                  float fuzz_roughness, vec3 free_path, float phase_anisotropy, float is_thick)
+                                  float fuzz_roughness, vec3 free_path, float phase_anisotropy, float is_thick, float glint_density,
+                                  vec2 glint_uv, sampler2D specular_lut, float specular_lut_weight)
 {
     return vec3(1.0);
 }
 
 float mx_slab_mark_bsdf_way(vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughness, float anisotropy, vec3 normal, vec3 tangent,
                             float second_roughness, float second_roughness_weight, float fuzz_amount, vec3 fuzz_color,
-                            float fuzz_roughness, vec3 free_path, float phase_anisotropy, float is_thick)
+                            float fuzz_roughness, vec3 free_path, float phase_anisotropy, float is_thick, float glint_density,
+                            vec2 glint_uv, sampler2D specular_lut, float specular_lut_weight)
 {
     return MX_MEAN_WAY;
 }
 
-// The mean free path over the thickness. Of a body: the radius of its scattered light over the radius of the surface.
+// The mean free path over the thickness. Of a body: the radius of its scattered light, for shaders that do not spread it over that of the surface.
 vec3 mx_slab_free_path(vec3 mean_free_path, float thickness, float is_thick, vec3 N, vec3 P)
 {
     if (is_thick > 0.0)
-        return mx_curvature(N, P) * max(mean_free_path, 0.1);
+        return (option_sss == 1 ? 1.0 : mx_curvature(N, P)) * max(mean_free_path, 0.1);
     return mean_free_path / max(thickness, 1e-6);
 }

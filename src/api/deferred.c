@@ -26,6 +26,7 @@ struct deferred_layout generation_storage(const struct option_value *options,
         .set = (uint32_t)options[OPTION_binding_set].number + 1,
         .sets = target->caps & CAP_SETS,
         .is_payload = is_payload,
+        .diffuses = !is_payload && options[OPTION_sss].number,
     };
 }
 
@@ -33,7 +34,7 @@ void generation_defer(struct generation *g)
 {
     g->result->storage = generation_storage(g->options, g->result->target, generation_packs(g));
     g->result->shader.is_stored = g->stored != CLASS_EMPTY;
-    if (g->stored == CLASS_COMPLEX) {
+    if (g->stored >= CLASS_COMPLEX) {
         g->above = deferred_above(&g->result->shader);
         g->closure_host.above = &g->above;
     }
@@ -74,8 +75,7 @@ static void draw_forward(struct generation *g, ir_ref misfit)
 bool generation_can_store(struct generation *g)
 {
     ir_ref misfit = generation_stores(g) ? deferred_misfit(&g->result->shader, g->root) : 0;
-    bool is_slab = misfit && ir_get(g->result->shader.graph, misfit)->op == IR_SLAB;
-    if (misfit && !generation_packs(g) && (is_slab || g->options[OPTION_slabs].number))
+    if (misfit && !generation_packs(g) && g->options[OPTION_slabs].number)
         draw_forward(g, misfit);
     else if (misfit)
         report_misfit(g, misfit);
@@ -93,9 +93,8 @@ static const char *why_forward(struct generation *g)
         return shader->alpha == ALPHA_BLEND ? "its opacity may be between 0 and 1" : "it has AOVs";
     struct text why;
     text_init(&why, &g->scratch);
-    bool is_slab = ir_get(graph, g->misfit)->op == IR_SLAB;
     text_fmt(
-        &why, is_slab ? "its slab '%s' has glints or a tint" : "its part '%s' is no slab",
+        &why, "its part '%s' is no slab",
         str_text(shader->strings, graph->origins.items[ir_get(graph, g->misfit)->origin].name));
     return text_cstr(&why);
 }

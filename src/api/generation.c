@@ -112,6 +112,10 @@ static void set_build_options(struct generation *g)
         .integrator = o[OPTION_integrator].number != 0 || generation_packs(g),
         .keeps_absent = o[OPTION_layering].number == LAYERING_OCCLUDING,
         .stored = g->stored != CLASS_EMPTY,
+        .spreads_light =
+            (generation_stores(g) && !generation_packs(g)) || (g->stored && !g->lights_rays)
+                ? o[OPTION_sss].number
+                : 0,
         .marks_slabs = generation_stores(g),
         .mattes = o[OPTION_mattes].number != 0,
         .occlusion = o[OPTION_integrator].number == 2      ? OCCLUSION_TRACED

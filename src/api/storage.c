@@ -51,7 +51,7 @@ static const char *name_of(const mxg_result *result)
 /* A material writes the first one, and a payload is handed on by the host. */
 static bool has_resource(const mxg_result *result, uint32_t index)
 {
-    return result->is_pass ? deferred_reads(result->pass, index)
+    return result->is_pass ? deferred_reads(result->pass, &result->storage, index)
                            : index == 0 && !result->storage.is_payload;
 }
 

@@ -15,6 +15,7 @@ static const struct known_option {
                      {"option_texture_origin", offsetof(struct build_options, texture_origin)},
                      {"option_integrator", offsetof(struct build_options, integrator)},
                      {"option_stored", offsetof(struct build_options, stored)},
+                     {"option_sss", offsetof(struct build_options, spreads_light)},
                      {"option_sample_filter", offsetof(struct build_options, sample_filter)}};
 
 /* The value of "option_environment"…; NULL if no such option exists. */

@@ -64,6 +64,7 @@ struct build_options {
     int integrator;
     bool keeps_absent; /* closures of weight 0 hide what lies below them */
     int stored;        /* closures come from storage: the lighting of the deferred pipeline */
+    int spreads_light; /* a pass of the deferred pipeline spreads the light of bodies */
     bool marks_slabs;  /* a slab_mark_bsdf lies on each slab, for src/deferred */
     bool mattes;       /* each layer of a stack has an AOV of its own */
     int occlusion;     /* enum build_occlusion */

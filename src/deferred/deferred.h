@@ -28,6 +28,7 @@ struct deferred_layout {
     uint32_t set;    /* of the resources below */
     bool sets;       /* the target has descriptor sets */
     bool is_payload; /* of a ray, in place of a pixel */
+    bool diffuses;   /* the option `sss`: the pass "diffuse" spreads the light of bodies */
 };
 
 /* A hash of the storage: materials and passes with equal ones fit together. */
@@ -48,7 +49,14 @@ ir_ref deferred_misfit(const struct shader *shader, ir_ref root);
 struct closure_above deferred_above(struct shader *shader);
 
 /* The classes with a lighting pass, by number. */
-enum deferred_class { CLASS_EMPTY, CLASS_SIMPLE, CLASS_SINGLE, CLASS_COMPLEX, NUM_CLASSES };
+enum deferred_class {
+    CLASS_EMPTY,
+    CLASS_SIMPLE,
+    CLASS_SINGLE,
+    CLASS_COMPLEX,
+    CLASS_SPECIAL,
+    NUM_CLASSES
+};
 
 /* The passes that belong to no material, in their order; not all run in one picture. */
 enum deferred_pass {
@@ -57,6 +65,8 @@ enum deferred_pass {
     PASS_SIMPLE,
     PASS_SINGLE,
     PASS_COMPLEX,
+    PASS_SPECIAL,
+    PASS_DIFFUSE,
     PASS_SHOW,
     PASS_LIGHT_RAYS, /* over payloads, not pixels */
     NUM_PASSES
@@ -72,7 +82,8 @@ struct deferred_resource {
     const char *doc;
 };
 bool deferred_resource(uint32_t index, struct deferred_resource *out); /* false: none */
-bool deferred_reads(enum deferred_pass pass, uint32_t resource);
+bool deferred_reads(enum deferred_pass pass, const struct deferred_layout *layout,
+                    uint32_t resource);
 /* True if the buffer `tiles` has the command of its dispatch; false: a group per tile. */
 bool deferred_is_indirect(enum deferred_pass pass);
 

@@ -22,8 +22,8 @@ static const struct {
     {"MX_LIT", {"lit", "image2D", "", "the picture: any format of floats"}},
     {"MX_TILES",
      {"tiles", "buffer", "std430",
-      "four commands of dispatches, (0, 1, 1, 0) at first, by class; then room for the number of "
-      "every tile, four times"}},
+      "five commands of dispatches, (0, 1, 1, 0) at first, by class; then room for the number of "
+      "every tile, five times"}},
     {"MX_FRAME",
      {"frame", "uniform", "std140",
       "mat4 from (x, y, depth, 1) in pixels to the world; uvec4 width, height, tiles in a row, "
@@ -32,6 +32,10 @@ static const struct {
     {"MX_RAYS",
      {"rays", "buffer", "std430",
       "vec4 point and vec4 direction back along the ray, in the world, for each pixel"}},
+    {"MX_SCATTERED",
+     {"scattered", "image2DArray", "rgba16f",
+      "two layers, with --sss diffusion: light that enters bodies over their albedo, and other "
+      "light of the same pixels"}},
 };
 #define NUM_RESOURCES (sizeof resources / sizeof *resources)
 
@@ -47,6 +51,8 @@ static const struct {
     [PASS_SIMPLE] = {"light_simple", CLASS_SIMPLE, true, deferred_light, 0x1ff},
     [PASS_SINGLE] = {"light_single", CLASS_SINGLE, true, deferred_light, 0x1ff},
     [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, true, deferred_light, 0x1ff},
+    [PASS_SPECIAL] = {"light_special", CLASS_SPECIAL, true, deferred_light, 0x1ff},
+    [PASS_DIFFUSE] = {"diffuse", CLASS_EMPTY, false, deferred_diffuse, 0x15e | 1},
     [PASS_SHOW] = {"show", CLASS_EMPTY, false, deferred_show, 0x14f},
     [PASS_LIGHT_RAYS] = {"light_rays", CLASS_COMPLEX, false, deferred_light_rays, 0x740},
 };
@@ -58,10 +64,20 @@ bool deferred_resource(uint32_t index, struct deferred_resource *out)
     return index < NUM_RESOURCES;
 }
 
-bool deferred_reads(enum deferred_pass pass, uint32_t resource)
+/* Which pixels show bodies is known before their light: each class but SIMPLE may have them. */
+static bool knows_bodies(enum deferred_pass pass)
+{
+    return pass == PASS_CLASSIFY || pass == PASS_SINGLE || pass == PASS_COMPLEX
+           || pass == PASS_SPECIAL || pass == PASS_DIFFUSE;
+}
+
+bool deferred_reads(enum deferred_pass pass, const struct deferred_layout *layout,
+                    uint32_t resource)
 {
     assert(pass < NUM_PASSES && resource < NUM_RESOURCES);
-    return passes[pass].reads >> resource & 1;
+    if (resource == NUM_RESOURCES - 1)
+        return layout->diffuses && knows_bodies(pass);
+    return passes[pass].reads >> resource & 1 && (layout->diffuses || pass != PASS_DIFFUSE);
 }
 
 bool deferred_is_indirect(enum deferred_pass pass)
@@ -84,7 +100,8 @@ enum deferred_class deferred_pass_class(enum deferred_pass pass)
 
 const char *deferred_element(enum deferred_class which)
 {
-    static const char *const elements[NUM_CLASSES] = {"empty", "simple", "single", "complex"};
+    static const char *const elements[NUM_CLASSES] = {"empty", "simple", "single", "complex",
+                                                      "special"};
     assert(which < NUM_CLASSES);
     return elements[which];
 }
@@ -127,7 +144,8 @@ void deferred_write_storage(const struct deferred_layout *layout, struct text *o
 uint32_t deferred_layout_number(const struct deferred_layout *layout)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t storage = (uint32_t)layout->storage | (uint32_t)layout->is_payload << 8;
+    uint32_t storage = (uint32_t)layout->storage | (uint32_t)layout->is_payload << 8
+                       | (uint32_t)layout->diffuses << 9;
     for (const char *const *line = deferred_record; *line; line++)
         h = hash_stable(h, *line, strlen(*line));
     h = hash_stable(h, &storage, sizeof storage);
@@ -173,6 +191,7 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
     else
         text_fmt(out, "#version %s\n", version);
     /* only the pass that makes the lists writes them */
+    text_fmt(out, "#define MX_SSS %d\n", layout->diffuses);
     text_fmt(out, "#define MX_TILES_ACCESS %s\n", pass == PASS_CLASSIFY ? "" : "readonly");
     deferred_write_storage(layout, out);
     deferred_write_lines(pass == PASS_LIGHT_RAYS ? deferred_unpack : deferred_read, out);

@@ -7,8 +7,9 @@
  *     stored = mx_finish_closures(stored)
  *     out1 = vec4(emission, 1)
  *
- * The functions stand in passes/write.glsl, which goes into the shader as its own source. A payload
- * has those of passes/pack.glsl instead, and its words are the outputs.
+ * The functions stand in passes/write.glsl and passes/store.glsl, which go into the shader as its
+ * own source. A payload has those of passes/pack.glsl instead of the former, and its words are the
+ * outputs.
  */
 #include "deferred/deferred.h"
 
@@ -27,21 +28,13 @@ static bool is_mark(const struct shader *shader, ir_ref leaf)
     return strcmp(str_text(shader->strings, name), mark_family) == 0;
 }
 
-/* Glints need the footprint of a pixel, and tints a texture: passes have neither. */
-static bool has_unstored_part(const struct ir_graph *g, ir_ref slab)
-{
-    return !ir_const_is(g, ir_arg(g, slab, SLAB_glint_density), 0.0f)
-           || !ir_const_is(g, ir_arg(g, slab, SLAB_specular_lut_weight), 0.0f);
-}
-
 ir_ref deferred_misfit(const struct shader *shader, ir_ref root)
 {
     const struct ir_graph *g = shader->graph;
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++) {
         uint8_t op = ir_get(g, ref)->op;
-        bool is_other = op == IR_LEAF && ir_type_of(g, ref) == IR_TYPE_BSDF;
-        if (needed[ref] && (is_other || (op == IR_SLAB && has_unstored_part(g, ref))))
+        if (needed[ref] && op == IR_LEAF && ir_type_of(g, ref) == IR_TYPE_BSDF)
             return ref;
     }
     return 0;
@@ -119,6 +112,10 @@ enum mark_operand {
     MARK_free_path,
     MARK_phase_anisotropy,
     MARK_is_thick,
+    MARK_glint_density,
+    MARK_glint_uv,
+    MARK_specular_lut,
+    MARK_specular_lut_weight,
     NUM_MARK_OPERANDS
 };
 
@@ -172,7 +169,7 @@ static struct closure_list marks_of(const struct shader *shader, ir_ref bsdf,
 
 enum {
     NUM_TARGET_WORDS = 3, /* that are render targets */
-    WHOLE_WORDS = 39      /* of a closure in whole floats: as many as mx_put_whole writes */
+    WHOLE_WORDS = 46      /* of a closure in whole floats: as many as mx_put_whole writes */
 };
 
 static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
@@ -199,6 +196,8 @@ static uint32_t count_words(const struct shader *shader, const struct closure_li
             .fuzz_amount = in[MARK_fuzz_amount],
             .free_path = in[MARK_free_path],
             .normal = in[MARK_normal],
+            .has_tint = !ir_const_is(g, in[MARK_specular_lut_weight], 0.0f),
+            .has_glints = !ir_const_is(g, in[MARK_glint_density], 0.0f),
             .is_whole = is_white(g, &marks->leaves.items[i]),
         };
     }
@@ -208,12 +207,49 @@ static uint32_t count_words(const struct shader *shader, const struct closure_li
 
 /* ---- Effects ---- */
 
-/* A tangent that nobody reads needs no vertex attribute. Whole storage has the samples' frame. */
-static ir_ref value_of(struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
+/*
+ * The number of a table of tints, which the host chooses: an integer in place of the texture.
+ * weight: constant 0 needs no table.
+ */
+static ir_ref table_of(struct shader *shader, ir_ref texture, ir_ref weight)
 {
-    bool is_unread = operand == MARK_tangent && !is_whole
-                     && ir_const_is(g, ir_arg(g, mark, MARK_anisotropy), 0.0f);
-    return is_unread ? ir_const_splat(g, IR_TYPE_VEC3, 0.0f) : ir_arg(g, mark, operand);
+    struct ir_graph *g = shader->graph;
+    const struct ir_node *node = ir_get(g, texture);
+    if (ir_const_is(g, weight, 0.0f))
+        return ir_const_float(g, 0.0f);
+    assert(node->op == IR_TEXTURE);
+    struct shader_variable number = shader->variables.items[node->attr];
+    struct text name;
+    text_init(&name, shader->arena);
+    text_fmt(&name, "%s_number", str_text(shader->strings, number.name));
+    number.name = str_intern(shader->strings, name.data, name.len);
+    number.block = BLOCK_PUBLIC_UNIFORMS;
+    number.type = IR_TYPE_INT;
+    number.has_default = true;
+    number.value = (struct ir_value){.type = IR_TYPE_INT};
+    uint32_t index = shader_add_variable(shader, &number);
+    return ir_convert(g, IR_TYPE_FLOAT, shader_read(shader, index));
+}
+
+/* True for a tangent and coordinates that nobody reads: they need no vertex attribute. */
+static bool is_unread(const struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
+{
+    bool has_glints = !ir_const_is(g, ir_arg(g, mark, MARK_glint_density), 0.0f);
+    bool is_turned = is_whole || !ir_const_is(g, ir_arg(g, mark, MARK_anisotropy), 0.0f);
+    if (operand == MARK_tangent)
+        return !has_glints && !is_turned;
+    return operand == MARK_glint_uv && !has_glints;
+}
+
+/* Whole storage has the tangent, because the samples of the environment lie along it. */
+static ir_ref value_of(struct shader *shader, ir_ref mark, unsigned operand, bool is_whole)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref value = ir_arg(g, mark, operand);
+    if (operand == MARK_specular_lut)
+        return table_of(shader, value, ir_arg(g, mark, MARK_specular_lut_weight));
+    return is_unread(g, mark, operand, is_whole) ? ir_const_splat(g, ir_type_of(g, value), 0.0f)
+                                                 : value;
 }
 
 static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, bool spreads,
@@ -226,7 +262,7 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
     assert(ir_get(g, leaf->leaf)->num_args == NUM_MARK_OPERANDS);
     args[n++] = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     for (unsigned i = MARK_weight + 1; i < NUM_MARK_OPERANDS; i++)
-        args[n++] = value_of(g, leaf->leaf, i, is_whole);
+        args[n++] = value_of(shader, leaf->leaf, i, is_whole);
     find_weights(shader, leaf, spreads, args + n);
     assign(shader, EFFECT_ASSIGN, local,
            call(shader, "mx_store_closure", IR_TYPE_INT, source, args, n + NUM_WEIGHTS));
@@ -240,6 +276,7 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
     deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
+    deferred_write_lines(deferred_store_closure, &text);
     uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),
                                         NULL, 0, &fault);
     assert(source != UINT32_MAX);

@@ -4,6 +4,8 @@
 #define MXG_DEFERRED_TEXTS_H
 
 extern const char *const deferred_record[];
+extern const char *const deferred_store_closure[];
+extern const char *const deferred_diffuse[];
 extern const char *const deferred_write[];
 extern const char *const deferred_read[];
 extern const char *const deferred_frame[];

@@ -1,138 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The deferred pipeline on a device: pictures beside those of the forward pipeline, and the words
- * that pixels really store. Arguments: the folder of the examples, and that of other
- * documents.
+ * The deferred pipeline on a device: pictures beside those of the forward
+ * pipeline, and the words that pixels really store. Arguments: the folder of
+ * the examples, and that of other documents.
  */
 #include "unit/test.h"
 
-#include "render/passes.h"
-
-#include <mxgen/scene.h>
+#include "deferred/drawing.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { SIZE = 96, PIXELS = SIZE * SIZE, MAX_WORDS = 48, PAYLOAD_WORDS = 16 };
-#define MARK 0xdeadbeefu
-
-struct bench {
-    struct gpu gpu;
-    struct scene scene;
-    mxg_context *context;
-    mxg_options *options;
-    mxg_document *document;
-    mxg_bindings *bindings; /* NULL, or the stack 0 of these takes the place of elements */
-};
-
-/* A material on the sphere. */
-struct drawing {
-    struct draw_canvas *canvas;
-    struct passes passes;
-    struct bind binds[2];
-    struct render renders[2];
-    mxg_result *results[2];
-    size_t count;
-    uint32_t stored_words, layout;
-    float *pixels;
-};
-
-static bool make(struct bench *b, const char *element, const char *pipeline, const char *storage,
-                 mxg_result **out)
-{
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = "vulkan";
-    desc.element = b->bindings ? NULL : element;
-    desc.bindings = b->bindings;
-    desc.options = b->options;
-    mxg_options_set(b->options, "pipeline", pipeline);
-    mxg_options_set(b->options, "storage", storage);
-    mxg_status status = mxg_generate(b->context, b->document, &desc, out);
-    mxg_diagnostic first = {sizeof first};
-    if (*out && mxg_diagnostics_get(mxg_result_diagnostics(*out), 0, &first) == MXG_OK
-        && first.severity <= MXG_SEVERITY_WARNING)
-        printf("%s: %s\n", element, first.message);
-    return REQUIRE_EQ(status, MXG_OK);
-}
-
-static bool add_program(struct bench *b, struct drawing *d, const char *element,
-                        const char *pipeline, const char *storage, enum draw_role role)
-{
-    size_t i = d->count++;
-    if (!make(b, element, pipeline, storage, &d->results[i]))
-        return false;
-    d->binds[i] = (struct bind){.result = d->results[i], .scene = &b->scene};
-    d->binds[i].draw.role = role;
-    return true;
-}
-
-static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
-{
-    struct passes_setup setup = {.context = b->context,
-                                 .options = b->options,
-                                 .scene = &b->scene,
-                                 .gpu = &b->gpu,
-                                 .canvas = d->canvas,
-                                 .width = SIZE,
-                                 .height = SIZE,
-                                 .words = d->stored_words,
-                                 .shown = shown};
-    bool good = passes_open(&setup, &d->passes);
-    if (!good)
-        printf("%s\n", d->passes.reason);
-    if (good)
-        stored_mark(d->passes.stored, MARK);
-    return REQUIRE(good);
-}
-
-/* Draws an element; storage NULL: forward. Call close_drawing in any case. */
-static bool draw(struct bench *b, const char *element, const char *storage, uint32_t shown,
-                 struct drawing *d)
-{
-    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float))};
-    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
-    if (!add_program(b, d, element, storage ? "deferred" : "forward", storage ? storage : "float",
-                     DRAW_LIT))
-        return false;
-    mxg_shader_info info = {sizeof info};
-    mxg_result_info(d->results[0], &info);
-    d->stored_words = info.stored_words;
-    d->layout = info.layout;
-    if (info.stored_words) {
-        d->binds[0].draw.role = DRAW_STORES;
-        d->binds[0].draw.has_holes = info.alpha == MXG_ALPHA_MASK;
-        if (!open_passes(b, d, shown)
-            || (d->binds[0].draw.has_holes
-                && !add_program(b, d, element, "depth", storage, DRAW_CUTS)))
-            return false;
-    }
-    bool good = true;
-    for (size_t i = 0; good && i < d->count; ++i) {
-        good = render_open(&d->renders[i], d->canvas, &b->gpu, &d->binds[i]);
-        if (!good)
-            printf("%s: %s\n", element, d->binds[i].reason);
-    }
-    return REQUIRE(good && render_frame(d->renders, d->count, d->canvas, d->pixels));
-}
-
 /* ---- Rays ---- */
 
 /*
- * A ray per pixel to the ball, without a mesh. OF_WORLD and TO_WORLD: matrices of the object. The
- * text of the payload function stands before.
+ * A ray per pixel to the ball, without a mesh. OF_WORLD and TO_WORLD: matrices
+ * of the object. The text of the payload function stands before.
  */
 static const char hits_source[] =
     "layout(local_size_x = 8, local_size_y = 8) in;\n"
-    "layout(set = 1, binding = 8, std140) uniform Frame { mat4 to_world; uvec4 size; };\n"
-    "layout(set = 1, binding = 9, std430) buffer Payloads { Surface payloads[]; };\n"
+    "layout(set = 1, binding = 8, std140) uniform Frame { mat4 to_world; uvec4 "
+    "size; };\n"
+    "layout(set = 1, binding = 9, std430) buffer Payloads { Surface "
+    "payloads[]; };\n"
     "struct Ray { vec4 point, view; };\n"
     "layout(set = 1, binding = 10, std430) buffer Rays { Ray rays[]; };\n"
     "bool hit(vec2 at, out vec3 point, out vec3 way)\n"
     "{\n"
-    "    vec4 a = to_world * vec4(at, 0.0, 1.0), b = to_world * vec4(at, 1.0, 1.0);\n"
+    "    vec4 a = to_world * vec4(at, 0.0, 1.0), b = to_world * vec4(at, 1.0, "
+    "1.0);\n"
     "    vec3 from = a.xyz / a.w, out_of = from - OF_OBJECT[3].xyz;\n"
     "    way = normalize(b.xyz / b.w - from);\n"
-    "    float along = dot(out_of, way), inside = along * along - dot(out_of, out_of) + 1.0;\n"
+    "    float along = dot(out_of, way), inside = along * along - dot(out_of, "
+    "out_of) + 1.0;\n"
     "    point = from - (along + sqrt(max(inside, 0.0))) * way;\n"
     "    return inside >= 0.0;\n"
     "}\n"
@@ -144,27 +44,30 @@ static const char hits_source[] =
     "        return;\n"
     "    dx = hit(at + vec2(1.0, 0.0), dx, ignored) ? dx - point : vec3(0.0);\n"
     "    dy = hit(at + vec2(0.0, 1.0), dy, ignored) ? dy - point : vec3(0.0);\n"
-    "    vec3 normal = point - OF_OBJECT[3].xyz, local = normal * mat3(OF_OBJECT);\n" /* rotates */
-    "    vec3 tangent = mat3(OF_OBJECT) * normalize(vec3(local.z, 0.0, -local.x));\n"
-    "    uint pixel = gl_GlobalInvocationID.y * size.x + gl_GlobalInvocationID.x;\n"
+    "    vec3 normal = point - OF_OBJECT[3].xyz, local = normal * "
+    "mat3(OF_OBJECT);\n" /* rotates */
+    "    vec3 tangent = mat3(OF_OBJECT) * normalize(vec3(local.z, 0.0, "
+    "-local.x));\n"
+    "    uint pixel = gl_GlobalInvocationID.y * size.x + "
+    "gl_GlobalInvocationID.x;\n"
     "    rays[pixel] = Ray(vec4(point, 0.0), vec4(-way, 0.0));\n"
     "    payloads[pixel] = surface(";
 
 /* Vertex data of a hit. */
 static const char *hit_value(const char *name)
 {
-    static const char *const values[][2] = {
-        {"positionWorld", "point"},
-        {"normalWorld", "normal"},
-        {"tangentWorld", "tangent"},
-        {"viewWorld", "-way"},
-        {"positionObject", "local"},
-        {"dx_positionWorld", "dx"},
-        {"dx_normalWorld", "dx"},
-        {"dy_positionWorld", "dy"},
-        {"dy_normalWorld", "dy"},
-        {"texcoord_0",
-         "vec2(fract(atan(local.x, local.z) / 6.2831853), acos(-local.y) / 3.1415927)"}};
+    static const char *const values[][2] = {{"positionWorld", "point"},
+                                            {"normalWorld", "normal"},
+                                            {"tangentWorld", "tangent"},
+                                            {"viewWorld", "-way"},
+                                            {"positionObject", "local"},
+                                            {"dx_positionWorld", "dx"},
+                                            {"dx_normalWorld", "dx"},
+                                            {"dy_positionWorld", "dy"},
+                                            {"dy_normalWorld", "dy"},
+                                            {"texcoord_0",
+                                             "vec2(fract(atan(local.x, local.z) / 6.2831853), "
+                                             "acos(-local.y) / 3.1415927)"}};
     for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
         if (strcmp(values[i][0], name) == 0)
             return values[i][1];
@@ -197,14 +100,15 @@ static bool write_hits(struct bench *b, const mxg_result *result, char *out, siz
     return REQUIRE(len < room);
 }
 
-/* Draws an element by payloads alone: no mesh, no lights but those of the pass over them. */
+/* Draws an element by payloads alone: no mesh, no lights but those of the pass
+ * over them. */
 static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
 {
     static char text[1 << 17];
     *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)), .count = 1};
     d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
     mxg_options_set(b->options, "form", "payload");
-    bool good = make(b, element, "forward", "dither", &d->results[0]);
+    bool good = drawing_generate(b, element, "forward", "dither", &d->results[0]);
     mxg_options_set(b->options, "form", "program");
     if (!good || !write_hits(b, d->results[0], text, sizeof text))
         return false;
@@ -223,19 +127,6 @@ static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
     for (size_t i = 0; good && i < PIXELS * PAYLOAD_WORDS; ++i)
         d->passes.payloads[i] = MARK;
     return REQUIRE(good && render_frame(NULL, 0, d->canvas, d->pixels));
-}
-
-static void close_drawing(struct drawing *d)
-{
-    for (size_t i = 0; i < d->count; ++i)
-        render_close(&d->renders[i]);
-    draw_close_canvas(d->canvas);
-    passes_close(&d->passes);
-    for (size_t i = 0; i < d->count; ++i) {
-        bind_finish(&d->binds[i]);
-        mxg_result_destroy(d->results[i]);
-    }
-    free(d->pixels);
 }
 
 /* ---- Pictures ---- */
@@ -264,24 +155,25 @@ static void test_picture(struct bench *b, const char *element)
         double least;
     } kinds[] = {{"float", 45}, {"dither", 38}, {"round", 38}};
     struct drawing forward, deferred;
-    bool good = draw(b, element, NULL, UINT32_MAX, &forward);
+    bool good = drawing_open(b, element, NULL, UINT32_MAX, &forward);
     printf("%-12s", element);
     for (size_t i = 0; good && i < sizeof kinds / sizeof *kinds; ++i) {
-        if (draw(b, element, kinds[i].storage, UINT32_MAX, &deferred)) {
+        if (drawing_open(b, element, kinds[i].storage, UINT32_MAX, &deferred)) {
             double db = psnr(forward.pixels, deferred.pixels);
             printf(" %s %.1f dB", kinds[i].storage, db);
             REQUIRE(deferred.stored_words > 0);
             REQUIRE(db > kinds[i].least);
         }
-        close_drawing(&deferred);
+        drawing_close(&deferred);
     }
     printf("\n");
-    close_drawing(&forward);
+    drawing_close(&forward);
 }
 
 /* ---- Bands ---- */
 
-/* The error that areas of 8x8 pixels have in common: what an eye sees as bands. */
+/* The error that areas of 8x8 pixels have in common: what an eye sees as bands.
+ */
 static double error_of_areas(const float *a, const float *b)
 {
     enum { AREA = 8 };
@@ -307,15 +199,15 @@ static void test_bands(struct bench *b)
     static const char *const storages[] = {"dither", "round"};
     struct drawing forward, deferred;
     double errors[2] = {0};
-    bool good = draw(b, "Banded", NULL, UINT32_MAX, &forward);
+    bool good = drawing_open(b, "Banded", NULL, UINT32_MAX, &forward);
     for (size_t i = 0; i < 2; ++i) {
-        if (good && draw(b, "Banded", storages[i], UINT32_MAX, &deferred))
+        if (good && drawing_open(b, "Banded", storages[i], UINT32_MAX, &deferred))
             errors[i] = error_of_areas(forward.pixels, deferred.pixels);
-        close_drawing(&deferred);
+        drawing_close(&deferred);
     }
     printf("bands: error of areas with dither %.3f, without %.3f of 255\n", errors[0], errors[1]);
     REQUIRE(errors[1] > 0 && errors[0] < 0.5 * errors[1]);
-    close_drawing(&forward);
+    drawing_close(&forward);
 }
 
 /* ---- Payloads ---- */
@@ -346,7 +238,7 @@ static void test_payload(struct bench *b, const char *element, double least)
 {
     struct drawing forward, rays;
     mxg_options_set(b->options, "max-closures", "1");
-    if (draw(b, element, NULL, UINT32_MAX, &forward) && draw_rays(b, element, &rays)) {
+    if (drawing_open(b, element, NULL, UINT32_MAX, &forward) && draw_rays(b, element, &rays)) {
         mxg_shader_info info = {sizeof info};
         mxg_result_info(rays.results[0], &info);
         REQUIRE_EQ(info.stored_words, PAYLOAD_WORDS);
@@ -366,8 +258,8 @@ static void test_payload(struct bench *b, const char *element, double least)
         printf("%-12s payload %.1f dB\n", element, db);
         REQUIRE(db > least);
     }
-    close_drawing(&rays);
-    close_drawing(&forward);
+    drawing_close(&rays);
+    drawing_close(&forward);
     mxg_options_set(b->options, "max-closures", "0");
 }
 
@@ -390,32 +282,34 @@ static void test_sizes(struct bench *b)
 {
     static const struct {
         const char *element;
-        uint32_t bytes, class_, closures;
-    } rows[] = {{"Plain", 12, 1, 1}, {"Wax", 16, 2, 1},   {"Hazy", 20, 2, 1},
-                {"Downy", 24, 2, 1}, {"Satin", 28, 3, 1}, {"Lacquered", 40, 3, 2}};
+        uint32_t bytes, top, closures; /* top: the highest four bits of word 0 */
+    } rows[] = {{"Plain", 12, 1, 1},  {"Wax", 16, 2, 1},       {"Hazy", 20, 2, 1},
+                {"Downy", 24, 2, 1},  {"Satin", 28, 3, 1},     {"Lacquered", 40, 3, 2},
+                {"Pearly", 44, 5, 2}, {"Glittering", 60, 7, 2}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         struct drawing d;
         uint32_t words[MAX_WORDS] = {0};
-        if (draw(b, rows[i].element, "round", UINT32_MAX, &d)) {
+        if (drawing_open(b, rows[i].element, "round", UINT32_MAX, &d)) {
             REQUIRE_EQ(4 * written(&d, SIZE / 2, SIZE / 2, words), rows[i].bytes);
             REQUIRE_EQ(4 * d.stored_words, rows[i].bytes);
-            REQUIRE_EQ(words[0] >> 28, rows[i].class_);
+            REQUIRE_EQ(words[0] >> 28, rows[i].top);
             REQUIRE_EQ((words[1] >> 28) + 1, rows[i].closures);
             REQUIRE(stored_read(d.passes.stored, 0, 0, words, 3)); /* beside the sphere */
             REQUIRE_EQ(words[0], 0);
         }
-        close_drawing(&d);
+        drawing_close(&d);
     }
 }
 
-/* A closure of weight 0 in a pixel is not there: the ends of the mix are one slab each. */
+/* A closure of weight 0 in a pixel is not there: the ends of the mix are one
+ * slab each. */
 static void test_culling(struct bench *b)
 {
     enum { SIMPLE = 1, COMPLEX = 3 };
     static const uint32_t bytes[] = {[SIMPLE] = 12, [COMPLEX] = 32};
     uint32_t words[MAX_WORDS], seen[4] = {0};
     struct drawing d;
-    if (draw(b, "Chipped", "round", UINT32_MAX, &d))
+    if (drawing_open(b, "Chipped", "round", UINT32_MAX, &d))
         for (uint32_t y = 0; y < SIZE; y += 4) {
             uint32_t size = 4 * written(&d, SIZE / 2, y, words), which = words[0] >> 28;
             if (which == 0)
@@ -425,7 +319,7 @@ static void test_culling(struct bench *b)
             ++seen[which & 3];
         }
     REQUIRE(seen[SIMPLE] > 0 && seen[COMPLEX] > 0);
-    close_drawing(&d);
+    drawing_close(&d);
 }
 
 /* ---- Debug views ---- */
@@ -444,7 +338,7 @@ static void test_views(struct bench *b)
                 {"Plain", 5, {0.6f, 0.2f, 0.1f}}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         struct drawing d;
-        if (draw(b, rows[i].element, "round", rows[i].view, &d)) {
+        if (drawing_open(b, rows[i].element, "round", rows[i].view, &d)) {
             const float *pixel = d.pixels + 4 * (SIZE / 2 * SIZE + SIZE / 2);
             for (size_t c = 0; c < 3; ++c)
                 if (!REQUIRE(fabsf(pixel[c] - rows[i].rgb[c]) < 0.02f))
@@ -452,7 +346,7 @@ static void test_views(struct bench *b)
                            (double)pixel[c]);
             REQUIRE(d.pixels[3] == 0); /* nothing is stored beside the sphere */
         }
-        close_drawing(&d);
+        drawing_close(&d);
     }
 }
 
@@ -460,30 +354,36 @@ static void test_views(struct bench *b)
 
 enum { NUM_LAYERS = 8 };
 
-/* Eight layers of slabs, each with its colour, roughness and, but for the first, mask. */
+/* Eight layers of slabs, each with its colour, roughness and, but for the
+ * first, mask. */
 static void write_layers(char *text, size_t size)
 {
     size_t len =
         (size_t)snprintf(text, size, "<materialx version='1.39'><normal name='n' type='vector3'/>");
     for (int i = 0; i < NUM_LAYERS; ++i)
-        len += (size_t)snprintf(
-            text + len, size - len,
-            "<slab name='b%d' type='BSDF'><input name='diffuse_albedo' type='color3' "
-            "value='0.%d, 0.%d, 0.%d'/><input name='roughness' type='float' value='0.%d'/></slab>"
-            "<slab_surface name='s%d' type='surfaceshader'>"
-            "<input name='bsdf' type='BSDF' nodename='b%d'/></slab_surface>"
-            "<dotproduct name='d%d' type='float'><input name='in1' type='vector3' nodename='n'/>"
-            "<input name='in2' type='vector3' value='0.%d, -0.%d, 0.%d'/></dotproduct>"
-            "<smoothstep name='k%d' type='float'><input name='in' type='float' nodename='d%d'/>"
-            "<input name='low' type='float' value='-0.3'/></smoothstep>"
-            "<substance name='m%d' type='material'>"
-            "<input name='surfaceshader' type='surfaceshader' nodename='s%d'/>"
-            "<input name='mask' type='float' %s/></substance>",
-            i, i + 1, 3 * i % 8 + 1, 5 * i % 8 + 1, i + 2, i, i, i, 2 * i % 9, 4 * i % 9, 5 * i % 9,
-            i, i, i, i,
-            i ? (const char[]){'n', 'o', 'd', 'e', 'n', 'a', 'm', 'e', '=', '\'', 'k',
-                               (char)('0' + i), '\'', 0}
-              : "value='1'");
+        len +=
+            (size_t)snprintf(text + len, size - len,
+                             "<slab name='b%d' type='BSDF'><input name='diffuse_albedo' "
+                             "type='color3' "
+                             "value='0.%d, 0.%d, 0.%d'/><input name='roughness' type='float' "
+                             "value='0.%d'/></slab>"
+                             "<slab_surface name='s%d' type='surfaceshader'>"
+                             "<input name='bsdf' type='BSDF' nodename='b%d'/></slab_surface>"
+                             "<dotproduct name='d%d' type='float'><input name='in1' type='vector3' "
+                             "nodename='n'/>"
+                             "<input name='in2' type='vector3' value='0.%d, -0.%d, "
+                             "0.%d'/></dotproduct>"
+                             "<smoothstep name='k%d' type='float'><input name='in' type='float' "
+                             "nodename='d%d'/>"
+                             "<input name='low' type='float' value='-0.3'/></smoothstep>"
+                             "<substance name='m%d' type='material'>"
+                             "<input name='surfaceshader' type='surfaceshader' nodename='s%d'/>"
+                             "<input name='mask' type='float' %s/></substance>",
+                             i, i + 1, 3 * i % 8 + 1, 5 * i % 8 + 1, i + 2, i, i, i, 2 * i % 9,
+                             4 * i % 9, 5 * i % 9, i, i, i, i,
+                             i ? (const char[]){'n', 'o', 'd', 'e', 'n', 'a', 'm', 'e', '=', '\'',
+                                                'k', (char)('0' + i), '\'', 0}
+                               : "value='1'");
     len += (size_t)snprintf(text + len, size - len, "<look name='L'>");
     for (int i = 0; i < NUM_LAYERS; ++i)
         len += (size_t)snprintf(text + len, size - len,
@@ -503,7 +403,8 @@ static uint32_t most_closures(struct drawing *d)
     return most;
 }
 
-/* Each layer is stored where its mask is not 0; a budget makes fewer slabs of them. */
+/* Each layer is stored where its mask is not 0; a budget makes fewer slabs of
+ * them. */
 static void test_stack(struct bench *b)
 {
     static const char *const path = "/ball";
@@ -522,16 +423,16 @@ static void test_stack(struct bench *b)
         return;
     REQUIRE_EQ(mxg_bindings_num_stacks(b->bindings), 1);
     test_picture(b, "eight layers");
-    if (draw(b, "eight layers", "round", UINT32_MAX, &d))
+    if (drawing_open(b, "eight layers", "round", UINT32_MAX, &d))
         REQUIRE_EQ(most_closures(&d), NUM_LAYERS);
-    close_drawing(&d);
+    drawing_close(&d);
     mxg_options_set(b->options, "max-closures", "3");
     test_picture(b, "three slabs");
-    if (draw(b, "three slabs", "round", UINT32_MAX, &d)) {
+    if (drawing_open(b, "three slabs", "round", UINT32_MAX, &d)) {
         uint32_t most = most_closures(&d);
         REQUIRE(most > 0 && most <= 3);
     }
-    close_drawing(&d);
+    drawing_close(&d);
     mxg_options_set(b->options, "max-closures", "0");
     mxg_bindings_destroy(b->bindings);
     b->bindings = NULL;
@@ -540,16 +441,18 @@ static void test_stack(struct bench *b)
 
 static bool open_document(struct bench *b, const char *folder, const char *name)
 {
-    char path[1024];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
+    snprintf(b->path, sizeof b->path, "%s/%s", folder, name);
     mxg_document_destroy(b->document);
     b->document = NULL;
     return REQUIRE_EQ(
-        mxg_document_load(b->context, mxg_library_builtin(b->context), path, &b->document), MXG_OK);
+        mxg_document_load(b->context, mxg_library_builtin(b->context), b->path, &b->document),
+        MXG_OK);
 }
 
 int main(int argc, char **argv)
 {
+    static const char *const specials[] = {"Pearly", "Glittering"}, *const paints[] = {
+                                                                        "FlakePaint", "PearlPaint"};
     static const char *const features[] = {"Plain", "Wax",       "Hazy",    "Downy",
                                            "Satin", "Lacquered", "Chipped", "Lantern"},
                              *const layers[] = {"CoatedMetal", "DustyFibre", "WrappedSilk",
@@ -575,6 +478,8 @@ int main(int argc, char **argv)
         test_views(&b);
         for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
             test_picture(&b, features[i]);
+        for (size_t i = 0; i < sizeof specials / sizeof *specials; ++i)
+            test_picture(&b, specials[i]);
         for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
             test_payload(&b, features[i], 38);
     }
@@ -584,6 +489,9 @@ int main(int argc, char **argv)
     if (b.document)
         for (size_t i = 0; i < sizeof layers / sizeof *layers; ++i)
             test_payload(&b, layers[i], 38);
+    if (open_document(&b, argv[1], "slab_glints.mtlx"))
+        for (size_t i = 0; i < sizeof paints / sizeof *paints; ++i)
+            test_picture(&b, paints[i]);
     mxg_options_set(b.options, "slabs", "true"); /* in both pipelines */
     if (open_document(&b, argv[2], "materials.mtlx"))
         for (size_t i = 0; i < sizeof others / sizeof *others; ++i)

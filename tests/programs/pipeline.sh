@@ -7,7 +7,7 @@ source "$(dirname "$(realpath "$0")")/common.sh"
 # ---- passes ----
 
 check "passes" "$mxgen" pipeline passes
-for name in classify compose light_simple light_single light_complex show light_rays; do
+for name in classify compose light_simple light_single light_complex light_special diffuse show light_rays; do
     check "$name" test -s "passes/$name.comp" -a -s "passes/$name.json"
 done
 check "passes for OpenGL" "$mxgen" pipeline gl --target glsl
@@ -26,7 +26,8 @@ compiles() {
 }
 if command -v glslangValidator >/dev/null; then
     "$mxgen" pipeline shadow --shadow-map --environment prefiltered --albedo table --storage float >/dev/null
-    for folder in passes few shadow; do
+    "$mxgen" pipeline spread --sss diffusion >/dev/null
+    for folder in passes few shadow spread; do
         check "$folder compile" compiles "$folder" "-V -o code.spv"
     done
     check "gl compile" compiles gl ""
@@ -49,9 +50,21 @@ check "one layout in all reflections" fits
 "$mxgen" pipeline float --storage float >/dev/null
 other_layout() { [ "$(number float/show.json layout)" != "$(number passes/show.json layout)" ]; }
 check "another storage has another layout" other_layout
+"$mxgen" pipeline spread --sss diffusion >/dev/null
+check "diffusion, too" eval '[ "$(number spread/show.json layout)" != "$(number passes/show.json layout)" ]'
+check "and has an image" eval 'grep -q "\"scattered\"" spread/light_single.json && ! grep -q "\"scattered\"" passes/light_single.json'
 words() { [ "$(number "materials/$1.json" words)" = "$2" ]; }
 check "words of Plain" words Plain 3
 check "words of Lacquered" words Lacquered 10
+check "words of Pearly" words Pearly 11
+check "words of Glittering" words Glittering 15
+check "a tint is the number of a table" python3 -c 'import json
+blocks = {block["name"]: block["variables"] for block in json.load(open("materials/Pearly.json"))["blocks"]}
+number, = [v for v in blocks["PublicUniforms"] if v.get("documentType") == "filename"]
+assert (number["type"], number["path"], number["file"]) == ("int", "pearl/specular_lut", "pearl.png"), number
+tables = [v for block in json.load(open("passes/light_special.json"))["blocks"] for v in block["variables"] if v["name"] == "u_tints"]
+assert len(tables) == 1 and tables[0]["semantic"] == "tints", tables'
+check "of one pass alone" eval '! grep -q u_tints passes/light_complex.comp'
 check "a cut-out has a depth pass" bash -c 'test -s materials/Lantern.depth.frag && grep -q discard materials/Lantern.depth.frag'
 check "an opaque material has none" test ! -e materials/Plain.depth.frag
 check "positions are invariant" grep -q 'invariant gl_Position' materials/Plain.vert

@@ -26,6 +26,7 @@ static const struct setting {
     {"integrator", "integrator", {"raster", "path", "scatter"}},
     {"form", "form", {"program", "function", "payload"}},
     {"storage", "storage", {"dither", "round", "float"}},
+    {"sss", "sss", {"wrap", "diffusion"}},
     {"slots", "slots", {"blend", "stochastic"}},
     {"transparency", "transparency", {"auto", "opaque", "mask", "blend", "dual"}},
     {"transmission", "transmission", {"refraction", "opacity"}},

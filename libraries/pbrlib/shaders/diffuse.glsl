@@ -214,7 +214,7 @@ vec3 mx_subsurface_light(vec3 radius, float curvature, float cos_l)
 vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)
 {
     vec3 Nf = mx_facing(N, V);
-    if (option_integrator == 1) // where there are no screen derivatives: what leaves where it entered
+    if (option_integrator == 1 || option_sss == 1) // no screen derivatives, or spread later: what leaves where it entered
         return color * mx_cosine_pdf(Nf, L);
     if (mx_known(radius.x == radius.y) && mx_known(radius.y == radius.z))
         return color * mx_subsurface_light(radius.x, mx_curvature(Nf, P), dot(Nf, L));

@@ -10,7 +10,7 @@ layout(MX_FRAME, std140) uniform MxFrame
 // Tiles of 8 by 8 pixels by class: for each, a command of an indirect dispatch; then for each the numbers of its tiles.
 layout(MX_TILES, std430) MX_TILES_ACCESS buffer MxTiles
 {
-    uvec4 mx_dispatch[4];
+    uvec4 mx_dispatch[5];
     uint mx_tile[];
 };
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -3,6 +3,19 @@
 layout(MX_DEPTH) uniform sampler2D mx_depth;
 layout(MX_COLOR) uniform sampler2D mx_color;
 layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
+#if MX_SSS == 1 && MX_CLASS > 1
+layout(MX_SCATTERED, rgba16f) uniform writeonly restrict image2DArray mx_scattered;
+
+// The part of out1 that is light from below the surface: what the same closure without a body does not send.
+vec3 mx_split(MxClosure closure, vec3 point, vec3 top)
+{
+    vec3 all = out1.xyz;
+    closure.diffuse_albedo = vec3(0.0);
+    mx_fill(closure, point, top);
+    surface();
+    return max(all - out1.xyz, 0.0);
+}
+#endif
 
 void main()
 {
@@ -15,14 +28,30 @@ void main()
         return;
     vec4 point = mx_to_world * vec4(vec2(pixel) + 0.5, texelFetch(mx_depth, pixel, 0).x, 1.0);
     vec4 lit = texelFetch(mx_color, pixel, 0); // what the surface emits
+#if MX_SSS == 1 && MX_CLASS > 1
+    vec3 inside = vec3(0.0), albedo = vec3(0.0);
+#endif
     while (reader.next < reader.num_closures) {
         MxClosure closure = mx_next(reader);
         mx_fill(closure, point.xyz / point.w, reader.normals[0]);
         surface();
+#if MX_SSS == 1 && MX_CLASS > 1
+        if (closure.is_thick > 0.0) {
+            inside += mx_split(closure, point.xyz / point.w, reader.normals[0]);
+            albedo = closure.diffuse_albedo;
+        }
+#endif
         lit.xyz += out1.xyz;
-#if MX_CLASS != 3
+#if MX_CLASS < 3
         break;
 #endif
     }
+#if MX_SSS == 1 && MX_CLASS > 1
+    if (max(albedo.x, max(albedo.y, albedo.z)) > 0.0) {
+        imageStore(mx_scattered, ivec3(pixel, 0), vec4(inside / max(albedo, 1e-3), 1.0));
+        imageStore(mx_scattered, ivec3(pixel, 1), lit);
+        return;
+    }
+#endif
     imageStore(mx_lit, pixel, lit);
 }

@@ -37,7 +37,7 @@ MxReader mx_open(ivec2 pixel)
     reader.core = imageLoad(mx_word_0, pixel).x;
     reader.body = imageLoad(mx_word_1, pixel).x;
     reader.top = imageLoad(mx_word_2, pixel).x;
-    reader.class_ = reader.core >> 28u & 7u;
+    reader.class_ = mx_class(reader.core);
     reader.num_closures = reader.class_ == MX_EMPTY ? 0u : (reader.body >> 28u) + 1u;
     reader.next = 0u;
     reader.at = 0u;
@@ -65,6 +65,13 @@ MxClosure mx_next(inout MxReader reader)
     c.free_path = mx_get_vector(reader);
     c.phase_anisotropy = mx_get_float(reader);
     c.is_thick = mx_get_float(reader);
+    c.glint_density = mx_get_float(reader);
+    c.glint_uv.x = mx_get_float(reader);
+    c.glint_uv.y = mx_get_float(reader);
+    c.glint_extent.x = mx_get_float(reader);
+    c.glint_extent.y = mx_get_float(reader);
+    c.tint_index = mx_get_float(reader);
+    c.tint_weight = mx_get_float(reader);
     c.steady = mx_get_vector(reader);
     c.color = mx_get_vector(reader);
     c.decay = mx_get_vector(reader);
@@ -73,13 +80,13 @@ MxClosure mx_next(inout MxReader reader)
         reader.normals[0] = c.normal;
     return c;
 #else
-    MxRecord r = MxRecord(reader.core, reader.body, uint[2](0u, 0u), 0u, 0u, 0u, 0u, 0u);
+    MxRecord r = MxRecord(reader.core, reader.body, uint[2](0u, 0u), 0u, 0u, 0u, 0u, 0u, uint[4](0u, 0u, 0u, 0u), 0u);
     bool is_top = reader.next == 0u, is_last = ++reader.next == reader.num_closures;
     if (!is_last) {
         r.core = mx_get(reader);
         r.body = (r.core >> 20u & MX_IS_SMOOTH) != 0u ? 0u : mx_get(reader);
     }
-    uint has = r.core >> 20u;
+    uint has = mx_features(r.core);
     if ((has & MX_HAS_WEIGHTS) != 0u) {
         r.weights[0] = mx_get(reader);
         r.weights[1] = mx_get(reader);
@@ -92,6 +99,11 @@ MxClosure mx_next(inout MxReader reader)
         r.fuzz = mx_get(reader);
     if ((has & MX_HAS_ANISOTROPY) != 0u)
         r.anisotropy = mx_get(reader);
+    if ((has & MX_HAS_TINT) != 0u)
+        r.tint = mx_get(reader);
+    if ((has & MX_HAS_GLINTS) != 0u)
+        for (int i = 0; i < 4; ++i)
+            r.glints[i] = mx_get(reader);
     uint number = has >> MX_NORMAL_SHIFT & 3u;
     if (number == 1u) {
         reader.normals[2] = reader.normals[1];

@@ -11,25 +11,41 @@ struct MxClosure
     vec3 fuzz_color;
     float fuzz_roughness;
     vec3 free_path; // over the thickness of the medium, or over the radius of the surface of a body
-    float phase_anisotropy, is_thick;
+    float phase_anisotropy, is_thick, glint_density;
+    vec2 glint_uv, glint_extent; // the latter: how far a pixel goes along each
+    float tint_index, tint_weight;
     vec3 steady, color, decay;
     float spreads;
 };
 
-const uint MX_EMPTY = 0u, MX_SIMPLE = 1u, MX_SINGLE = 2u, MX_COMPLEX = 3u;
+const uint MX_EMPTY = 0u, MX_SIMPLE = 1u, MX_SINGLE = 2u, MX_COMPLEX = 3u, MX_SPECIAL = 4u;
 
 // What a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
 const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FUZZ = 8u, MX_HAS_ANISOTROPY = 16u;
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
 const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its own, 2: the last such word, 3: the one before it
 
+// A tint has one word more, glints have four. Bits 28 to 30 of the first word, where bit 30 is set; else bits 28 and 29 of word 0 are the class.
+const uint MX_HAS_TINT = 256u, MX_HAS_GLINTS = 512u, MX_IS_SPECIAL = 1024u;
+
 const int MX_PAYLOAD_WORDS = 16; // of a ray
 
 // The words of a closure.
 struct MxRecord
 {
-    uint core, body, weights[2], medium, lobes, fuzz, anisotropy, normal;
+    uint core, body, weights[2], medium, lobes, fuzz, anisotropy, tint, glints[4], normal;
 };
+
+uint mx_class(uint first)
+{
+    return (first >> 20u & MX_IS_SPECIAL) != 0u ? MX_SPECIAL : first >> 28u;
+}
+
+// What a closure has.
+uint mx_features(uint core)
+{
+    return core >> 20u & ((core >> 20u & MX_IS_SPECIAL) != 0u ? 0x3ffu : 0xffu);
+}
 
 // ---- numbers of few bits ---------------------------------------------------------------------------------------------
 
@@ -191,17 +207,40 @@ uint mx_fuzz_word(MxClosure c)
 // The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
 uint mx_anisotropy_word(MxClosure c, vec3 normal)
 {
-    uint amount = mx_cut_signed(c.anisotropy, 8u);
+    uint amount = mx_cut_signed(c.anisotropy, 16u);
     vec3 x, y;
     mx_across(normal, x, y);
     float turn = atan(dot(c.tangent, y), dot(c.tangent, x)) / 3.14159265;
-    return amount == 0u ? 0u : uint(round(fract(turn) * 4096.0)) & 0xfffu | amount << 12u;
+    return amount == 0u ? 0u : uint(round(fract(turn) * 65536.0)) & 0xffffu | amount << 16u;
+}
+
+// The number of the table, and how much it tints.
+uint mx_tint_word(MxClosure c)
+{
+    uint weight = mx_cut(c.tint_weight, 8u, 11u);
+    return weight == 0u ? 0u : uint(c.tint_index) & 0xffffu | weight << 16u;
+}
+
+// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of the number; whole turn of
+// the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+uint[4] mx_glint_words(MxClosure c, vec3 normal)
+{
+    vec2 extent = clamp((log2(max(c.glint_extent, 1e-12)) + 24.0) / 32.0, 0.0, 1.0); // from 2^-24 to 2^8
+    vec3 x, y;
+    mx_across(normal, x, y);
+    float turn = atan(dot(c.tangent, y), dot(c.tangent, x)) / 6.2831853;
+    ivec2 rest = ivec2(round(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, -8.0, 7.0))) & 15;
+    return uint[4](floatBitsToUint(c.glint_uv.x), floatBitsToUint(c.glint_uv.y),
+                   uint(round(extent.x * 1023.0)) | uint(round(extent.y * 1023.0)) << 10u
+                 | max(uint(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u,
+                   uint(round(fract(turn) * 4096.0)) & 0xfffu | uint(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u
+                 | uint(rest.x) << 24u | uint(rest.y) << 28u);
 }
 
 // The class of a pixel or ray with one closure that has these features.
 uint mx_class_of(uint has)
 {
-    return (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
+    return (has & MX_IS_SPECIAL) != 0u ? MX_SPECIAL : (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
 }
 
 // All words of a closure but its normal, which the caller chooses. stored_normal: as it will be read.
@@ -215,10 +254,14 @@ MxRecord mx_pack(MxClosure c, vec3 stored_normal)
     r.lobes = mx_lobes_word(c);
     r.fuzz = mx_fuzz_word(c);
     r.anisotropy = mx_anisotropy_word(c, stored_normal);
+    r.tint = mx_tint_word(c);
     r.normal = 0u;
+    bool has_glints = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
+    r.glints = has_glints ? mx_glint_words(c, stored_normal) : uint[4](0u, 0u, 0u, 0u);
     uint has = ((r.weights[0] | r.weights[1]) != 0u ? MX_HAS_WEIGHTS : 0u) | (r.medium != 0u ? MX_HAS_MEDIUM : 0u)
              | (r.lobes != 0u ? MX_HAS_LOBES : 0u) | (r.fuzz != 0u ? MX_HAS_FUZZ : 0u)
-             | (r.anisotropy != 0u ? MX_HAS_ANISOTROPY : 0u);
+             | (r.anisotropy != 0u ? MX_HAS_ANISOTROPY : 0u) | (r.tint != 0u ? MX_HAS_TINT | MX_IS_SPECIAL : 0u)
+             | (has_glints ? MX_HAS_GLINTS | MX_IS_SPECIAL : 0u);
     r.core = mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0))) | has << 20u;
     r.body = mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
     return r;
@@ -230,7 +273,6 @@ MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
     vec3 root = mx_uncut_color(r.core);
     c.f0 = root * root;
     c.diffuse_albedo = mx_linear(mx_uncut_color(r.body));
-    c.roughness = roughness;
     c.normal = normal;
     c.f90 = 1.0 - vec3(mx_uncut(r.lobes, 14u, 6u), mx_uncut(r.lobes, 20u, 6u), mx_uncut(r.lobes, 26u, 6u));
     c.second_roughness = mx_uncut(r.lobes, 0u, 8u);
@@ -242,10 +284,20 @@ MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
     c.free_path = part / max(1.0 - part, 1e-6);
     c.phase_anisotropy = mx_uncut_signed(r.medium, 20u, 6u);
     c.is_thick = float(r.medium >> 26u & 1u);
-    c.anisotropy = mx_uncut_signed(r.anisotropy, 12u, 8u);
+    c.anisotropy = mx_uncut_signed(r.anisotropy, 16u, 16u);
     vec3 x, y;
     mx_across(normal, x, y);
-    float turn = float(r.anisotropy & 0xfffu) / 4096.0 * 3.14159265;
+    bool has_glints = r.glints[2] != 0u;
+    float turn = has_glints ? float(r.glints[3] & 0xfffu) / 4096.0 * 6.2831853 : float(r.anisotropy & 0xffffu) / 65536.0 * 3.14159265;
+    c.roughness = has_glints ? mx_uncut(r.glints[3], 12u, 12u) : roughness;
+    ivec2 rest = ivec2(int(r.glints[3] << 4u) >> 28, int(r.glints[3]) >> 28);
+    if (has_glints)
+        c.normal = mx_of_octahedral(mx_octahedral(normal) + vec2(rest) / 65520.0);
+    c.glint_density = mx_uncut(r.glints[2], 20u, 12u) * 32.0;
+    c.glint_uv = vec2(uintBitsToFloat(r.glints[0]), uintBitsToFloat(r.glints[1]));
+    c.glint_extent = exp2(vec2(mx_uncut(r.glints[2], 0u, 10u), mx_uncut(r.glints[2], 10u, 10u)) * 32.0 - 24.0);
+    c.tint_index = float(r.tint & 0xffffu);
+    c.tint_weight = mx_uncut(r.tint, 16u, 8u);
     c.tangent = cos(turn) * x + sin(turn) * y;
     c.steady = 1.0 - mx_uncut_color(r.weights[0]);
     c.color = mx_uncut_color(r.weights[0] >> 20u | r.weights[1] << 12u);

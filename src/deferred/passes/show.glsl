@@ -26,7 +26,7 @@ void main()
     }
     float words = reader.class_ == MX_EMPTY ? 0.0 : float(3u + reader.at);
     if (mx_show.x == 0u)
-        shown = vec3[4](vec3(0.0), vec3(0.0, 0.6, 0.0), vec3(0.8, 0.6, 0.0), vec3(0.8, 0.0, 0.0))[reader.class_ & 3u];
+        shown = vec3[5](vec3(0.0), vec3(0.0, 0.6, 0.0), vec3(0.8, 0.6, 0.0), vec3(0.8, 0.0, 0.0), vec3(0.6, 0.0, 0.8))[reader.class_];
     else if (mx_show.x == 1u)
         shown = vec3(4.0 * words / 255.0);
     else if (mx_show.x == 2u)

@@ -9,9 +9,15 @@ layout(MX_STORED_IMAGE, r32ui) uniform writeonly restrict uimage2DArray mx_words
 MxRecord mx_pending;            // the last closure, which is written when the next one or the end comes
 vec3 mx_normals[3];             // of the top, and the last two with words of their own
 uint mx_num_closures = 0u, mx_num_words = 0u;
+bool mx_is_special = false;     // a closure has glints or a tint
 #if MX_STORAGE == 2
 MxClosure mx_whole;
 #endif
+
+vec2 mx_glint_extent(vec2 uv)
+{
+    return max(abs(dFdx(uv)), abs(dFdy(uv)));
+}
 
 void mx_put(uint word)
 {
@@ -33,7 +39,7 @@ void mx_put(vec3 value)
 // What follows the first two words of a closure.
 void mx_put_features(MxRecord r)
 {
-    uint has = r.core >> 20u;
+    uint has = mx_features(r.core);
     if ((has & MX_HAS_WEIGHTS) != 0u) {
         mx_put(r.weights[0]);
         mx_put(r.weights[1]);
@@ -46,6 +52,11 @@ void mx_put_features(MxRecord r)
         mx_put(r.fuzz);
     if ((has & MX_HAS_ANISOTROPY) != 0u)
         mx_put(r.anisotropy);
+    if ((has & MX_HAS_TINT) != 0u)
+        mx_put(r.tint);
+    if ((has & MX_HAS_GLINTS) != 0u)
+        for (int i = 0; i < 4; ++i)
+            mx_put(r.glints[i]);
     if ((has >> MX_NORMAL_SHIFT & 3u) == 1u)
         mx_put(r.normal);
 }
@@ -68,6 +79,13 @@ void mx_put_whole(MxClosure c)
     mx_put(c.free_path);
     mx_put(c.phase_anisotropy);
     mx_put(c.is_thick);
+    mx_put(c.glint_density);
+    mx_put(c.glint_uv.x);
+    mx_put(c.glint_uv.y);
+    mx_put(c.glint_extent.x);
+    mx_put(c.glint_extent.y);
+    mx_put(c.tint_index);
+    mx_put(c.tint_weight);
     mx_put(c.steady);
     mx_put(c.color);
     mx_put(c.decay);
@@ -101,31 +119,25 @@ uint mx_number_normal(vec3 normal, inout uint word)
     return 1u;
 }
 
-// Adds the closure below the earlier ones. Returns how many there are.
-int mx_store_closure(int before, vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughness, float anisotropy, vec3 normal, vec3 tangent,
-                      float second_roughness, float second_roughness_weight, float fuzz_amount, vec3 fuzz_color, float fuzz_roughness,
-                      vec3 free_path, float phase_anisotropy, float is_thick, vec3 steady, vec3 color, vec3 decay, float spreads)
+// The last closure of all keeps its words in `mx_pending`.
+void mx_keep(MxClosure c)
 {
-    vec3 light = steady + color;
-    if (max(light.x, max(light.y, light.z)) <= 0.0)
-        return before;
-    MxClosure c = MxClosure(diffuse_albedo, f0, f90, roughness, anisotropy, normal, tangent, second_roughness, second_roughness_weight,
-                            fuzz_amount, fuzz_color, fuzz_roughness, free_path, phase_anisotropy, is_thick, steady, color, decay, spreads);
     if (mx_num_closures == 0u) {
         mx_start_noise(gl_FragCoord.xy);
-        mx_normals = vec3[3](normal, vec3(0.0), vec3(0.0));
-        mx_word_2 = mx_top(normal, roughness);
+        mx_normals = vec3[3](c.normal, vec3(0.0), vec3(0.0));
+        mx_word_2 = mx_top(c.normal, c.roughness);
     } else {
         mx_flush();
     }
-    uint normal_word = 0u, number = mx_number_normal(normal, normal_word);
-    mx_pending = mx_pack(c, number == 0u ? mx_top_normal(mx_word_2) : mx_uncut_normal(mx_cut_normal(normal, 16u), 16u));
+    uint normal_word = 0u, number = mx_number_normal(c.normal, normal_word);
+    mx_pending = mx_pack(c, number == 0u ? mx_top_normal(mx_word_2) : mx_uncut_normal(mx_cut_normal(c.normal, 16u), 16u));
     mx_pending.normal = normal_word;
     mx_pending.core |= number << 20u + MX_NORMAL_SHIFT;
+    mx_is_special = mx_is_special || mx_class(mx_pending.core) == MX_SPECIAL;
 #if MX_STORAGE == 2
     mx_whole = c;
 #endif
-    return int(++mx_num_closures);
+    ++mx_num_closures;
 }
 
 int mx_finish_closures(int stored)
@@ -134,8 +146,7 @@ int mx_finish_closures(int stored)
     mx_word_1 = 0u;
     if (stored == 0)
         return 0;
-    uint has = mx_pending.core >> 20u;
-    uint class_ = stored > 1 ? MX_COMPLEX : mx_class_of(has);
+    uint class_ = mx_is_special ? MX_SPECIAL : stored > 1 ? MX_COMPLEX : mx_class_of(mx_features(mx_pending.core));
 #if MX_STORAGE == 2
     mx_put_whole(mx_whole);
 #else

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deferred/drawing.h"
+
+#include "unit/test.h"
+
+#include <stdlib.h>
+
+bool drawing_generate(struct bench *b, const char *element, const char *pipeline,
+                      const char *storage, mxg_result **out)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "vulkan";
+    desc.element = b->bindings ? NULL : element;
+    desc.bindings = b->bindings;
+    desc.options = b->options;
+    mxg_options_set(b->options, "pipeline", pipeline);
+    mxg_options_set(b->options, "storage", storage);
+    mxg_status status = mxg_generate(b->context, b->document, &desc, out);
+    mxg_diagnostic first = {sizeof first};
+    if (*out && mxg_diagnostics_get(mxg_result_diagnostics(*out), 0, &first) == MXG_OK
+        && first.severity <= MXG_SEVERITY_WARNING)
+        printf("%s: %s\n", element, first.message);
+    return REQUIRE_EQ(status, MXG_OK);
+}
+
+static bool add_program(struct bench *b, struct drawing *d, const char *element,
+                        const char *pipeline, const char *storage, enum draw_role role)
+{
+    size_t i = d->count++;
+    if (!drawing_generate(b, element, pipeline, storage, &d->results[i]))
+        return false;
+    d->binds[i] = (struct bind){.result = d->results[i], .scene = &b->scene, .document = b->path};
+    d->binds[i].draw.role = role;
+    return true;
+}
+
+static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
+{
+    struct bind *const binds[] = {&d->binds[0]};
+    struct passes_setup setup = {.context = b->context,
+                                 .options = b->options,
+                                 .scene = &b->scene,
+                                 .gpu = &b->gpu,
+                                 .canvas = d->canvas,
+                                 .width = SIZE,
+                                 .height = SIZE,
+                                 .words = d->stored_words,
+                                 .binds = binds,
+                                 .num_binds = 1,
+                                 .shown = shown};
+    bool good = passes_open(&setup, &d->passes);
+    if (!good)
+        printf("%s\n", d->passes.reason);
+    if (good)
+        stored_mark(d->passes.stored, MARK);
+    return REQUIRE(good);
+}
+
+bool drawing_open(struct bench *b, const char *element, const char *storage, uint32_t shown,
+                  struct drawing *d)
+{
+    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float))};
+    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
+    if (!add_program(b, d, element, storage ? "deferred" : "forward", storage ? storage : "float",
+                     DRAW_LIT))
+        return false;
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(d->results[0], &info);
+    d->stored_words = info.stored_words;
+    d->layout = info.layout;
+    if (info.stored_words) {
+        d->binds[0].draw.role = DRAW_STORES;
+        d->binds[0].draw.has_holes = info.alpha == MXG_ALPHA_MASK;
+        if (!open_passes(b, d, shown)
+            || (d->binds[0].draw.has_holes
+                && !add_program(b, d, element, "depth", storage, DRAW_CUTS)))
+            return false;
+    }
+    bool good = true;
+    for (size_t i = 0; good && i < d->count; ++i) {
+        good = render_open(&d->renders[i], d->canvas, &b->gpu, &d->binds[i]);
+        if (!good)
+            printf("%s: %s\n", element, d->binds[i].reason);
+    }
+    return REQUIRE(good && render_frame(d->renders, d->count, d->canvas, d->pixels));
+}
+
+void drawing_close(struct drawing *d)
+{
+    for (size_t i = 0; i < d->count; ++i)
+        render_close(&d->renders[i]);
+    draw_close_canvas(d->canvas);
+    passes_close(&d->passes);
+    for (size_t i = 0; i < d->count; ++i) {
+        bind_finish(&d->binds[i]);
+        mxg_result_destroy(d->results[i]);
+    }
+    free(d->pixels);
+}

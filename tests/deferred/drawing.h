@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Materials on an object, drawn forward or through storage: for tests of the deferred pipeline. */
+#ifndef MXG_TESTS_DEFERRED_DRAWING_H
+#define MXG_TESTS_DEFERRED_DRAWING_H
+
+#include "render/passes.h"
+
+#include <mxgen/scene.h>
+
+enum { SIZE = 96, PIXELS = SIZE * SIZE, MAX_WORDS = 48, PAYLOAD_WORDS = 16 };
+#define MARK 0xdeadbeefu
+
+struct bench {
+    struct gpu gpu;
+    struct scene scene;
+    mxg_context *context;
+    mxg_options *options;
+    mxg_document *document;
+    char path[1024];        /* of the document */
+    mxg_bindings *bindings; /* NULL, or the stack 0 of these takes the place of elements */
+};
+
+/* A material on the sphere. */
+struct drawing {
+    struct draw_canvas *canvas;
+    struct passes passes;
+    struct bind binds[2];
+    struct render renders[2];
+    mxg_result *results[2];
+    size_t count;
+    uint32_t stored_words, layout;
+    float *pixels;
+};
+
+/* Generates a shader; reports what it says. */
+bool drawing_generate(struct bench *b, const char *element, const char *pipeline,
+                      const char *storage, mxg_result **out);
+/* Draws an element; storage NULL: forward. Call drawing_close in any case. */
+bool drawing_open(struct bench *b, const char *element, const char *storage, uint32_t shown,
+                  struct drawing *d);
+void drawing_close(struct drawing *d);
+
+#endif

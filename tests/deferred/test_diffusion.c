@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The pass that spreads the light below the surface of bodies, on a plane with one light. */
+#include "deferred/drawing.h"
+#include "unit/test.h"
+
+#include <math.h>
+
+/*
+ * The light behind the edge of a half plane that is lit, at the distance t into
+ * it: Christensen and Burley's profile (2015), integrated over rings.
+ */
+static double behind_edge(double t, double d)
+{
+    enum { STEPS = 4000 };
+    double dark = 0, from = fabs(t), step = 60 * d / STEPS;
+    for (int i = 0; i < STEPS; ++i) {
+        double r = from + (i + 0.5) * step, ring = (exp(-r / d) + exp(-r / (3 * d))) / (4 * d);
+        dark += step * ring * acos(from / r) / acos(-1);
+    }
+    return t < 0 ? dark : 1 - dark;
+}
+
+/* A plane of wax that is lit at x > edge, because its normal there is that of
+ * the light. */
+static bool parse_wax(struct bench *b, double edge)
+{
+    float l[4] = {0};
+    char text[2048];
+    if (!REQUIRE(scene_light(&b->scene, 0, "direction", l)))
+        return false;
+    double side = hypot(l[0], l[1]); /* facing the viewer, across the light */
+    snprintf(text, sizeof text,
+             "<materialx version='1.39'><position name='p' type='vector3' "
+             "space='world'/>"
+             "<extract name='x' type='float'><input name='in' type='vector3' "
+             "nodename='p'/>"
+             "</extract><ifgreater name='n' type='vector3'><input name='value1' "
+             "type='float' "
+             "nodename='x'/><input name='value2' type='float' value='%g'/><input "
+             "name='in1' "
+             "type='vector3' value='%g, %g, %g'/><input name='in2' "
+             "type='vector3' value='%g, %g, "
+             "%g'/></ifgreater><slab name='s' type='BSDF'><input name='f0' "
+             "type='color3' "
+             "value='0, 0, 0'/><input name='diffuse_albedo' type='color3' "
+             "value='0.5, 0.5, 0.5'/>"
+             "<input name='mean_free_path' type='vector3' value='0.1, 0.12, "
+             "0.15'/><input "
+             "name='normal' type='vector3' nodename='n'/></slab><slab_surface "
+             "name='Wax' "
+             "type='surfaceshader'><input name='bsdf' type='BSDF' "
+             "nodename='s'/></slab_surface>"
+             "</materialx>",
+             edge, -(double)l[0], -(double)l[1], -(double)l[2], -l[0] * l[2] / side,
+             -l[1] * l[2] / side, side);
+    mxg_document_destroy(b->document);
+    b->document = NULL;
+    return REQUIRE_EQ(mxg_document_parse(b->context, mxg_library_builtin(b->context), "wax.mtlx",
+                                         text, strlen(text), &b->document),
+                      MXG_OK);
+}
+
+/* The mean of the middle rows of a column. */
+static void mean_of_column(const float *pixels, size_t column, double out[3])
+{
+    enum { FIRST = SIZE / 3, END = SIZE - FIRST };
+    out[0] = out[1] = out[2] = 0;
+    for (size_t y = FIRST; y < END; ++y)
+        for (size_t c = 0; c < 3; ++c)
+            out[c] += (double)pixels[4 * (y * SIZE + column) + c] / (END - FIRST);
+}
+
+/* An even light stays as it is; the edge of a shadow is as soft as the profile
+ * says. */
+static void test_diffusion(struct bench *b)
+{
+    static const double paths[3] = {0.1, 0.12, 0.15};
+    struct drawing even, edge, wrapped;
+    double lit[3], at[3], uneven = 0, worst = 0;
+    if (!parse_wax(b, -2) || !drawing_open(b, "Wax", "float", UINT32_MAX, &even))
+        return;
+    mean_of_column(even.pixels, SIZE / 2, lit);
+    mxg_options_set(b->options, "sss", "wrap");
+    if (drawing_open(b, "Wax", "float", UINT32_MAX, &wrapped)) {
+        mean_of_column(wrapped.pixels, SIZE / 2, at);
+        REQUIRE(lit[0] > 0.05 && fabs(lit[0] / at[0] - 1) < 0.03);
+        REQUIRE(even.layout != wrapped.layout);
+    }
+    drawing_close(&wrapped);
+    mxg_options_set(b->options, "sss", "diffusion");
+    for (size_t i = 0; i < PIXELS; ++i)
+        for (size_t c = 0; c < 3; ++c)
+            uneven = fmax(uneven, fabs((double)even.pixels[4 * i + c] / lit[c] - 1));
+    if (parse_wax(b, 0) && drawing_open(b, "Wax", "float", UINT32_MAX, &edge))
+        for (size_t x = SIZE / 4; x < SIZE - SIZE / 4; ++x) {
+            mean_of_column(edge.pixels, x, at);
+            for (size_t c = 0; c < 3; ++c) {
+                double expected = behind_edge(2 * ((double)x + 0.5) / SIZE - 1, paths[c]);
+                worst = fmax(worst, fabs(at[c] / lit[c] - expected));
+            }
+        }
+    printf("diffusion: even light within %.4f, the edge of a shadow within %.3f\n", uneven, worst);
+    REQUIRE(uneven < 0.002);
+    REQUIRE(worst > 0 && worst < 0.04);
+    drawing_close(&edge);
+    drawing_close(&even);
+}
+
+int main(void)
+{
+    struct bench b = {0};
+    if (!gpu_open(&b.gpu) || !b.gpu.can_store) {
+        printf("skip: no device that can store: %s\n", b.gpu.reason);
+        return 77;
+    }
+    compile_begin();
+    REQUIRE(scene_init_plane(&b.scene));
+    REQUIRE_EQ(mxg_context_create(NULL, &b.context), MXG_OK);
+    REQUIRE_EQ(mxg_options_create(b.context, &b.options), MXG_OK);
+    b.scene.num_lights = 1;
+    mxg_options_set(b.options, "interface", "reduced");
+    mxg_options_set(b.options, "environment", "none");
+    mxg_options_set(b.options, "sss", "diffusion");
+    test_diffusion(&b);
+    mxg_document_destroy(b.document);
+    mxg_options_destroy(b.options);
+    mxg_context_destroy(b.context);
+    scene_finish(&b.scene);
+    gpu_close(&b.gpu);
+    compile_end();
+    return test_report("diffusion");
+}
