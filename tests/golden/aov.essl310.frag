@@ -71,8 +71,8 @@ void main()
             }
         }
         // diffuse
-        color += intensity * (u_lightData[i].color
-            * (max(dot(L, diffuse_facing), 1e-8) / 3.1415927 * vec3(0.8, 0.1, 0.1)));
+        color += u_lightData[i].color * (intensity
+            * (max(dot(L, diffuse_facing), 1e-8) * 0.31830987 * vec3(0.8, 0.1, 0.1)));
     }
     vec3 color_2 = vec3(0.0);
     // lights
@@ -100,8 +100,8 @@ void main()
             }
         }
         // diffuse
-        color_2 += intensity * (u_lightData[i].color
-            * (max(dot(diffuse_facing, L), 1e-8) / 3.1415927 * vec3(0.8, 0.1, 0.1)));
+        color_2 += u_lightData[i].color * (intensity
+            * (max(dot(diffuse_facing, L), 1e-8) * 0.31830987 * vec3(0.8, 0.1, 0.1)));
     }
     // opacity
     if (0.5 < u_alphaThreshold)

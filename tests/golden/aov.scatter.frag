@@ -60,7 +60,7 @@ void scatter()
         L = L_2;
         float diffuse_n_dot_l_2 = dot(diffuse_N, L_2);
         float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
-        vec3 weight_3 = max(diffuse_n_dot_l_2, 1e-8) / 3.1415927 * base_constant / max(pdf, 1e-8);
+        vec3 weight_3 = max(diffuse_n_dot_l_2, 1e-8) * 0.31830987 * base_constant / max(pdf, 1e-8);
         weight = weight_3;
         weight_2 = weight_3;
         density = pdf;
@@ -72,7 +72,7 @@ void scatter()
     out4 = vec4(medium, 0.0);
     float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
     float sum = vd.lightWorld.w * (max(diffuse_n_dot_l, 0.0) / 3.1415927) + 1.0;
-    vec3 ratio = max(diffuse_n_dot_l, 1e-8) / 3.1415927 * base_constant / sum;
+    vec3 ratio = max(diffuse_n_dot_l, 1e-8) * 0.31830987 * base_constant / sum;
     out5 = vec4(ratio, 0.0);
     aov_diffuse = vec3(0.0);
     aov_glow = vec3(0.1, 0.2, 0.3);

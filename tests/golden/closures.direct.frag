@@ -39,6 +39,18 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine)
+{
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 1.1025002);
+    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
+    return (cg2 + s * s) * (r * r);
+}
+
 // The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
 // the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
@@ -57,18 +69,6 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine)
-{
-    float c2 = cosine * cosine;
-    float s = 1.0 - c2;
-    float cg2 = c2 * (c2 + 1.1025002);
-    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
-    return (cg2 + s * s) * (r * r);
-}
-
 void main()
 {
     vec3 color = vec3(0.0);
@@ -81,20 +81,20 @@ void main()
     vec3 facing = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
     mx_GgxLobe coat_vector = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
-    vec3 scaled_paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75
+    vec3 paint_product = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75 * 0.31830987
         * vec3(0.6, 0.1, 0.05);
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
         float intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;
         float v_dot_l = dot(V, L);
-        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
+        float coat_product = ggx_compensation
+            * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float cos_l = max(dot(L, facing), 1e-8);
-        vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 product = u_lightData[i].color
-            * (ggx_compensation * mx_ggx_light(coat_vector, V, L) * fresnel + paint_response);
-        color += (u_lightData[i].type == 1 ? intensity : 0.0) * product;
+        vec3 paint_response = paint_product
+            * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        vec3 sum = coat_product * mx_ggx_light(coat_vector, V, L) + paint_response;
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? intensity : 0.0) * sum);
     }
     out1 = vec4(color, 1.0);
 }

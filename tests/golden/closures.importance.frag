@@ -21,7 +21,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     vec3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -79,6 +80,18 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine)
+{
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 1.1025002);
+    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
+    return (cg2 + s * s) * (r * r);
+}
+
 // The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
 // the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
@@ -97,18 +110,6 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine)
-{
-    float c2 = cosine * cosine;
-    float s = 1.0 - c2;
-    float cg2 = c2 * (c2 + 1.1025002);
-    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
-    return (cg2 + s * s) * (r * r);
-}
-
 // The square of the distance of a unit direction from the axis of the picture, never 0.
 float mx_map_square(const vec3 d)
 {
@@ -118,7 +119,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -177,23 +178,21 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 void main()
@@ -209,7 +208,7 @@ void main()
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
     mx_GgxLobe coat_vector = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    vec3 scaled_paint_weight = paint_weight * vec3(0.6, 0.1, 0.05);
+    vec3 paint_product = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -233,25 +232,24 @@ void main()
         }
         // coat, paint
         float v_dot_l = dot(V, L);
-        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
+        float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float cos_l = max(dot(L, N), 1e-8);
-        vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        color += intensity * (u_lightData[i].color
-            * (scale * mx_ggx_light(coat_vector, V, L) * fresnel + paint_response));
+        vec3 paint_response = paint_product
+            * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        color += u_lightData[i].color * (intensity * (coat_product * mx_ggx_light(coat_vector, V, L) + paint_response));
     }
     // environment
     // paint
-    vec3 paint_product = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz
-        * vec3(0.6, 0.1, 0.05);
+    vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)),
+        0.0).xyz * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    color += paint_product * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
+    color += paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
     // coat
     mx_GgxSamples coat_ggx_samples = mx_ggx_samples(normal_N, V);
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight light = mx_ggx_reflected(coat_ggx_samples, i, turn);
-        color += light.color * (light.weight * (scale * mx_fresnel_dielectric(light.cosine)));
+        color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }
     // opacity

@@ -41,6 +41,18 @@ vec2 mx_ggx_albedo(const float c)
     return vec2(sum, scales.y / sum);
 }
 
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine)
+{
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 1.1025002);
+    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
+    return (cg2 + s * s) * (r * r);
+}
+
 // The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
 // the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
@@ -59,18 +71,6 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine)
-{
-    float c2 = cosine * cosine;
-    float s = 1.0 - c2;
-    float cg2 = c2 * (c2 + 1.1025002);
-    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
-    return (cg2 + s * s) * (r * r);
-}
-
 // The square of the distance of a unit direction from the axis of the picture, never 0.
 float mx_map_square(const vec3 d)
 {
@@ -80,7 +80,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -119,7 +119,7 @@ void main()
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
     mx_GgxLobe coat_vector = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    vec3 scaled_paint_weight = paint_weight * vec3(0.6, 0.1, 0.05);
+    vec3 paint_product = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -143,19 +143,18 @@ void main()
         }
         // coat, paint
         float v_dot_l = dot(V, L);
-        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
+        float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float cos_l = max(dot(L, h), 1e-8);
-        vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        color += intensity * (u_lightData[i].color
-            * (scale * mx_ggx_light(coat_vector, V, L) * fresnel + paint_response));
+        vec3 paint_response = paint_product
+            * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        color += u_lightData[i].color * (intensity * (coat_product * mx_ggx_light(coat_vector, V, L) + paint_response));
     }
     // environment
     // coat, paint
-    vec3 paint_product = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)), 0.0).xyz
-        * vec3(0.6, 0.1, 0.05);
+    vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)),
+        0.0).xyz * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_response = paint_product * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
+    vec3 paint_response = paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
     color += scale * mx_ggx_prefiltered(N, V) + paint_response;
     out1 = vec4(color, 1.0);
 }

@@ -44,6 +44,18 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine)
+{
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 1.1025002);
+    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
+    return (cg2 + s * s) * (r * r);
+}
+
 // The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
 // the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
@@ -62,18 +74,6 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine)
-{
-    float c2 = cosine * cosine;
-    float s = 1.0 - c2;
-    float cg2 = c2 * (c2 + 1.1025002);
-    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
-    return (cg2 + s * s) * (r * r);
-}
-
 // The square of the distance of a unit direction from the axis of the picture, never 0.
 float mx_map_square(const vec3 d)
 {
@@ -83,7 +83,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -133,18 +133,17 @@ void main()
         float intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;
         float v_dot_l = dot(V, L);
-        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
+        float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float c = max(abs(dot(N, L)), 1e-8);
         vec2 coat_albedo_2 = mx_ggx_albedo_fit(0.04 / (c + 0.04), c);
         float ggx_compensation = (1.0 / coat_albedo_2.x - 1.0) * 0.079748526 + 1.0;
         float cos_l = max(dot(L, h), 1e-8);
-        float paint_product = cos_l / 3.1415927
-            * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713);
+        float paint_product = cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713);
         vec3 paint_response = coat_throughput
             * (1.0 - mix(0.03373595, 1.0, coat_albedo_2.y) * coat_albedo_2.x * ggx_compensation) * 0.75 * paint_product
-            * vec3(0.6, 0.1, 0.05);
-        vec3 product = u_lightData[i].color * (scale * mx_ggx_light(coat_vector, V, L) * fresnel + paint_response);
-        color += (u_lightData[i].type == 1 ? intensity : 0.0) * product;
+            * vec3(0.19098593, 0.03183099, 0.015915494);
+        vec3 sum = coat_product * mx_ggx_light(coat_vector, V, L) + paint_response;
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? intensity : 0.0) * sum);
     }
     // environment
     // coat, paint

@@ -27,20 +27,20 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-float scatter_2()
-{
-    float sum = 0.0;
-    for (int i = 0; i < 3; ++i)
-        sum += sin(u_time * float(i));
-    return sum;
-}
-
 float vd_2(const float x)
 {
     float product = 1.0;
     for (int i = 0; i < 4; ++i)
         product *= cos(x * float(i));
     return product;
+}
+
+float scatter_2()
+{
+    float sum = 0.0;
+    for (int i = 0; i < 3; ++i)
+        sum += sin(u_time * float(i));
+    return sum;
 }
 
 // The square of the distance of a unit direction from the axis of the picture, never 0.
@@ -52,7 +52,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -68,14 +68,15 @@ void main()
 {
     vec3 color = vec3(0.0);
     // lights
-    float LightData_2 = scatter_2();
-    vec3 normal_N = normalize(vd.normalWorld);
-    vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    vec3 diffuse_N = faceforward(normal_N, -V, normal_N);
     float PublicUniforms_2 = vd_2(vd.texcoord_0.y);
     vec2 ab = PublicUniforms_2 * PublicUniforms_2 * vec2(-0.5, 0.45)
         / (PublicUniforms_2 * PublicUniforms_2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
+    vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    vec3 normal_N = normalize(vd.normalWorld);
+    vec3 diffuse_N = faceforward(normal_N, -V, normal_N);
     float cos_v = max(abs(dot(normal_N, V)), 1e-8);
+    float LightData_2 = scatter_2();
+    float diffuse_product = LightData_2 * 0.31830987 * 0.18;
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -99,10 +100,9 @@ void main()
         }
         // diffuse
         float cos_l = max(dot(L, diffuse_N), 1e-8);
-        float diffuse_product = intensity
-            * (LightData_2 * 0.18 * (cos_l / 3.1415927
-            * (ab.x + ab.y * max(dot(L, V) - cos_l * cos_v, 0.0) / max(cos_l, cos_v))));
-        color += u_lightData[i].color * diffuse_product;
+        float diffuse_product_2 = intensity
+            * ((ab.x + ab.y * max(dot(L, V) - cos_l * cos_v, 0.0) / max(cos_l, cos_v)) * (cos_l * diffuse_product));
+        color += u_lightData[i].color * diffuse_product_2;
     }
     // environment
     // diffuse
@@ -111,7 +111,7 @@ void main()
             mx_map_point(normalize((u_envMatrix * vec4(diffuse_N, 0.0)).xyz)), 0.0).xyz;
         vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
             * vec2(1.4385, 2.0315)) + vec2(1.0);
-        color += diffuse_part * (u_envLightIntensity * (LightData_2 * 0.18 * clamp(fit.x / fit.y, 0.0, 1.0)));
+        color += diffuse_part * (u_envLightIntensity * (clamp(fit.x / fit.y, 0.0, 1.0) * (LightData_2 * 0.18)));
     }
     // opacity
     if (surface_opacity < u_alphaThreshold)

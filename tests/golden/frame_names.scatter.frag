@@ -87,7 +87,7 @@ void scatter()
         float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, L_2) - cos_v * diffuse_cos_l, 0.0)
             / max(diffuse_cos_l, cos_v);
         float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
-        weight = vec3(LightData_2 * (diffuse_cos_l / 3.1415927 * 0.18 * diffuse_sum / max(pdf, 1e-8)) * ratio);
+        weight = vec3(LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum / max(pdf, 1e-8)) * ratio);
         density = pdf * ratio;
     }
     pick += -greater;
@@ -100,7 +100,7 @@ void scatter()
     float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l, 0.0)
         / max(diffuse_cos_l, cos_v);
     float sum = vd.lightWorld.w * (ratio * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float ratio_2 = LightData_2 * (diffuse_cos_l / 3.1415927 * 0.18 * diffuse_sum) / sum;
+    float ratio_2 = LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / sum;
     out5 = vec4(ratio_2, ratio_2, ratio_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_2 = 0.0;
@@ -132,7 +132,7 @@ void scatter()
         float diffuse_cos_l_2 = max(dot(diffuse_N, L_4), 1e-8);
         float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, L_4) - cos_v * diffuse_cos_l_2, 0.0)
             / max(diffuse_cos_l_2, cos_v);
-        float product = LightData_2 * (diffuse_cos_l_2 / 3.1415927 * 0.18 * diffuse_sum_2);
+        float product = LightData_2 * (diffuse_cos_l_2 * 0.31830987 * 0.18 * diffuse_sum_2);
         vec3 product_2 = u_lightData[i].color * intensity * product;
         float greater_2 = max(dot(product_2, vec3(0.33333334)), 0.0);
         sum_2 += greater_2;

@@ -39,24 +39,6 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
-float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
-{
-    return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
-}
-
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
-{
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(dot(lobe.N, L), 1e-8);
-    float square = 2.0 + 2.0 * dot(V, L);
-    float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
-    return area / 6.2831855 * square * square * cos_l
-        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
-}
-
 // Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
 // Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
 // 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
@@ -79,6 +61,24 @@ vec3 mx_fresnel_conductor(const float cosine)
         mx_fresnel_conductor(cosine, -1.2477709, 4.86042));
 }
 
+// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
+// the product of both roughnesses.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
+{
+    return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
+}
+
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
 void main()
 {
     vec3 color = vec3(0.0);
@@ -94,9 +94,9 @@ void main()
         // metal
         float intensity = u_lightData[i].intensity;
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(-u_lightData[i].direction, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        vec3 metal_product = u_lightData[i].color
-            * (scaled_ggx_compensation * (mx_ggx_light(metal_vector, V, -u_lightData[i].direction) * fresnel));
-        color += (u_lightData[i].type == 1 ? intensity : 0.0) * metal_product;
+        vec3 metal_response = scaled_ggx_compensation
+            * (fresnel * mx_ggx_light(metal_vector, V, -u_lightData[i].direction));
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? intensity : 0.0) * metal_response);
     }
     out1 = vec4(color, 1.0);
 }

@@ -42,7 +42,7 @@ void main()
             intensity = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_ratio : 0.0);
         }
         // bsdf
-        color += intensity * (max(dot(L, bsdf_facing), 1e-8) / 3.1415927 * 0.8);
+        color += intensity * (max(dot(L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
     }
     // opacity
     if (S_opacity < u_alphaThreshold)

@@ -25,7 +25,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         // bsdf
         float3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
-        color += light_radiance * (max(dot(light_L, bsdf_facing), 1e-8) / 3.1415927 * 0.8);
+        color += light_radiance * (max(dot(light_L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
     }
     result.color = color;
     result.alpha = 1.0;

@@ -51,7 +51,7 @@ void main(
             intensity = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
         }
         // bsdf
-        color += intensity * (max(dot(L, bsdf_facing), 1e-8) / 3.1415927 * 0.8);
+        color += intensity * (max(dot(L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
     }
     out1 = float4(color, 1.0);
 }

@@ -24,7 +24,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     vec3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -177,17 +178,52 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine, const float ior)
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine, const float re)
 {
-    float k = 0.5 * (ior * ior - 1.0);
+    float k = 0.5 * (re - 1.0);
     float c2 = max(cosine * cosine, -2.0 * k);
     float s = 1.0 - c2;
     float cg2 = c2 * (c2 + 2.0 * k);
     float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
     return (cg2 + s * s) * (r * r);
+}
+
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
+{
+    float x = 1.0 - cosine;
+    return mix(f0, f90, x * x * x * x * x);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+{
+    vec2 x = vec2(cosine, ior * cosine);
+    vec2 u = vec2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour.
+vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    vec2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    vec3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, f90), ior);
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * (0.5 * vec3(mx_film_x(a.x, vec2(-r.x, 0.0), d) + mx_film_x(a.y, vec2(r.x, 0.0), d),
+        mx_film_y(a.x, vec2(-r.y, 0.0), d) + mx_film_y(a.y, vec2(r.y, 0.0), d), mx_film_z(a.x, vec2(-r.z, 0.0), d)
+        + mx_film_z(a.y, vec2(r.z, 0.0), d))), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, f90, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, f90);
 }
 
 // Rodrigues' formula; the axis has unit length.
@@ -230,41 +266,6 @@ float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
-{
-    float x = 1.0 - cosine;
-    return mix(f0, f90, x * x * x * x * x);
-}
-
-// Amplitudes of the film's own interface: perpendicular, parallel.
-vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
-{
-    vec2 x = vec2(cosine, ior * cosine);
-    vec2 u = vec2(ior * inside, inside);
-    return (x - u) / (x + u);
-}
-
-// A film on a colour.
-vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const float film, const float film_ior)
-{
-    float ior = max(film_ior, 1.0);
-    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
-    vec2 a = mx_film_amplitudes(cosine, c, ior);
-    float d = 0.012566372 * ior * c * film;
-    vec3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, f90), ior);
-    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * vec3(mx_film_x(a.x, vec2(-r.x, 0.0), d) + mx_film_x(a.y, vec2(r.x, 0.0), d),
-        mx_film_y(a.x, vec2(-r.y, 0.0), d) + mx_film_y(a.y, vec2(r.y, 0.0), d), mx_film_z(a.x, vec2(-r.z, 0.0), d)
-        + mx_film_z(a.y, vec2(r.z, 0.0), d))), vec3(0.0), vec3(1.0));
-}
-
-vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)
-{
-    if (film > 0.0)
-        return mx_film_schlick(cosine, n, f90, film, film_ior);
-    return mx_fresnel_schlick(cosine, n, f90);
-}
-
 // The square of the distance of a unit direction from the axis of the picture, never 0.
 float mx_map_square(const vec3 d)
 {
@@ -274,7 +275,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -334,23 +335,21 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 // The frame of a round lobe has V above its x.
@@ -380,7 +379,7 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 h = facet.h * sqrt(facet.shrink);
+    vec3 h = normalize(facet.h);
     return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
         / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
@@ -424,7 +423,7 @@ void main()
         SR_gltf_pbr_iridescence) * substrate_weight;
     float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
     float diffuse_weight = dielectric_weight * (1.0 - SR_gltf_pbr_transmission);
-    vec3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight);
+    vec3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
     float ggx_masking = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
     mx_GgxLobe coating_vector = mx_GgxLobe(Nf, cos_v, vec3(0.0), vec2(coat_lobe), ggx_masking);
     float s = 1.0 / max(sheen_rough, 0.005);
@@ -470,42 +469,41 @@ void main()
         vec3 color_2 = u_lightData[i].color;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
-        color += intensity * (color_2 * (cos_l / 3.1415927 * diffuse_product));
+        color += color_2 * (intensity * (cos_l * diffuse_product));
         // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (SR_gltf_pbr_clearcoat > 0.0)
-            color += color_2 * (intensity
-                * (SR_gltf_pbr_clearcoat * coating_scale
-                * (mx_ggx_light(coating_vector, V, L) * mx_fresnel_dielectric(cosine, 1.5))));
+        if (SR_gltf_pbr_clearcoat > 0.0) {
+            float coating_product = mx_fresnel_permittivity(cosine, 2.25) * (SR_gltf_pbr_clearcoat * coating_scale);
+            color += color_2 * (intensity * (mx_ggx_light(coating_vector, V, L) * coating_product));
+        }
         // fuzz
         if (sheen_weight > 0.0) {
             float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
             float fuzz_product_2 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
                 / 6.2831855);
-            color += intensity * (color_2 * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
+            color += color_2 * (intensity * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
         }
         // metal_film
         float ggx_light = mx_ggx_light_2(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += intensity * (color_2
-                * (metal_film_product * (ggx_light
-                * mx_fresnel(cosine, fresnel_facing, vec3(1.0), SR_gltf_pbr_iridescence_thickness,
-                SR_gltf_pbr_iridescence_ior))));
+            color += color_2 * (intensity
+                * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, vec3(1.0),
+                SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior) * ggx_light)));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, vec3(1.0)))));
         // reflection_film
         if (reflection_film_visible)
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, fresnel_f0, f90, SR_gltf_pbr_iridescence_thickness,
                 SR_gltf_pbr_iridescence_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_f0, f90))));
     }
     // environment
@@ -524,8 +522,8 @@ void main()
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (SR_gltf_pbr_clearcoat * coating_scale
-                * (light.weight * mx_fresnel_dielectric(light.cosine, 1.5)));
+            color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
+                * (SR_gltf_pbr_clearcoat * coating_scale * light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
@@ -539,28 +537,28 @@ void main()
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
-                        * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
                         * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0),
                         SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior)));
                 // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
-                        * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0))));
                 // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
-                        * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
                         * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90,
                         SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior)));
                 // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
-                        * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90)));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
@@ -569,13 +567,13 @@ void main()
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film, metal_bare
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
-                vec3 metal_bare_product_2 = metal_film_ggx_reflected.weight
-                    * (metal_film_ggx_reflected.color
+                vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
+                    * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0)));
                 color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
                 // reflection_film
-                vec3 reflection_product_2 = metal_film_ggx_reflected.weight
-                    * (metal_film_ggx_reflected.color
+                vec3 reflection_product_2 = metal_film_ggx_reflected.color
+                    * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90));
                 if (reflection_film_visible)
                     color += reflection_film_product * reflection_product_2;
@@ -590,12 +588,13 @@ void main()
     if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
         vec3 refraction_tint = fresnel_facing * (u_refractionTwoSided ? fresnel_facing : vec3(1.0));
         vec3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+        float scaled_ior = SR_gltf_pbr_ior * SR_gltf_pbr_ior;
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_gltf_pbr_ior))));
+                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_ior))));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }

@@ -21,7 +21,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     vec3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -159,7 +160,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -225,23 +226,21 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -255,17 +254,17 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 h = facet.h * sqrt(facet.shrink);
+    vec3 h = normalize(facet.h);
     return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
         / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine, const float ior)
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine, const float re)
 {
-    float k = 0.5 * (ior * ior - 1.0);
+    float k = 0.5 * (re - 1.0);
     float c2 = max(cosine * cosine, -2.0 * k);
     float s = 1.0 - c2;
     float cg2 = c2 * (c2 + 2.0 * k);
@@ -309,7 +308,7 @@ void main()
     float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
-    vec3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
+    vec3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2 * 0.31830987);
     float coating_ggx_masking = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
         * (cos_v * cos_v));
     mx_GgxLobe coating_vector = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(coat_roughness), coating_ggx_masking);
@@ -346,22 +345,22 @@ void main()
         }
         // diffuse
         vec3 color_2 = u_lightData[i].color;
-        color += intensity * (color_2 * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product));
+        color += color_2 * (intensity * (max(dot(L, N), 1e-8) * diffuse_product));
         // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (SR_UsdPreviewSurface_clearcoat > 0.0) {
             float coating_product = mx_ggx_light(coating_vector, V, L)
                 * (SR_UsdPreviewSurface_clearcoat * coating_scale);
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (mx_fresnel_schlick(cosine, vec3(coating_fresnel_f0), vec3(1.0)) * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(vector, V, L);
         if (metal_weight > 0.0)
-            color += intensity * (color_2 * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, re, im))));
+            color += color_2 * (intensity * (metal_product * (mx_fresnel_conductor(cosine, re, im) * ggx_light)));
         // reflection
         if (diffuse_weight > 0.0)
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
     }
     // environment
@@ -377,8 +376,8 @@ void main()
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            vec3 coating_product = light.color * mx_fresnel_schlick(light.cosine, vec3(coating_fresnel_f0), vec3(1.0));
-            color += coating_product * (SR_UsdPreviewSurface_clearcoat * coating_scale * light.weight);
+            vec3 fresnel_bare = mx_fresnel_schlick(light.cosine, vec3(coating_fresnel_f0), vec3(1.0));
+            color += light.color * (fresnel_bare * (SR_UsdPreviewSurface_clearcoat * coating_scale * light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
@@ -390,13 +389,13 @@ void main()
             // metal
             mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
             if (metal_weight > 0.0)
-                color += metal_product * (metal_ggx_reflected.weight
-                    * (metal_ggx_reflected.color * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
+                color += metal_product * (metal_ggx_reflected.color
+                    * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
             // reflection
             if (diffuse_weight > 0.0)
                 color += reflection_product
-                    * (metal_ggx_reflected.weight
                     * (metal_ggx_reflected.color
+                    * (metal_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
@@ -405,13 +404,13 @@ void main()
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
         mx_GgxSamples samples = mx_ggx_samples(vec2(0.0), shading_normal, V);
+        float scaled_ior = SR_UsdPreviewSurface_ior * SR_UsdPreviewSurface_ior;
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_UsdPreviewSurface_ior, i, turn);
+            float refraction_difference = 1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_ior);
             color += refraction_ggx_transmitted.color
-                * (body_weight * refraction_weight
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_UsdPreviewSurface_ior))));
+                * (refraction_difference * (body_weight * refraction_weight * refraction_ggx_transmitted.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }

@@ -21,7 +21,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     vec3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -256,12 +257,12 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine, const float ior)
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine, const float re)
 {
-    float k = 0.5 * (ior * ior - 1.0);
+    float k = 0.5 * (re - 1.0);
     float c2 = max(cosine * cosine, -2.0 * k);
     float s = 1.0 - c2;
     float cg2 = c2 * (c2 + 2.0 * k);
@@ -356,7 +357,7 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float 
 {
     if (film > 0.0)
         return mx_film_index(cosine, n * n, film, film_ior);
-    return vec3(mx_fresnel_dielectric(cosine, n.x));
+    return vec3(mx_fresnel_permittivity(cosine, n.x * n.x));
 }
 
 // What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
@@ -386,7 +387,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -445,23 +446,21 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -475,7 +474,7 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 h = facet.h * sqrt(facet.shrink);
+    vec3 h = normalize(facet.h);
     return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
         / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
@@ -539,11 +538,11 @@ void main()
         * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
     vec3 substrate_darkened_weight = coated_weight
         * clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, SR_open_pbr_surface_coat_weight), 0.0, 1.0);
-    float coat_escape = coat_front / (SR_open_pbr_surface_coat_ior * SR_open_pbr_surface_coat_ior);
-    vec3 darkening = coat_escape / (vec3(1.0)
-        - mix(mix(SR_open_pbr_surface_base_color, SR_open_pbr_surface_subsurface_color,
+    float coat_ior2 = SR_open_pbr_surface_coat_ior * SR_open_pbr_surface_coat_ior;
+    vec3 albedo_2 = mix(mix(SR_open_pbr_surface_base_color, SR_open_pbr_surface_subsurface_color,
         SR_open_pbr_surface_subsurface_weight), SR_open_pbr_surface_base_color * SR_open_pbr_surface_specular_weight,
-        SR_open_pbr_surface_base_metalness) * (1.0 - coat_escape));
+        SR_open_pbr_surface_base_metalness);
+    vec3 darkening = coat_front / coat_ior2 / (vec3(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
     vec3 substrate_weight = substrate_darkened_weight
         * clamp(mix(vec3(1.0), darkening, SR_open_pbr_surface_coat_weight * SR_open_pbr_surface_coat_darkening), 0.0,
         1.0);
@@ -562,18 +561,18 @@ void main()
         1.0)));
     float limited_cos_v = min(cos_v, 1.0);
     vec3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
-    float coating_product = coating_scale * (SR_open_pbr_surface_coat_weight * (1.0 - fuzz_product_2));
     vec3 X = normalize(vd.tangentWorld);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
+    float coating_product = coating_scale * (SR_open_pbr_surface_coat_weight * (1.0 - fuzz_product_2));
     float metal_film_weight = SR_open_pbr_surface_specular_weight
         * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
     vec3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
     vec3 metal_film_product = (difference
         * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, SR_open_pbr_surface_thin_film_ior), vec3(1.0),
         0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
-    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
     vec3 schlick_bend = mix(fresnel_facing, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     float metal_bare_weight = SR_open_pbr_surface_specular_weight
         * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
     vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
@@ -583,6 +582,7 @@ void main()
         * (reflection_film_scale * limited_specular_color);
     float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
     vec3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
+    float scaled_ior = ior * ior;
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale;
     float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
@@ -625,41 +625,42 @@ void main()
         float v_dot_l = dot(V, L);
         float s = v_dot_l - cos_v * cos_l_2;
         float greater = max(cos_l_2, cos_v);
-        vec3 sheet_front_response = sheet_front_product * (cos_l_2 / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += intensity * (color_2 * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
+        vec3 sheet_front_response = sheet_front_product * 0.31830987
+            * (cos_l_2 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += color_2 * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
         // fuzz
         if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += intensity * (color_2 * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
+            color += color_2 * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (SR_open_pbr_surface_coat_weight > 0.0)
-            color += color_2 * (intensity
-                * (coating_product * (mx_ggx_light(coating_lobe, V, L)
-                * mx_fresnel_dielectric(cosine, SR_open_pbr_surface_coat_ior))));
+        if (SR_open_pbr_surface_coat_weight > 0.0) {
+            float coating_product_2 = mx_fresnel_permittivity(cosine, coat_ior2) * coating_product;
+            color += color_2 * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
+        }
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += intensity * (color_2
-                * (metal_film_product * (ggx_light
-                * mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness,
-                SR_open_pbr_surface_thin_film_ior))));
+            color += color_2 * (intensity
+                * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness,
+                SR_open_pbr_surface_thin_film_ior) * ggx_light)));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
         // reflection_film
         if (reflection_film_visible)
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, SR_open_pbr_surface_thin_film_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += intensity * (color_2 * (reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior))));
+            color += color_2 * (intensity
+                * (reflection_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
         // scatter
         if (scatter_weight > 0.0) {
             float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
             float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
                 mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
         }
@@ -669,10 +670,10 @@ void main()
             vec3 diffuse_product_2 = fujii_multiple
                 * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l_2, SR_open_pbr_surface_base_diffuse_roughness),
                 1e-8) / diffuse_greater_2);
-            color += intensity * (color_2
-                * (diffuse_product * (cos_l_2 / 3.1415927
-                * ((SR_open_pbr_surface_base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
-                + diffuse_product_2))));
+            color += color_2 * (intensity
+                * (diffuse_product * 0.31830987
+                * (cos_l_2 * ((SR_open_pbr_surface_base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0)
+                / diffuse_sum + diffuse_product_2))));
         }
     }
     // environment
@@ -698,8 +699,8 @@ void main()
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (coating_product
-                * (light.weight * mx_fresnel_dielectric(light.cosine, SR_open_pbr_surface_coat_ior)));
+            color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior2)
+                * (coating_product * light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
@@ -707,36 +708,35 @@ void main()
     mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
     if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
-            vec3 reflection_film_vector = vec3(ior * ior);
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
-                        * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
                         * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend, film_thickness,
                         SR_open_pbr_surface_thin_film_ior)));
                 // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
-                        * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend)));
                 // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
-                        * (metal_film_ggx_reflected.weight
                         * (metal_film_ggx_reflected.color
-                        * mx_film_index(metal_film_ggx_reflected.cosine, reflection_film_vector, film_thickness,
+                        * (metal_film_ggx_reflected.weight
+                        * mx_film_index(metal_film_ggx_reflected.cosine, vec3(scaled_ior), film_thickness,
                         SR_open_pbr_surface_thin_film_ior)));
                 // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_dielectric(metal_film_ggx_reflected.cosine, ior)));
+                        * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         } else {
@@ -744,8 +744,8 @@ void main()
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal_film
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
-                vec3 metal_bare_product_2 = metal_film_ggx_reflected.weight
-                    * (metal_film_ggx_reflected.color
+                vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
+                    * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend));
                 if (metal_film_weight > 0.0)
                     color += metal_film_product * metal_bare_product_2;
@@ -753,16 +753,14 @@ void main()
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product * metal_bare_product_2;
                 // reflection_film
-                float reflection_film_fresnel_dielectric = mx_fresnel_dielectric(metal_film_ggx_reflected.cosine, ior);
+                vec3 reflection_product_2 = metal_film_ggx_reflected.color
+                    * (metal_film_ggx_reflected.weight
+                    * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
                 if (reflection_film_visible)
-                    color += reflection_film_product
-                        * (metal_film_ggx_reflected.weight
-                        * (metal_film_ggx_reflected.color * reflection_film_fresnel_dielectric));
+                    color += reflection_film_product * reflection_product_2;
                 // reflection
                 if (reflection_weight > 0.0)
-                    color += reflection_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight * reflection_film_fresnel_dielectric));
+                    color += reflection_product * reflection_product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
@@ -784,7 +782,7 @@ void main()
             color += refraction_product_3
                 * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, ior))));
+                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_ior))));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }

@@ -21,7 +21,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     float3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -111,11 +112,12 @@ mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, fl
     return made;
 }
 
-mx_GgxFacet make_mx_GgxFacet(float3 h, float shrink, float texels)
+mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
 {
     mx_GgxFacet made;
     made.h = h;
-    made.shrink = shrink;
+    made.cosine = cosine;
+    made.mirror = mirror;
     made.texels = texels;
     return made;
 }
@@ -219,7 +221,7 @@ float mx_map_square(float3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(float sine, float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -287,23 +289,21 @@ float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 {
-    float3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    float3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return make_mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return make_mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    float3 l = 2.0 * part * facet.h - s.v;
+    float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -317,17 +317,17 @@ float3 mx_refract_sphere(float3 v, float3 h, float ior)
 mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float3 h = facet.h * sqrt(facet.shrink);
+    float3 h = normalize(facet.h);
     return make_mx_GgxLight(mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.texels), s.weight
         * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(float cosine, float ior)
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(float cosine, float re)
 {
-    float k = 0.5 * (ior * ior - 1.0);
+    float k = 0.5 * (re - 1.0);
     float c2 = max(cosine * cosine, -2.0 * k);
     float s = 1.0 - c2;
     float cg2 = c2 * (c2 + 2.0 * k);
@@ -347,7 +347,8 @@ void main(
     float3 V = normalize(u_viewPosition - vd.positionWorld);
     float3 N = faceforward(shading_normal, -V, shading_normal);
     float3 diffuseColor = SR_UsdPreviewSurface_diffuseColor;
-    float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
+    float ior = SR_UsdPreviewSurface_ior;
+    float amplitude = (1.0 - ior) / (ior + 1.0);
     float coating_fresnel_f0 = max(amplitude * amplitude, 0.0);
     float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
         1e-8, 1.0);
@@ -375,7 +376,7 @@ void main(
     float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
     float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
-    float3 diffuse_product = diffuseColor * (body_weight * diffuse_weight_2);
+    float3 diffuse_product = diffuseColor * (body_weight * diffuse_weight_2 * 0.31830987);
     float coating_ggx_masking = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
         * (cos_v * cos_v));
     mx_GgxLobe coating_vector = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), (float2)coat_roughness,
@@ -413,22 +414,22 @@ void main(
         }
         // diffuse
         float3 color_2 = u_lightData[i].color;
-        color += intensity * (color_2 * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product));
+        color += color_2 * (intensity * (max(dot(L, N), 1e-8) * diffuse_product));
         // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (SR_UsdPreviewSurface_clearcoat > 0.0) {
             float coating_product = mx_ggx_light(coating_vector, V, L)
                 * (SR_UsdPreviewSurface_clearcoat * coating_scale);
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (mx_fresnel_schlick(cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0)) * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(vector_, V, L);
         if (metal_weight > 0.0)
-            color += intensity * (color_2 * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, re, im))));
+            color += color_2 * (intensity * (metal_product * (mx_fresnel_conductor(cosine, re, im) * ggx_light)));
         // reflection
         if (diffuse_weight > 0.0)
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
     }
     // environment
@@ -445,9 +446,8 @@ void main(
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            float3 coating_product = light.color
-                * mx_fresnel_schlick(light.cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0));
-            color += coating_product * (SR_UsdPreviewSurface_clearcoat * coating_scale * light.weight);
+            float3 fresnel_bare = mx_fresnel_schlick(light.cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0));
+            color += light.color * (fresnel_bare * (SR_UsdPreviewSurface_clearcoat * coating_scale * light.weight));
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
@@ -459,13 +459,13 @@ void main(
             // metal
             mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
             if (metal_weight > 0.0)
-                color += metal_product * (metal_ggx_reflected.weight
-                    * (metal_ggx_reflected.color * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
+                color += metal_product * (metal_ggx_reflected.color
+                    * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
             // reflection
             if (diffuse_weight > 0.0)
                 color += reflection_product
-                    * (metal_ggx_reflected.weight
                     * (metal_ggx_reflected.color
+                    * (metal_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
@@ -476,11 +476,10 @@ void main(
         mx_GgxSamples samples = mx_ggx_samples(float2(0.0, 0.0), shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_UsdPreviewSurface_ior, i, turn);
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+            float refraction_difference = 1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, ior * ior);
             color += refraction_ggx_transmitted.color
-                * (body_weight * refraction_weight
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, SR_UsdPreviewSurface_ior))));
+                * (refraction_difference * (body_weight * refraction_weight * refraction_ggx_transmitted.weight));
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }

@@ -21,7 +21,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     vec3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -243,12 +244,12 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine, const float ior)
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine, const float re)
 {
-    float k = 0.5 * (ior * ior - 1.0);
+    float k = 0.5 * (re - 1.0);
     float c2 = max(cosine * cosine, -2.0 * k);
     float s = 1.0 - c2;
     float cg2 = c2 * (c2 + 2.0 * k);
@@ -335,7 +336,7 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float 
 {
     if (film > 0.0)
         return mx_film_index(cosine, n * n, vec3(0.0), film, film_ior);
-    return vec3(mx_fresnel_dielectric(cosine, n.x));
+    return vec3(mx_fresnel_permittivity(cosine, n.x * n.x));
 }
 
 // What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
@@ -356,7 +357,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -409,23 +410,21 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -439,7 +438,7 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 h = facet.h * sqrt(facet.shrink);
+    vec3 h = normalize(facet.h);
     return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
         / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
@@ -550,35 +549,35 @@ void main()
         float cos_l = dot(L, Nf);
         float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
-        vec3 diffuse_response = diffuse_product
-            * (cos_l_2 / 3.1415927 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l_2, 0.0) / max(cos_l_2, cos_v)));
+        vec3 diffuse_response = diffuse_product * 0.31830987
+            * (cos_l_2 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l_2, 0.0) / max(cos_l_2, cos_v)));
         float scaled_along = (cos_v + cos_l) * (cos_v + cos_l);
         float fuzz_product_2 = cos_l_2 * ((s + 2.0)
             * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
         vec3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
-        color += intensity * (color_2 * (diffuse_response
+        color += color_2 * (intensity * (diffuse_response
             + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (coat > 0.0)
-            color += color_2 * (intensity
-                * (coat * coating_scale * (mx_ggx_light(coating_lobe, V, L)
-                * mx_fresnel_dielectric(cosine, coat_IOR))));
+        if (coat > 0.0) {
+            float coating_product = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR) * (coat * coating_scale);
+            color += color_2 * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
+        }
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_visible)
-            color += intensity * (color_2
-                * (metal_product * (ggx_light * mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR))));
+            color += color_2 * (intensity
+                * (metal_product * (mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
         // reflection
         if (reflection_visible)
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (reflection_product * (ggx_light
                 * mx_fresnel(cosine, vec3(specular_IOR), thin_film_thickness, thin_film_IOR))));
         // scatter
         if (scatter_weight > 0.0) {
             float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
             float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
-            color += intensity * (color_2
+            color += color_2 * (intensity
                 * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
                 mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
         }
@@ -602,32 +601,32 @@ void main()
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (coat * coating_scale
-                * (light.weight * mx_fresnel_dielectric(light.cosine, coat_IOR)));
+            float fresnel_bare = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
+            color += light.color * (fresnel_bare * (coat * coating_scale * light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // metal, reflection
+    float scaled_specular_IOR = specular_IOR * specular_IOR;
     if (metal_visible || reflection_visible) {
         mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
         if (thin_film_thickness > 0.0) {
-            vec3 reflection_vector = vec3(specular_IOR * specular_IOR);
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 // metal
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
-                        * (metal_ggx_reflected.weight
                         * (metal_ggx_reflected.color
+                        * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
                 // reflection
                 if (reflection_visible)
                     color += reflection_product
-                        * (metal_ggx_reflected.weight
                         * (metal_ggx_reflected.color
-                        * mx_film_index(metal_ggx_reflected.cosine, reflection_vector, vec3(0.0), thin_film_thickness,
-                        thin_film_IOR)));
+                        * (metal_ggx_reflected.weight
+                        * mx_film_index(metal_ggx_reflected.cosine, vec3(scaled_specular_IOR), vec3(0.0),
+                        thin_film_thickness, thin_film_IOR)));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         } else {
@@ -637,14 +636,14 @@ void main()
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
-                        * (metal_ggx_reflected.weight
-                        * (metal_ggx_reflected.color * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
+                        * (metal_ggx_reflected.color
+                        * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
                 // reflection
                 if (reflection_visible)
                     color += reflection_product
-                        * (metal_ggx_reflected.weight
                         * (metal_ggx_reflected.color
-                        * mx_fresnel_dielectric(metal_ggx_reflected.cosine, specular_IOR)));
+                        * (metal_ggx_reflected.weight
+                        * mx_fresnel_permittivity(metal_ggx_reflected.cosine, scaled_specular_IOR)));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
@@ -664,7 +663,7 @@ void main()
             mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, specular_IOR, i, turn);
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine, specular_IOR))));
+                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_specular_IOR))));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }

@@ -21,7 +21,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     vec3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -147,7 +148,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -213,23 +214,21 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 void main()
@@ -277,9 +276,9 @@ void main()
     vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cosine + 0.29886922), cosine);
     vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
         + vec3(1.0);
+    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
     mx_GgxLobe metal_reflection_vector = mx_GgxLobe(Nf, cosine, vec3(0.0), vec2(0.29886922),
         sqrt(scaled_cosine * 0.9106772 + 0.08932281));
-    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
     vec3 milk_bare_product = milk_reflection_throughput
         * (milk_medium_transmitted / (vec3(1.0)
         - min(mix(metal_constant, vec3(1.0), metal_reflection_albedo.y) * metal_reflection_albedo.x
@@ -317,25 +316,23 @@ void main()
         // metal_reflection, milk_reflection, milk_medium, coat_reflection
         float cosine_2 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
-        vec3 coat_reflection_response = fresnel
-            * (mx_ggx_light(coat_reflection_vector, V, L) * (coat_reflection_scale * 0.5));
         float c_2 = dot(N, L);
         float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
         vec3 milk_medium_transmitted_2;
         vec3 milk_medium_2 = mx_medium_layer(way_2, milk_medium_transmitted_2);
+        vec3 milk_medium_ratio_2 = milk_medium * milk_medium_2 / vec3(0.10193972, 0.102937125, 0.103155464);
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
-        vec3 milk_medium_product = milk_medium * milk_medium_2 / vec3(0.10193972, 0.102937125, 0.103155464)
-            * milk_medium_weight;
         vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_ratio
             * pow(metal_reflection_decay, vec3(way_2));
-        vec3 metal_reflection_product = mx_fresnel_schlick(cosine_2, metal_constant) * metal_reflection_weight;
-        vec3 metal_reflection_response = metal_reflection_scale
-            * (mx_ggx_light_2(metal_reflection_vector, V, L) * metal_reflection_product);
-        vec3 milk_reflection_product = fresnel * (difference + ratio * pow(clamped, vec3(way_2)));
-        vec3 sum = metal_reflection_response + milk_reflection_scale * mx_ggx_light_2(milk_reflection_vector, V, L)
-            * milk_reflection_product;
-        color += intensity * (u_lightData[i].color
-            * (coat_reflection_response + (max(dot(L, Nf), 0.0) / 3.1415927 * milk_medium_product + sum)));
+        vec3 metal_reflection_product = mx_ggx_light_2(metal_reflection_vector, V, L) * metal_reflection_weight;
+        vec3 milk_reflection_weight = difference + ratio * pow(clamped, vec3(way_2));
+        vec3 milk_reflection_response = fresnel
+            * (milk_reflection_weight * (milk_reflection_scale * mx_ggx_light_2(milk_reflection_vector, V, L)));
+        vec3 sum = metal_reflection_scale * (mx_fresnel_schlick(cosine_2, metal_constant) * metal_reflection_product)
+            + milk_reflection_response;
+        vec3 sum_2 = milk_medium_ratio_2 * (max(dot(L, Nf), 0.0) / 3.1415927 * milk_medium_weight) + sum;
+        color += u_lightData[i].color * (intensity
+            * (fresnel * (mx_ggx_light(coat_reflection_vector, V, L) * (coat_reflection_scale * 0.5)) + sum_2));
     }
     // environment
     // milk_medium
@@ -351,7 +348,7 @@ void main()
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
         color += metal_reflection_product
-            * (light.weight * (light.color * mx_fresnel_schlick(light.cosine, metal_constant)));
+            * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, metal_constant)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }
     // milk_reflection
@@ -361,8 +358,8 @@ void main()
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight milk_reflection_ggx_reflected = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
         color += milk_reflection_product
-            * (milk_reflection_ggx_reflected.weight
             * (milk_reflection_ggx_reflected.color
+            * (milk_reflection_ggx_reflected.weight
             * mx_fresnel_schlick(milk_reflection_ggx_reflected.cosine, vec3(0.04))));
         turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 + turn_2 * -0.7373689;
     }
@@ -371,9 +368,9 @@ void main()
     vec2 turn_3 = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
-        vec3 coat_reflection_product = coat_reflection_ggx_reflected.color
-            * mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, vec3(0.04));
-        color += coat_reflection_product * (coat_reflection_scale * 0.5 * coat_reflection_ggx_reflected.weight);
+        color += coat_reflection_ggx_reflected.color
+            * (mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, vec3(0.04))
+            * (coat_reflection_scale * 0.5 * coat_reflection_ggx_reflected.weight));
         turn_3 = vec2(-turn_3.y, turn_3.x) * 0.6754903 + turn_3 * -0.7373689;
     }
     out1 = vec4(color, 1.0);

@@ -1,5 +1,5 @@
 #version 450
-// wet_metal · slab_surface · mxgen 0.1 · glsl · reduced · 7 closures · 0 textures
+// wet_metal · slab_surface · mxgen 0.1 · glsl · reduced · 8 closures · 0 textures
 
 uniform int u_numActiveLightSources = 0;
 struct LightData {
@@ -20,6 +20,7 @@ struct VertexData {
     vec3 viewWorld;
     vec4 random;
     vec4 lightWorld;
+    vec2 matter;
 };
 VertexData vd;
 vec4 out1;
@@ -29,6 +30,9 @@ vec4 out4;
 vec4 out5;
 vec4 out6;
 vec4 out7;
+vec4 out9;
+vec4 out10;
+vec4 out11;
 
 // A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
 float mx_bicubic(const mat4 m, const float x, const float y)
@@ -50,41 +54,6 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
 {
     float x = 1.0 - cosine;
     return mix(f0, vec3(1.0), x * x * x * x * x);
-}
-
-// What the layer of the medium reflects and lets through, with all orders of scattering, of light on a way x.
-vec3 mx_medium_layer(const float way, out vec3 transmitted)
-{
-    float x = way - 1.0;
-    vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
-        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
-        * vec3(-0.18317366, -0.19314766, -0.19532585)));
-    vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
-        * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
-        * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
-        + vec3(0.0739174, 0.07612604, 0.07661489)));
-    vec3 g = sqrt(k * (k + 2.0 * s));
-    vec3 e = exp(-g * 0.2);
-    vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 0.4 * (vec3(1.0) - g * 0.2), step(g * 0.2, vec3(0.001)));
-    vec3 below = (k + s) * ways + vec3(1.0) + e * e;
-    transmitted = 2.0 * e / below;
-    return s * ways / below;
-}
-
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    mat3 frame;
-    frame[0] = normalize(X - dot(X, N) * N);
-    frame[1] = cross(N, frame[0]);
-    frame[2] = N;
-    return frame;
-}
-
-vec3 mx_medium_reflected(const float way)
-{
-    vec3 ignored;
-    return mx_medium_layer(way, ignored);
 }
 
 // Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
@@ -123,6 +92,16 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
     return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
 }
 
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(const vec3 N, const vec3 X)
+{
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
 // What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is
 // smooth.
 void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V, const vec3 xi, const vec3 n,
@@ -155,6 +134,31 @@ void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3
         pdf = (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h);
     }
     pdf *= density * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y);
+}
+
+// What the layer of the medium reflects and lets through, with all orders of scattering, of light on a way x.
+vec3 mx_medium_layer(const float way, out vec3 transmitted)
+{
+    float x = way - 1.0;
+    vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
+        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
+        * vec3(-0.18317366, -0.19314766, -0.19532585)));
+    vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
+        * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
+        * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
+        + vec3(0.0739174, 0.07612604, 0.07661489)));
+    vec3 g = sqrt(k * (k + 2.0 * s));
+    vec3 e = exp(-g * 0.2);
+    vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 0.4 * (vec3(1.0) - g * 0.2), step(g * 0.2, vec3(0.001)));
+    vec3 below = (k + s) * ways + vec3(1.0) + e * e;
+    transmitted = 2.0 * e / below;
+    return s * ways / below;
+}
+
+vec3 mx_medium_reflected(const float way)
+{
+    vec3 ignored;
+    return mx_medium_layer(way, ignored);
 }
 
 float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, const vec3 L)
@@ -190,188 +194,168 @@ float mx_ggx_pdf(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V,
 
 void scatter()
 {
-    vec3 N = normalize(vd.normalWorld);
-    // metal
-    float c = dot(N, vd.viewWorld);
-    float greater = max(abs(c), 1e-8);
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (greater + 0.29886922), greater);
-    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
-    vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
-        * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
-    vec3 slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(metal_reflection_albedo.y, 0.2), 1e-8),
-        metal_constant) * metal_reflection_albedo.x * metal_reflection_ggx_compensation;
-    vec3 metal_reflection_throughput = max(vec3(1.0) - slab_reflection_bsdf_albedo, 0.0);
-    // milk
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (greater + 0.25071993), greater);
-    vec3 milk_reflection_f = mx_fresnel_schlick(max(1.0 - pow(milk_reflection_albedo.y, 0.2), 1e-8), vec3(0.04));
-    float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float milk_reflection_product = milk_reflection_albedo.x * milk_reflection_ggx_compensation;
-    vec3 milk_reflection_throughput = max(vec3(1.0) - milk_reflection_f * milk_reflection_product, 0.0);
-    float way = inversesqrt(c * c + 1.25) * 1.5;
-    vec3 milk_medium_transmitted;
-    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    const vec3 milk_medium_constant = vec3(0.10193972, 0.102937125, 0.103155464);
-    vec3 milk_medium_throughput = milk_medium_transmitted
-        / (vec3(1.0) - min(slab_reflection_bsdf_albedo * milk_medium_constant, 0.999));
-    // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (greater + 0.01), greater);
-    vec3 coat_reflection_f = mx_fresnel_schlick(max(1.0 - pow(coat_reflection_albedo.y, 0.2), 1e-8), vec3(0.04));
-    float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float coat_reflection_product = coat_reflection_albedo.x * coat_reflection_ggx_compensation;
-    vec3 coat_reflection_greater = max(vec3(1.0) - coat_reflection_f * coat_reflection_product, 0.0);
-    vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
-    vec3 blended_coat_bare_throughput = mix(vec3(1.0), coat_reflection_greater * coat_medium_throughput, 0.5);
-    vec3 metal_bare_metal_medium_weight = metal_reflection_throughput
-        * (milk_reflection_throughput * milk_medium_throughput * blended_coat_bare_throughput);
-    vec3 milk_medium_throughput_2 = milk_medium_throughput * vec3(0.9081714, 0.9090508, 0.9092436);
-    vec3 coat_medium_throughput_2 = coat_medium_throughput * vec3(0.9512294, 0.967216, 0.9753099);
-    vec3 blended_coat_bare_throughput_2 = mix(vec3(1.0), coat_reflection_greater * coat_medium_throughput_2, 0.5);
-    vec3 metal_bare_metal_medium_weight_2 = metal_reflection_throughput
-        * (milk_reflection_throughput * milk_medium_throughput_2 * blended_coat_bare_throughput_2);
-    vec3 blended_coat_bare_throughput_3 = mix(vec3(1.0), coat_reflection_greater
-        * (coat_medium_throughput_2 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
-    vec3 metal_medium_difference = metal_bare_metal_medium_weight_2 - metal_reflection_throughput
-        * (milk_reflection_throughput * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436))
-        * blended_coat_bare_throughput_3);
-    vec3 metal_medium_decay = clamp(metal_medium_difference
-        / max(metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2, 1e-6), 0.0, 0.999);
-    vec3 metal_medium_ratio = (metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2)
-        / (vec3(1.0) - metal_medium_decay);
-    float greater_2 = max(dot((metal_bare_metal_medium_weight - metal_medium_ratio + metal_medium_ratio
-        * pow(metal_medium_decay, vec3(1.145898))) * 0.1, vec3(0.33333334)), 0.0);
-    vec3 milk_medium_difference = milk_reflection_throughput * blended_coat_bare_throughput - milk_reflection_throughput
-        * blended_coat_bare_throughput_2;
-    vec3 milk_medium_decay = clamp((milk_reflection_throughput * blended_coat_bare_throughput_2
-        - milk_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
-    vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
-    vec3 milk_medium_steady = milk_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
-    float greater_3 = max(dot((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
-        * (milk_medium * 0.9 + vec3(0.1)), vec3(0.33333334)), 0.0);
-    float greater_4 = max(dot(coat_reflection_greater * 0.05, vec3(0.33333334)), 0.0);
-    vec3 milk_bare_product = milk_reflection_throughput
-        * (milk_medium_throughput * vec3(0.895498, 0.89649165, 0.8967095));
-    vec3 metal_reflection_difference = blended_coat_bare_throughput * milk_bare_product - blended_coat_bare_throughput_2
-        * milk_bare_product;
-    vec3 metal_reflection_decay = clamp((blended_coat_bare_throughput_2 * milk_bare_product
-        - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
-    vec3 metal_reflection_ratio = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
-    vec3 metal_reflection_steady = blended_coat_bare_throughput * milk_bare_product - metal_reflection_ratio;
-    float greater_5 = max(dot((metal_reflection_steady + metal_reflection_ratio
-        * pow(metal_reflection_decay, vec3(1.145898))) * (slab_reflection_bsdf_albedo * 0.9 + vec3(0.1)),
-        vec3(0.33333334)), 0.0);
-    vec3 clamped = clamp((blended_coat_bare_throughput_2 - blended_coat_bare_throughput_3)
-        / max(blended_coat_bare_throughput - blended_coat_bare_throughput_2, 1e-6), 0.0, 0.999);
-    vec3 ratio = (blended_coat_bare_throughput - blended_coat_bare_throughput_2) / (vec3(1.0) - clamped);
-    vec3 difference = blended_coat_bare_throughput - ratio;
-    vec3 sum = difference + ratio * pow(clamped, vec3(1.145898));
-    float greater_6 = max(dot(sum * (milk_reflection_f * (milk_reflection_product * 0.9) + vec3(0.1)),
-        vec3(0.33333334)), 0.0);
-    float greater_7 = max(dot((coat_reflection_f * (coat_reflection_product * 0.9) + vec3(0.1)) * 0.5,
-        vec3(0.33333334)), 0.0);
-    float sum_2 = greater_2 + greater_3 + greater_4 + greater_5 + greater_6 + greater_7;
-    float pick = sum_2 * vd.random.w;
+    float pick = 0.0;
     vec3 L = vec3(0.0);
     float inside = 0.0;
     vec3 weight = vec3(0.0);
     float density = 0.0;
     vec3 medium = vec3(1.0);
+    L = -vd.viewWorld;
+    inside = 2.0;
+    weight = vec3(1.0);
+    bool drops_is_below = vd.matter.y < 0.5;
+    float choice = vd.matter.x < 0.0 ? drops_is_below ? 0.0 : 2.0 : vd.matter.x;
+    vec3 N = normalize(vd.normalWorld);
+    // metal
+    float c = dot(N, vd.viewWorld);
+    float greater = max(abs(c), 1e-8);
+    // coat
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (greater + 0.01), greater);
+    float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
+    vec3 coat_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(coat_reflection_albedo.y, 0.2),
+        1e-8), vec3(0.04)) * (coat_reflection_albedo.x * coat_reflection_ggx_compensation);
+    vec3 coat_reflection_greater = max(vec3(1.0) - coat_reflection_slab_reflection_bsdf_albedo, 0.0);
+    float sum = dot(coat_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
+    float greater_2 = max(dot(coat_reflection_greater, vec3(0.33333334)), 0.0);
+    float sum_2 = sum + greater_2;
+    vec3 X = normalize(vd.tangentWorld);
+    if (choice == 0.0) {
+        weight = coat_reflection_greater * (sum_2 / greater_2);
+        if (sum_2 * vd.random.w < sum) {
+            vec3 coat_reflection_L, coat_reflection_weight;
+            float coat_reflection_pdf;
+            mx_ggx_scatter(vec2(0.01), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), coat_reflection_L,
+                coat_reflection_weight, coat_reflection_pdf);
+            L = coat_reflection_L;
+            inside = 0.0;
+            weight = coat_reflection_weight * (sum_2 / sum);
+            density = coat_reflection_pdf * (sum / sum_2);
+        }
+    }
+    bool is_equal = choice == 1.0;
+    // milk
+    float way = inversesqrt(c * c + 1.25) * 1.5;
     vec3 Nf = faceforward(N, -vd.viewWorld, N);
     mat3 any_frame = mx_frame(Nf, abs(Nf.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
     vec2 product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
     vec3 L_2 = any_frame * vec3(product, sqrt(1.0 - vd.random.x));
     float pdf = max(dot(Nf, L_2), 0.0) / 3.1415927;
-    if (pick >= 0.0 && pick < greater_2) {
-        L = L_2;
-        weight = vec3(0.0);
-        density = pdf * (greater_2 / sum_2);
+    if (is_equal) {
+        vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
+        float greater_3 = max(dot(coat_medium_throughput, vec3(0.33333334)), 0.0);
+        weight = coat_medium_throughput * ((greater_3 + 0.1) / greater_3);
+        if (vd.random.w * (greater_3 + 0.1) < 0.1) {
+            L = L_2;
+            inside = 0.0;
+            weight = vec3(0.0);
+            density = pdf * (0.1 / (greater_3 + 0.1));
+        }
     }
-    pick += -greater_2;
-    if (pick >= 0.0 && pick < greater_3) {
-        L = L_2;
-        float c_2 = dot(N, L_2);
-        float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
-        vec3 weight_2 = pdf * (mx_medium_reflected(way) * mx_medium_reflected(way_2) / milk_medium_constant)
-            / max(pdf, 1e-8);
-        weight = weight_2 * (milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2)))
-            * (sum_2 / greater_3);
-        density = pdf * (greater_3 / sum_2);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (greater + 0.25071993), greater);
+    float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
+    vec3 milk_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(milk_reflection_albedo.y, 0.2),
+        1e-8), vec3(0.04)) * (milk_reflection_albedo.x * milk_reflection_ggx_compensation);
+    vec3 milk_reflection_throughput = max(vec3(1.0) - milk_reflection_slab_reflection_bsdf_albedo, 0.0);
+    float sum_3 = dot(milk_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
+    float greater_4 = max(dot(milk_reflection_throughput, vec3(0.33333334)), 0.0);
+    float sum_4 = sum_3 + greater_4;
+    if (choice == 3.0) {
+        weight = milk_reflection_throughput * (sum_4 / greater_4);
+        if (vd.random.w * sum_4 < sum_3) {
+            vec3 milk_reflection_L, milk_reflection_weight;
+            float milk_reflection_pdf;
+            mx_ggx_scatter(vec2(0.25071993), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), milk_reflection_L,
+                milk_reflection_weight, milk_reflection_pdf);
+            L = milk_reflection_L;
+            inside = 0.0;
+            weight = milk_reflection_weight * (sum_4 / sum_3);
+            density = milk_reflection_pdf * (sum_3 / sum_4);
+        }
     }
-    pick += -greater_3;
-    if (pick >= 0.0 && pick < greater_4) {
-        L = L_2;
-        weight = vec3(0.0);
-        density = pdf * (greater_4 / sum_2);
+    bool is_equal_2 = choice == 4.0;
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (greater + 0.29886922), greater);
+    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
+    vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
+        * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
+    vec3 metal_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0
+        - pow(metal_reflection_albedo.y, 0.2), 1e-8), metal_constant) * metal_reflection_albedo.x
+        * metal_reflection_ggx_compensation;
+    if (is_equal_2) {
+        vec3 milk_medium_transmitted;
+        vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
+        vec3 milk_medium_throughput = milk_medium_transmitted
+            / (vec3(1.0) - min(metal_reflection_slab_reflection_bsdf_albedo
+            * vec3(0.10193972, 0.102937125, 0.103155464), 0.999));
+        float sum_5 = dot(milk_medium, vec3(0.33333334)) * 0.9 + 0.1;
+        float greater_5 = max(dot(milk_medium_throughput, vec3(0.33333334)), 0.0);
+        float sum_6 = sum_5 + greater_5;
+        weight = milk_medium_throughput * (sum_6 / greater_5);
+        if (vd.random.w * sum_6 < sum_5) {
+            L = L_2;
+            inside = 0.0;
+            float milk_medium_c = dot(N, L_2);
+            vec3 weight_2 = pdf * (mx_medium_reflected(way)
+                * mx_medium_reflected(inversesqrt(milk_medium_c * milk_medium_c + 1.25) * 1.5)
+                / vec3(0.10193972, 0.102937125, 0.103155464)) / max(pdf, 1e-8);
+            weight = weight_2 * (sum_6 / sum_5);
+            density = pdf * (sum_5 / sum_6);
+        }
     }
-    pick += -greater_4;
-    vec3 X = normalize(vd.tangentWorld);
-    if (pick >= 0.0 && pick < greater_5) {
-        vec3 metal_reflection_L, metal_reflection_weight;
-        float metal_reflection_pdf;
-        mx_ggx_scatter(vec2(0.29886922), N, X, vd.viewWorld, vd.random.xyz, metal_constant, metal_reflection_L,
-            metal_reflection_weight, metal_reflection_pdf);
-        L = metal_reflection_L;
-        float n_dot_l = dot(N, metal_reflection_L);
-        weight = metal_reflection_weight
-            * (metal_reflection_steady + metal_reflection_ratio
-            * pow(metal_reflection_decay, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))) * (sum_2 / greater_5);
-        density = metal_reflection_pdf * (greater_5 / sum_2);
+    vec3 metal_reflection_throughput = max(vec3(1.0) - metal_reflection_slab_reflection_bsdf_albedo, 0.0);
+    float sum_7 = dot(metal_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
+    float greater_6 = max(dot(metal_reflection_throughput, vec3(0.33333334)), 0.0);
+    float sum_8 = sum_7 + greater_6;
+    if (choice == 5.0) {
+        weight = metal_reflection_throughput * (sum_8 / greater_6);
+        if (vd.random.w * sum_8 < sum_7) {
+            vec3 metal_reflection_L, metal_reflection_weight;
+            float metal_reflection_pdf;
+            mx_ggx_scatter(vec2(0.29886922), N, X, vd.viewWorld, vd.random.xyz, metal_constant, metal_reflection_L,
+                metal_reflection_weight, metal_reflection_pdf);
+            L = metal_reflection_L;
+            inside = 0.0;
+            weight = metal_reflection_weight * (sum_8 / sum_7);
+            density = metal_reflection_pdf * (sum_7 / sum_8);
+        }
     }
-    pick += -greater_5;
-    if (pick >= 0.0 && pick < greater_6) {
-        vec3 milk_reflection_L, milk_reflection_weight;
-        float milk_reflection_pdf;
-        mx_ggx_scatter(vec2(0.25071993), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), milk_reflection_L,
-            milk_reflection_weight, milk_reflection_pdf);
-        L = milk_reflection_L;
-        float n_dot_l = dot(N, milk_reflection_L);
-        weight = milk_reflection_weight * (difference + ratio
-            * pow(clamped, vec3(inversesqrt(n_dot_l * n_dot_l + 1.25) * 1.5))) * (sum_2 / greater_6);
-        density = milk_reflection_pdf * (greater_6 / sum_2);
+    if (choice == 6.0) {
+        weight = vec3((0.0 / 0.0));
+        if (vd.random.w * 0.1 < 0.1) {
+            L = L_2;
+            inside = 0.0;
+            weight = vec3(0.0);
+            density = pdf;
+        }
     }
-    pick += -greater_6;
-    if (pick >= 0.0 && pick < greater_7) {
-        vec3 coat_reflection_L, coat_reflection_weight;
-        float coat_reflection_pdf;
-        mx_ggx_scatter(vec2(0.01), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), coat_reflection_L,
-            coat_reflection_weight, coat_reflection_pdf);
-        L = coat_reflection_L;
-        weight = coat_reflection_weight * (sum_2 / greater_7 * 0.5);
-        density = coat_reflection_pdf * (greater_7 / sum_2);
-    }
-    pick += -greater_7;
-    out1 = vec4((ratio + difference) * vec3(0.0, 0.1, 0.0), 1.0);
+    out1 = vec4(choice == 2.0 ? vec3(0.0, 0.1, 0.0) : vec3(0.0), 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
-    float slab_medium_bsdf_pdf = max(dot(Nf, vd.lightWorld.xyz), 0.0) / 3.1415927;
-    float c_3 = dot(N, vd.lightWorld.xyz);
-    float way_3 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
-    vec3 milk_medium_transmitted_2;
-    vec3 milk_medium_2 = mx_medium_layer(way_3, milk_medium_transmitted_2);
-    vec3 sum_3 = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_3));
-    vec3 product_2 = slab_medium_bsdf_pdf * (milk_medium * milk_medium_2 / milk_medium_constant) * sum_3;
-    mat3 frame = mx_frame(Nf, X);
-    vec3 metal_reflection_product = metal_reflection_ggx_compensation
-        * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, vd.lightWorld.xyz);
     float cosine = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0));
-    vec3 sum_4 = metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way_3));
-    float sum_5 = vd.lightWorld.w * (greater_5 / sum_2
-        * mx_ggx_pdf(vec2(0.29886922), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 ratio_2 = metal_reflection_product * mx_fresnel_schlick(cosine, metal_constant) * sum_4 / sum_5;
-    vec3 sum_6 = product_2 / (vd.lightWorld.w * (greater_3 / sum_2 * slab_medium_bsdf_pdf) + 1.0) + ratio_2;
     vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
-    vec3 milk_reflection_slab_reflection_bsdf_eval = milk_reflection_ggx_compensation
-        * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, vd.lightWorld.xyz) * fresnel;
-    float sum_7 = vd.lightWorld.w * (greater_6 / sum_2
+    mat3 frame = mx_frame(Nf, X);
+    float sum_9 = vd.lightWorld.w * (sum / sum_2 * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
+    vec3 ratio = fresnel * (coat_reflection_ggx_compensation
+        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_9;
+    float c_2 = dot(N, vd.lightWorld.xyz);
+    float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
+    vec3 choice_2 = drops_is_below ? vec3(0.05, 0.033333335, 0.025) : vec3(0.0);
+    float sum_10 = vd.lightWorld.w * (sum_3 / sum_4
         * mx_ggx_pdf(vec2(0.25071993), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    float sum_8 = vd.lightWorld.w * (greater_7 / sum_2 * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz))
-        + 1.0;
-    vec3 ratio_3 = fresnel * (coat_reflection_ggx_compensation
-        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz) * 0.5) / sum_8;
-    out5 = vec4(sum_6 + milk_reflection_slab_reflection_bsdf_eval * (difference + ratio * pow(clamped, vec3(way_3)))
-        / sum_7 + ratio_3, 0.0);
+    vec3 ratio_2 = fresnel * (milk_reflection_ggx_compensation
+        * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_10;
+    float metal_reflection_ggx_smith_lobe = mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, vd.lightWorld.xyz);
+    float sum_11 = vd.lightWorld.w * (sum_7 / sum_8
+        * mx_ggx_pdf(vec2(0.29886922), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
+    vec3 ratio_3 = metal_reflection_ggx_compensation * mx_fresnel_schlick(cosine, metal_constant)
+        * metal_reflection_ggx_smith_lobe / sum_11;
+    vec3 choice_3 = is_equal_2 ? vec3(1.0) : choice == 5.0 ? ratio_3 * exp(-(way_2 * (choice_2 + vec3(0.2))))
+        : vec3(0.0);
+    vec3 choice_4 = is_equal ? vec3(1.0) : choice == 2.0 ? vec3(0.0) : choice == 3.0 ? exp(-(way_2 * choice_2))
+        * ratio_2 : choice_3;
+    out5 = vec4(choice == 0.0 ? ratio : choice_4, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_9 = 0.0;
+    float sum_12 = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
@@ -397,39 +381,43 @@ void scatter()
                     -dot(u_lightData[i].direction, to_light)) * ratio_4 : 0.0;
             }
         }
-        float c_4 = dot(N, L_4);
-        float way_4 = inversesqrt(c_4 * c_4 + 1.25) * 1.5;
-        vec3 milk_medium_transmitted_3;
-        vec3 milk_medium_3 = mx_medium_layer(way_4, milk_medium_transmitted_3);
-        vec3 slab_medium_bsdf_eval = milk_medium * milk_medium_3 / milk_medium_constant
-            * (max(dot(Nf, L_4), 0.0) / 3.1415927);
-        vec3 product_3 = slab_medium_bsdf_eval
-            * (milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_4)));
-        vec3 metal_reflection_product_2 = metal_reflection_ggx_compensation
-            * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_4);
         float cosine_2 = sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0));
-        vec3 sum_10 = metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way_4));
-        vec3 sum_11 = product_3 + metal_reflection_product_2 * mx_fresnel_schlick(cosine_2, metal_constant) * sum_10;
         vec3 fresnel_2 = mx_fresnel_schlick(cosine_2, vec3(0.04));
-        vec3 milk_reflection_slab_reflection_bsdf_eval_2 = milk_reflection_ggx_compensation
-            * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, L_4) * fresnel_2;
-        vec3 sum_12 = sum_11 + milk_reflection_slab_reflection_bsdf_eval_2
-            * (difference + ratio * pow(clamped, vec3(way_4)));
-        vec3 sum_13 = sum_12 + fresnel_2
-            * (coat_reflection_ggx_compensation * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, L_4) * 0.5);
-        vec3 product_4 = u_lightData[i].color * intensity * sum_13;
-        float greater_8 = max(dot(product_4, vec3(0.33333334)), 0.0);
-        sum_9 += greater_8;
-        if (sum_9 * chance < greater_8) {
+        vec3 coat_reflection_slab_reflection_bsdf_eval = coat_reflection_ggx_compensation * fresnel_2
+            * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, L_4);
+        float c_3 = dot(N, L_4);
+        float way_3 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
+        vec3 milk_reflection_slab_reflection_bsdf_eval = milk_reflection_ggx_compensation * fresnel_2
+            * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, L_4);
+        vec3 metal_reflection_product = metal_reflection_ggx_compensation
+            * mx_fresnel_schlick(cosine_2, metal_constant);
+        vec3 metal_reflection_slab_reflection_bsdf_eval = metal_reflection_product
+            * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_4);
+        vec3 choice_5 = is_equal_2 ? vec3(1.0) : choice == 5.0 ? metal_reflection_slab_reflection_bsdf_eval
+            * exp(-((choice_2 + vec3(0.2)) * way_3)) : vec3(0.0);
+        vec3 choice_6 = is_equal ? vec3(1.0) : choice == 2.0 ? vec3(0.0) : choice == 3.0 ? exp(-(choice_2 * way_3))
+            * milk_reflection_slab_reflection_bsdf_eval : choice_5;
+        vec3 product_2 = u_lightData[i].color * intensity
+            * (choice == 0.0 ? coat_reflection_slab_reflection_bsdf_eval : choice_6);
+        float greater_7 = max(dot(product_2, vec3(0.33333334)), 0.0);
+        sum_12 += greater_7;
+        if (sum_12 * chance < greater_7) {
             L_3 = L_4;
             distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
-            light = product_4 / greater_8;
+            light = product_2 / greater_7;
         }
-        if (greater_8 > 0.0) {
-            float ratio_5 = (sum_9 * chance - greater_8) / (sum_9 - greater_8);
-            chance = sum_9 * chance < greater_8 ? sum_9 * chance / greater_8 : ratio_5;
+        if (greater_7 > 0.0) {
+            float ratio_5 = (sum_12 * chance - greater_7) / (sum_12 - greater_7);
+            chance = sum_12 * chance < greater_7 ? sum_12 * chance / greater_7 : ratio_5;
         }
     }
     out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_9 * light, 0.0);
+    out7 = vec4(sum_12 * light, 0.0);
+    out9 = vec4(is_equal ? vec3(0.0) : is_equal_2 ? vec3(0.19811778, 0.19958141, 0.19990106) : vec3(0.0), 0.0);
+    vec3 choice_7 = is_equal ? vec3(0.05, 0.033333335, 0.025) : is_equal_2 ? vec3(0.2) : vec3(0.0);
+    float choice_8 = choice < 2.0 ? 2.0 : choice < 3.0 ? 3.0 : choice < 4.0 ? 4.0 : choice < 5.0 ? 5.0 : choice < 6.0
+        ? 6.0 : -1.0;
+    float choice_9 = drops_is_below && choice < 1.0 ? 1.0 : choice_8;
+    out10 = vec4(choice_7, drops_is_below && choice < 0.0 ? 0.0 : choice_9);
+    out11 = vec4(0.0, 0.0, 0.0, choice > 4.0 ? 4.0 : drops_is_below && choice > 1.0 ? 1.0 : -1.0);
 }

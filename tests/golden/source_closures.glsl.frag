@@ -89,7 +89,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -118,7 +118,7 @@ void main()
         ClosureData soft_closure_data = ClosureData(1, bulb_2.direction, V, N, vd.positionWorld, 1.0);
         BSDF soft = BSDF(vec3(0.0), vec3(1.0));
         soft_bsdf(soft_closure_data, 0.8, vec3(0.5), N, 1, soft);
-        vec3 sum = soft.response + soft.throughput * (max(dot(bulb_2.direction, diffuse_N), 1e-8) / 3.1415927 * 0.18);
+        vec3 sum = soft.response + soft.throughput * (max(dot(bulb_2.direction, diffuse_N), 1e-8) * 0.05729578);
         color += (u_lightData[i].type == 1 ? bulb_2.intensity : vec3(0.0)) * sum;
     }
     // environment

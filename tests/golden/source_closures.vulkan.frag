@@ -101,8 +101,7 @@ void main()
         ClosureData soft_closure_data = ClosureData(1, bulb_2.direction, V, N, vd.positionWorld, 1.0);
         BSDF soft = BSDF(vec3(0.0), vec3(1.0));
         soft_bsdf(soft_closure_data, 0.8, vec3(0.5), N, 1, soft);
-        vec3 sum = soft.response + soft.throughput
-            * (max(dot(bulb_2.direction, diffuse_facing), 1e-8) / 3.1415927 * 0.18);
+        vec3 sum = soft.response + soft.throughput * (max(dot(bulb_2.direction, diffuse_facing), 1e-8) * 0.05729578);
         color += (u_lightData[i].type == 1 ? bulb_2.intensity : vec3(0.0)) * sum;
     }
     out1 = vec4(color, 1.0);

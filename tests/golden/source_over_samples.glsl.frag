@@ -21,7 +21,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     vec3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -112,7 +113,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -149,23 +150,21 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 // A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
@@ -184,10 +183,10 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine)
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine)
 {
     float c2 = cosine * cosine;
     float s = 1.0 - c2;
@@ -226,7 +225,7 @@ void main()
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight light = mx_ggx_reflected(gloss_ggx_samples, i, turn);
-        gathered += light.color * (light.weight * (scale * mx_fresnel_dielectric(light.cosine)));
+        gathered += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }
     vec3 color = vec3(0.0);
@@ -257,11 +256,11 @@ void main()
         }
         // fogged
         ClosureData closure_data = ClosureData(1, L, V, N, vd.positionWorld, 1.0);
-        float fresnel = mx_fresnel_dielectric(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        BSDF vector = BSDF(vec3(scale * mx_ggx_light(gloss_vector, V, L) * fresnel), dielectric_bsdf_throughput);
+        float gloss_product = scale * mx_fresnel_permittivity(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
+        BSDF vector = BSDF(vec3(gloss_product * mx_ggx_light(gloss_vector, V, L)), dielectric_bsdf_throughput);
         BSDF fogged = BSDF(vec3(0.0), vec3(1.0));
         fogged_bsdf(closure_data, vector, 0.25, fogged);
-        color += intensity * (u_lightData[i].color * fogged.response);
+        color += u_lightData[i].color * (intensity * fogged.response);
     }
     // environment
     // fogged

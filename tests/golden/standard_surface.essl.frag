@@ -33,7 +33,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -78,7 +78,7 @@ void main()
         // diffuse
         float cos_l = max(dot(L, N), 1e-8);
         float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.36 / max(cos_l, cos_v) + 0.73913044;
-        color += intensity * (u_lightData[i].color * (cos_l / 3.1415927 * vec3(0.5, 0.25, 0.15) * diffuse_sum));
+        color += u_lightData[i].color * (intensity * (cos_l * 0.31830987 * vec3(0.5, 0.25, 0.15) * diffuse_sum));
     }
     // environment
     // diffuse

@@ -21,7 +21,8 @@ struct mx_GgxSamples {
 };
 struct mx_GgxFacet {
     vec3 h;
-    float shrink;
+    float cosine;
+    float mirror;
     float texels;
 };
 struct mx_GgxLight {
@@ -69,6 +70,18 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
+// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
+// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
+// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+float mx_fresnel_permittivity(const float cosine)
+{
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 1.3104);
+    float r = 0.6552 / (1.6552 * (c2 + sqrt(cg2)) + 0.6552);
+    return (cg2 + s * s) * (r * r);
+}
+
 // The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
 // the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
@@ -86,18 +99,6 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return area / 6.2831855 * square * square * cos_l
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
-}
-
-// Unpolarised Fresnel equations of a dielectric, c and g being the cosines on both sides, the inner one times the
-// index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = ior^2 - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
-float mx_fresnel_dielectric(const float cosine)
-{
-    float c2 = cosine * cosine;
-    float s = 1.0 - c2;
-    float cg2 = c2 * (c2 + 1.3104);
-    float r = 0.6552 / (1.6552 * (c2 + sqrt(cg2)) + 0.6552);
-    return (cg2 + s * s) * (r * r);
 }
 
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
@@ -131,7 +132,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -168,23 +169,21 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
 // by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
-    vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
-    vec3 h = cap * s.stretch;
-    float shrink = 1.0 / dot(h, h);
-    float spread = shrink * dot(cap, cap);
-    return mx_GgxFacet(h, shrink, spread * spread * s.texels);
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
 // The light that the facet of sample i reflects.
 mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float cosine = dot(s.v, facet.h);
-    float part = cosine * facet.shrink;
-    vec3 l = 2.0 * part * facet.h - s.v;
+    vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l), sqrt(clamp(cosine * part, 1e-8, 1.0)));
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -198,7 +197,7 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h)
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 h = facet.h * sqrt(facet.shrink);
+    vec3 h = normalize(facet.h);
     return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h), facet.texels), s.weight * 0.5 / s.v.z,
         clamp(dot(s.v, h), 1e-8, 1.0));
 }
@@ -237,8 +236,8 @@ void main()
             }
         }
         // reflection
-        float fresnel = mx_fresnel_dielectric(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)));
-        color += u_lightData[i].color * (intensity * (scale * mx_ggx_light(reflection_vector, V, L) * fresnel));
+        float reflection_product = scale * mx_fresnel_permittivity(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)));
+        color += u_lightData[i].color * (intensity * (reflection_product * mx_ggx_light(reflection_vector, V, L)));
     }
     // environment
     // reflection
@@ -246,7 +245,7 @@ void main()
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight light = mx_ggx_reflected(samples, i, turn);
-        color += light.color * (light.weight * (scale * mx_fresnel_dielectric(light.cosine)));
+        color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }
     // refraction
@@ -255,8 +254,8 @@ void main()
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, i, turn_2);
         color += refraction_ggx_transmitted.color
-            * (one_minus_ggx_reflectance
-            * (refraction_ggx_transmitted.weight * (1.0 - mx_fresnel_dielectric(refraction_ggx_transmitted.cosine))));
+            * ((1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine))
+            * (one_minus_ggx_reflectance * refraction_ggx_transmitted.weight));
         turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 + turn_2 * -0.7373689;
     }
     out1 = vec4(color, 1.0);

@@ -58,7 +58,7 @@ void main()
         }
         // smoke
         float smoke_d = dot(V, L) * 0.8 + 1.16;
-        color += intensity * (u_lightData[i].color * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product));
+        color += u_lightData[i].color * (intensity * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product));
     }
     out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
 }

@@ -39,7 +39,7 @@ float mx_map_square(const vec3 d)
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
-    return sine * (0.4999695 + cosine * (cosine * (0.2301935 + cosine * (0.0397641 * cosine - 0.1349918)) - 0.3164044));
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -87,7 +87,7 @@ void main()
         }
         // smoke
         float smoke_d = dot(V, L) * 0.8 + 1.16;
-        color += intensity * (u_lightData[i].color * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product));
+        color += u_lightData[i].color * (intensity * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product));
     }
     // environment
     // smoke
