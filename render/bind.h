@@ -40,7 +40,7 @@ struct bind {
     struct bind_fault *faults; /* the files that cannot be read, also where that is an error */
     size_t num_faults;
 
-    const struct tints *tints;   /* tables of stored materials; NULL: there are none */
+    const struct tints *tints; /* tables of stored materials; NULL: there are none */
 
     struct draw draw;                       /* the result */
     struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */

@@ -16,7 +16,7 @@ struct trace_options {
     uint32_t bounces; /* maximum number of bounces */
     /* of a closure, for each path where it hits first: with equal random numbers, but evenly */
     uint32_t picks;
-    bool dark;        /* no light from the environment */
+    bool dark; /* no light from the environment */
     /*
      * one bounce without shadows; a path that enters a solid leaves it at the other side without
      * loss

@@ -95,10 +95,10 @@ struct closure_scatter;
 struct closure_scatter_layer {
     struct closure_list list;
     const struct closure_pile *pile; /* takes the place of the list; NULL: none */
-    ir_ref emission; /* 0: black */
-    ir_ref alpha;    /* that the list and the emission have, but the tracer applies; 0: none */
-    ir_ref is_it;    /* a bool: this layer is picked; 0: always */
-    ir_ref chance;   /* a random number that picks a leaf; 0: that of the path tracer */
+    ir_ref emission;                 /* 0: black */
+    ir_ref alpha;  /* that the list and the emission have, but the tracer applies; 0: none */
+    ir_ref is_it;  /* a bool: this layer is picked; 0: always */
+    ir_ref chance; /* a random number that picks a leaf; 0: that of the path tracer */
     /* values, and the emission of closures; they have the alpha, too */
     struct closure_aovs aovs;
     struct closure_list *aov_lists; /* the leaves of BSDFs, by number of the AOV; NULL: no AOVs */

@@ -301,7 +301,8 @@ static ir_ref lit_parts(struct closure_scatter *s, const struct closure_light *l
         s->parts[p].lit = scatter_op2(s, IR_MUL, light->intensity, seen);
         most = most ? scatter_op2(s, IR_MAX, most, s->parts[p].lit) : s->parts[p].lit;
     }
-    return scatter_op2(s, IR_MAX, scatter_mean_of(s, most), scatter_number(s, 0.0f));
+    ir_ref mean = scatter_mean_of(s, most);
+    return scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
 }
 
 /*

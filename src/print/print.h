@@ -54,7 +54,7 @@ struct lang_syntax {
     /* max(v, vec3(0.0)), although the language also has max(v, 0.0) */
     bool wide_constants;
     bool lists_components; /* vec3(1.0, 1.0, 1.0), because the language has no vec3(1.0) */
-    bool array_braces; /* array constructors are {a, b} instead of float[2](a, b) */
+    bool array_braces;     /* array constructors are {a, b} instead of float[2](a, b) */
     /*
      * The type of the sampler beside each texture, "SamplerState t_sampler" beside "Texture2D t",
      * also among parameters and arguments. NULL: textures are samplers.
