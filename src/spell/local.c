@@ -279,8 +279,10 @@ struct spell_name spell_local_base(struct spell *spell, ir_ref ref)
         return word("light");
     if (node->op == IR_CONTEXT || node->op == IR_UNIFORM) {
         const struct shader_variable *variable = &spell->shader->variables.items[node->attr];
-        return node->op == IR_UNIFORM ? input_name(spell, variable)
-                                      : spell_name_of(spell->shader->strings, variable->name);
+        if (node->op == IR_UNIFORM)
+            return input_name(spell, variable);
+        return joined(spell, word("light"), "_",
+                      spell_name_of(spell->shader->strings, variable->name));
     }
     const struct ir_label *label = ir_label(spell->shader->graph, ref);
     if (label->name) {

@@ -72,22 +72,23 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
-        int type = u_lightData[i].type;
-        if (type == 1) {
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
             vec3 d = u_lightData[i].position - P;
             vec3 to_light = normalize(d);
             float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L = to_light;
                 intensity = ratio;
             } else {
                 L = to_light;
                 float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? smoothstep(difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                intensity = light_type == 3
+                    ? smoothstep(difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    * ratio : 0.0;
             }
         }
         // diffuse
@@ -104,8 +105,8 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
-        int type = u_lightData[i].type;
-        if (type == 1) {
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
@@ -113,13 +114,13 @@ void main()
             vec3 spot_light_direction = normalize(spot_light_difference);
             float spot_light_ratio = u_lightData[i].intensity
                 / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L = spot_light_direction;
                 intensity = spot_light_ratio;
             } else {
                 L = spot_light_direction;
                 float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? spot_light_ratio
+                intensity = light_type == 3 ? spot_light_ratio
                     * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
             }

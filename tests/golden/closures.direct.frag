@@ -85,7 +85,7 @@ void main()
         * vec3(0.6, 0.1, 0.05);
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
-        float intensity = u_lightData[i].intensity;
+        float light_intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;
         float v_dot_l = dot(V, L);
         float coat_product = ggx_compensation
@@ -94,7 +94,7 @@ void main()
         vec3 paint_response = paint_product
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         vec3 sum = coat_product * mx_ggx_light(coat_vector, V, L) + paint_response;
-        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? intensity : 0.0) * sum);
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
     }
     out1 = vec4(color, 1.0);
 }

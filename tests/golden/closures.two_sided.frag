@@ -130,7 +130,7 @@ void main()
     float coat_throughput = 1.0 - mix(0.03373595, 1.0, coat_albedo.y) * coat_albedo.x * scale;
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
-        float intensity = u_lightData[i].intensity;
+        float light_intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;
         float v_dot_l = dot(V, L);
         float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
@@ -143,7 +143,7 @@ void main()
             * (1.0 - mix(0.03373595, 1.0, coat_albedo_2.y) * coat_albedo_2.x * ggx_compensation) * 0.75 * paint_product
             * vec3(0.19098593, 0.03183099, 0.015915494);
         vec3 sum = coat_product * mx_ggx_light(coat_vector, V, L) + paint_response;
-        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? intensity : 0.0) * sum);
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
     }
     // environment
     // coat, paint

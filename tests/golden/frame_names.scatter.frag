@@ -110,22 +110,23 @@ void scatter()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L_4;
         float intensity;
-        int type = u_lightData[i].type;
+        int light_type = u_lightData[i].type;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float magnitude_d = length(d);
-        if (type == 1) {
+        if (light_type == 1) {
             L_4 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
             vec3 to_light = normalize(d);
             float ratio_3 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L_4 = to_light;
                 intensity = ratio_3;
             } else {
                 L_4 = to_light;
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio_3 : 0.0;
             }
         }
@@ -138,7 +139,7 @@ void scatter()
         sum_2 += greater_2;
         if (sum_2 * chance < greater_2) {
             L_3 = L_4;
-            distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
+            distance_ = light_type == 1 ? 1e30 : light_type == 2 ? magnitude_d : light_type == 3 ? magnitude_d : 1e30;
             light = product_2 / greater_2;
         }
         if (greater_2 > 0.0) {

@@ -92,11 +92,11 @@ void main()
     mx_GgxLobe metal_vector = mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.05), ggx_masking);
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // metal
-        float intensity = u_lightData[i].intensity;
+        float light_intensity = u_lightData[i].intensity;
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(-u_lightData[i].direction, V) * 0.5 + 0.500001, 0.0, 1.0)));
         vec3 metal_response = scaled_ggx_compensation
             * (fresnel * mx_ggx_light(metal_vector, V, -u_lightData[i].direction));
-        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? intensity : 0.0) * metal_response);
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * metal_response);
     }
     out1 = vec4(color, 1.0);
 }

@@ -447,35 +447,36 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
-        int type = u_lightData[i].type;
-        if (type == 1) {
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
             vec3 d = u_lightData[i].position - vd_positionWorld;
             vec3 to_light = normalize(d);
             float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L = to_light;
                 intensity = ratio;
             } else {
                 L = to_light;
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         // diffuse
-        vec3 color_2 = u_lightData[i].color;
+        vec3 light_color = u_lightData[i].color;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
-        color += color_2 * (intensity * (cos_l * diffuse_product));
+        color += light_color * (intensity * (cos_l * diffuse_product));
         // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (SR_gltf_pbr_clearcoat > 0.0) {
             float coating_product = mx_fresnel_permittivity(cosine, 2.25) * (SR_gltf_pbr_clearcoat * coating_scale);
-            color += color_2 * (intensity * (mx_ggx_light(coating_vector, V, L) * coating_product));
+            color += light_color * (intensity * (mx_ggx_light(coating_vector, V, L) * coating_product));
         }
         // fuzz
         if (sheen_weight > 0.0) {
@@ -483,27 +484,28 @@ void main()
             float fuzz_product_2 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
                 / 6.2831855);
-            color += color_2 * (intensity * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
+            color += light_color * (intensity
+                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
         }
         // metal_film
         float ggx_light = mx_ggx_light_2(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, vec3(1.0),
                 SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior) * ggx_light)));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, vec3(1.0)))));
         // reflection_film
         if (reflection_film_visible)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, fresnel_f0, f90, SR_gltf_pbr_iridescence_thickness,
                 SR_gltf_pbr_iridescence_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_f0, f90))));
     }
     // environment

@@ -607,26 +607,27 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
-        int type = u_lightData[i].type;
-        if (type == 1) {
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
             vec3 d = u_lightData[i].position - vd_positionWorld;
             vec3 to_light = normalize(d);
             float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L = to_light;
                 intensity = ratio;
             } else {
                 L = to_light;
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         // sheet_front, sheet_back
-        vec3 color_2 = u_lightData[i].color;
+        vec3 light_color = u_lightData[i].color;
         float cos_l = dot(L, Nf);
         float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
@@ -634,40 +635,40 @@ void main()
         float greater = max(cos_l_2, cos_v);
         vec3 sheet_front_response = sheet_front_product * 0.31830987
             * (cos_l_2 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += color_2 * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
+        color += light_color * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
         // fuzz
         if (SR_open_pbr_surface_fuzz_weight > 0.0)
-            color += color_2 * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
+            color += light_color * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coat_weight > 0.0) {
             float coating_product_2 = mx_fresnel_permittivity(cosine, coat_ior2) * coating_product;
-            color += color_2 * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
+            color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
         }
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)
                 * ggx_light)));
         // metal_bare
         if (metal_bare_weight > 0.0)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
         // reflection_film
         if (reflection_film_visible)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, thin_film_ior))));
         // reflection
         if (reflection_weight > 0.0)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
         // scatter
         if (scatter_weight > 0.0) {
             float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
             float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
                 mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
         }
@@ -677,7 +678,7 @@ void main()
             vec3 diffuse_product_2 = fujii_multiple
                 * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8)
                 / diffuse_greater_2);
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (diffuse_product * 0.31830987
                 * (cos_l_2 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
                 + diffuse_product_2))));

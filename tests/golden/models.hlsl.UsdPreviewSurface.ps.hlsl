@@ -394,42 +394,43 @@ void main(
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
         float intensity;
-        int type = u_lightData[i].type;
-        if (type == 1) {
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
             float3 d = u_lightData[i].position - vd.positionWorld;
             float3 to_light = normalize(d);
             float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L = to_light;
                 intensity = ratio;
             } else {
                 L = to_light;
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         // diffuse
-        float3 color_2 = u_lightData[i].color;
-        color += color_2 * (intensity * (max(dot(L, N), 1e-8) * diffuse_product));
+        float3 light_color = u_lightData[i].color;
+        color += light_color * (intensity * (max(dot(L, N), 1e-8) * diffuse_product));
         // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (SR_UsdPreviewSurface_clearcoat > 0.0) {
             float coating_product = mx_ggx_light(coating_vector, V, L)
                 * (SR_UsdPreviewSurface_clearcoat * coating_scale);
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (mx_fresnel_schlick(cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0)) * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(vector_, V, L);
         if (metal_weight > 0.0)
-            color += color_2 * (intensity * (metal_product * (mx_fresnel_conductor(cosine, re, im) * ggx_light)));
+            color += light_color * (intensity * (metal_product * (mx_fresnel_conductor(cosine, re, im) * ggx_light)));
         // reflection
         if (diffuse_weight > 0.0)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
     }
     // environment

@@ -586,26 +586,27 @@ void main(
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
         float intensity;
-        int type = u_lightData[i].type;
-        if (type == 1) {
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
             float3 d = u_lightData[i].position - vd.positionWorld;
             float3 to_light = normalize(d);
             float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L = to_light;
                 intensity = ratio;
             } else {
                 L = to_light;
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         // fuzz, translucent, diffuse
-        float3 color_2 = u_lightData[i].color;
+        float3 light_color = u_lightData[i].color;
         float cos_l = dot(L, Nf);
         float cos_l_2 = max(cos_l, 1e-8);
         float v_dot_l = dot(V, L);
@@ -615,29 +616,29 @@ void main(
         float fuzz_product_2 = cos_l_2 * ((s + 2.0)
             * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
         float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
-        color += color_2 * (intensity * (diffuse_response
-            + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
+        color += light_color * (intensity
+            * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coat > 0.0) {
             float coating_product = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR) * (coat * coating_scale);
-            color += color_2 * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
+            color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_visible)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (metal_product * (mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
         // reflection
         if (reflection_visible)
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (reflection_product * (ggx_light
                 * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR))));
         // scatter
         if (scatter_weight > 0.0) {
             float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
             float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
-            color += color_2 * (intensity
+            color += light_color * (intensity
                 * (float3(scatter_subsurface_light, scatter_subsurface_light_2,
                 mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
         }

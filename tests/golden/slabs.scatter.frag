@@ -362,22 +362,23 @@ void scatter()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L_4;
         float intensity;
-        int type = u_lightData[i].type;
+        int light_type = u_lightData[i].type;
         vec3 d = u_lightData[i].position - vd.positionWorld;
         float magnitude_d = length(d);
-        if (type == 1) {
+        if (light_type == 1) {
             L_4 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
             vec3 to_light = normalize(d);
             float ratio_4 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L_4 = to_light;
                 intensity = ratio_4;
             } else {
                 L_4 = to_light;
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio_4 : 0.0;
             }
         }
@@ -403,7 +404,7 @@ void scatter()
         sum_12 += greater_7;
         if (sum_12 * chance < greater_7) {
             L_3 = L_4;
-            distance_ = type == 1 ? 1e30 : type == 2 ? magnitude_d : type == 3 ? magnitude_d : 1e30;
+            distance_ = light_type == 1 ? 1e30 : light_type == 2 ? magnitude_d : light_type == 3 ? magnitude_d : 1e30;
             light = product_2 / greater_7;
         }
         if (greater_7 > 0.0) {

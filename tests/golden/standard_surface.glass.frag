@@ -217,21 +217,22 @@ void main()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
-        int type = u_lightData[i].type;
-        if (type == 1) {
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
-            if (type == 2) {
+            if (light_type == 2) {
                 L = to_light;
                 intensity = ratio;
             } else {
                 L = to_light;
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = type == 3 ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
