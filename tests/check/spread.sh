@@ -153,7 +153,8 @@ fi
 mkfifo pipe.mtlx
 is_running() { case $(ps -o stat= -p "$1") in '' | Z*) return 1 ;; esac; }
 for signal in TERM HUP KILL; do # a shell makes its background jobs ignore SIGINT
-    "$mxgen" check pipe.mtlx --no-compile --json ended.json >/dev/null 2>&1 &
+    # also where the tests themselves run under nohup
+    env --default-signal=HUP "$mxgen" check pipe.mtlx --no-compile --json ended.json >/dev/null 2>&1 &
     run=$! worker=
     for _ in $(seq 200); do
         worker=$(pgrep -P "$run") && [ -n "$(find . -maxdepth 1 -name 'ended.json.*')" ] && break
