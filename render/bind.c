@@ -504,12 +504,12 @@ static bool make_objects(struct bind *bind)
     return true;
 }
 
-static bool has_second_source(const mxg_result *result)
+bool bind_has_semantic(const mxg_result *result, const char *semantic)
 {
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
         mxg_variable variable = {sizeof variable};
         mxg_result_variable(result, i, &variable);
-        if (variable.block == MXG_BLOCK_OUTPUTS && strcmp(variable.semantic, "transmittance") == 0)
+        if (strcmp(variable.semantic, semantic) == 0)
             return true;
     }
     return false;
@@ -520,7 +520,7 @@ bool bind_shader(struct bind *bind)
     mxg_shader_info info = {sizeof info};
     mxg_result_info(bind->result, &info);
     bind->draw.blend = info.alpha == MXG_ALPHA_BLEND && !bind->is_opaque;
-    bind->draw.blends_twice = bind->draw.blend && has_second_source(bind->result);
+    bind->draw.blends_twice = bind->draw.blend && bind_has_semantic(bind->result, "transmittance");
     bind->max_lights = info.num_lights;
     return make_objects(bind) && check_values(bind) && make_blocks(bind) && bind_textures(bind)
            && bind_attributes(bind) && bind_scene(bind);

@@ -57,6 +57,8 @@ struct bind {
  * Fills bind->draw except its code and size. false: see bind->reason. Call bind_finish in any case.
  */
 bool bind_shader(struct bind *bind);
+/* True if a variable of the shader has this semantic (docs/reflection.md). */
+bool bind_has_semantic(const mxg_result *result, const char *semantic);
 /* What the user says of an input; NULL: nothing. */
 const char *bind_user_value(const struct bind *bind, const mxg_variable *variable);
 /* Updates the data that depends on the camera and other uniforms of the scene. */

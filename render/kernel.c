@@ -251,18 +251,6 @@ static void append_aovs(struct source *source, const mxg_result *result, const s
     append_light_aovs(source, aovs);
 }
 
-/* True if the surface is a pile of matter, through which light walks at random. */
-static bool is_matter(const mxg_result *result)
-{
-    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
-        mxg_variable variable = {sizeof variable};
-        mxg_result_variable(result, i, &variable);
-        if (variable.block == MXG_BLOCK_OUTPUTS && strcmp(variable.name, "out9") == 0)
-            return true;
-    }
-    return false;
-}
-
 static bool compile(struct kernel *kernel, const struct trace_options *options, bool displaces,
                     struct compiled *out)
 {
@@ -282,7 +270,7 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
            options->as_drawn ? "const bool AS_DRAWN = true;\n" : "const bool AS_DRAWN = false;\n");
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
-    append(&source, is_matter(kernel->bind->result) ? "#define MATTER\n" : "");
+    append(&source, bind_has_semantic(kernel->bind->result, "matter") ? "#define MATTER\n" : "");
     append(&source, displaces ? "#define DISPLACES\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);

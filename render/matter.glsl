@@ -68,9 +68,10 @@ void walk(inout Path path, vec3 up)
 void leave_evenly(inout Path path, Point point, vec3 up, vec4 towards)
 {
     float density = max(dot(towards.xyz, up), 0.0) / PI, spread = towards.w;
-    add_light(path, point, towards.xyz, FAR, environment(towards.xyz) * (density * spread / (1.0 + spread * density)), LATER);
+    vec3 around = environment(towards.xyz) * (density * spread / (1.0 + spread * density));
+    add_light(path, point, towards.xyz, FAR, around, vec3(0.0), LATER);
 #ifdef LIGHTS
-    add_light(path, point, out6.xyz, min(out6.w, FAR), out7.rgb * (max(dot(out6.xyz, up), 0.0) / PI), LATER);
+    add_light(path, point, out6.xyz, min(out6.w, FAR), out7.rgb * (max(dot(out6.xyz, up), 0.0) / PI), vec3(0.0), LATER);
 #endif
     path.direction = draw_cosine(frame_of(up), 1.0, next_random().xy);
     path.density = dot(path.direction, up) / PI;

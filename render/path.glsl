@@ -323,9 +323,12 @@ void receive(inout Path path, vec3 light, uint of, vec3 through)
     }
 }
 
-// Light that comes to the point from there, unless something stands before it; what is behind `limit` is behind the light.
-void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 light, uint of)
+// Light that comes to the point from there, unless something stands before it; what is behind `limit` is behind the light. `most`: the most
+// that AOVs take of it.
+void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 light, vec3 most, uint of)
 {
+    if (!is_light(max(light, most)))
+        return;
     if (AS_DRAWN) // it has no shadows
         receive(path, light, of, path.through);
     else
@@ -337,11 +340,9 @@ void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 l
 void gather(inout Path path, Point point, vec3 direction, vec3 arrives, mat3 most, bool is_first)
 {
     vec3 around = out5.rgb * arrives;
-    if (is_light(max(around, most[BY_ENVIRONMENT])))
-        add_light(path, point, direction, FAR, around, is_first ? BY_ENVIRONMENT : LATER);
+    add_light(path, point, direction, FAR, around, most[BY_ENVIRONMENT], is_first ? BY_ENVIRONMENT : LATER);
 #ifdef LIGHTS
-    if (is_light(max(out7.rgb, most[BY_LIGHT])))
-        add_light(path, point, out6.xyz, min(out6.w, FAR), out7.rgb, is_first ? BY_LIGHT : LATER);
+    add_light(path, point, out6.xyz, min(out6.w, FAR), out7.rgb, most[BY_LIGHT], is_first ? BY_LIGHT : LATER);
 #endif
 }
 
