@@ -301,12 +301,14 @@ async function begin() {
     fillSelect($("shape"), SHAPE_NAMES, "ball");
     listen();
     showTab("messages");
-    const about = compiler.ask("about");
+    const started = compiler.ask("started"), about = compiler.ask("about");
     let fault = null;
     const isShared = await openAddress().catch(error => { fault = error; });
     if (!isShared)
         setText(gold);
-    openView(); // while the compiler works
+    // To open the view takes the page a while, in which the worker compiles; but a worker starts only while its page waits.
+    await started.catch(() => {});
+    openView();
     const { targets, version } = await about;
     fillSelect($("target"), targets, "essl");
     document.querySelector("h1").title = `mxgen ${version}`;

@@ -54,11 +54,12 @@ export class View {
     #frame = 0;
     #isBusy = false; // the device draws a frame
     #rest = 0;
+    #numChanges = 0; // since the view was opened
     #shape = "ball";
     camera = { ...CAMERA };
     hasMoved = false; // an input has another value than the document of the shader
     onChange = () => {}; // the picture is out of date
-    onPicture = () => {}; // the picture is drawn; the argument tells whether with all samples
+    onPicture = () => {}; // the picture is drawn; the argument tells whether with all samples and changes
     onError = () => {};
 
     constructor(canvas) {
@@ -83,11 +84,7 @@ export class View {
         this.#target = null;
         gl.getExtension("EXT_color_buffer_float");
         this.#parallel = gl.getExtension("KHR_parallel_shader_compile");
-        this.#develop = this.#link(DEVELOP_VERTEX, DEVELOP_PIXEL);
-        this.#sky ??= makeSky();
-        this.#maps = Object.fromEntries(Object.entries(this.#sky).map(([name, levels]) => [name, this.#upload(levels)]));
-        this.#missing = this.#checker();
-        this.#mesh(1);
+        this.#maps = null;
         for (const [file, { image }] of this.#textures)
             this.setTexture(file, image);
         const shader = this.#complete ?? (this.#pending ?? this.#drawn)?.shader;
@@ -97,8 +94,19 @@ export class View {
             this.setShader(shader);
     }
 
+    /** Makes what a picture needs beside its shader, while the driver compiles that. */
+    #prepare() {
+        if (this.#maps)
+            return;
+        this.#develop = this.#link(DEVELOP_VERTEX, DEVELOP_PIXEL);
+        this.#sky ??= makeSky();
+        this.#maps = Object.fromEntries(Object.entries(this.#sky).map(([name, levels]) => [name, this.#upload(levels)]));
+        this.#missing = this.#checker();
+        this.#mesh(1);
+    }
+
     #develop;
-    #maps;
+    #maps = null;
     #missing;
 
     // ---- Programs ----
@@ -130,6 +138,7 @@ export class View {
             return;
         this.#isPreview = true;
         this.#drop({ shader, program: this.#link(shader.vertex, shader.pixel) });
+        this.#prepare();
         this.draw();
     }
 
@@ -155,6 +164,7 @@ export class View {
             return;
         }
         this.#drop({ shader, program: this.#link(shader.vertex, shader.pixel) });
+        this.#prepare();
         this.draw();
     }
 
@@ -233,6 +243,7 @@ export class View {
 
     /** Asks for a frame: now with one sample for each pixel, and with all when the picture rests. */
     draw() {
+        this.#numChanges++;
         this.onChange();
         clearTimeout(this.#rest);
         this.#rest = setTimeout(() => this.#request(OVERSAMPLING), IDLE);
@@ -302,9 +313,10 @@ export class View {
         gl.drawElements(gl.TRIANGLES, mesh.indices.length, gl.UNSIGNED_INT, 0);
         this.#developFrame(width, height, isPreview ? 0 : oversampling);
         this.#isBusy = true;
+        const numChanges = this.#numChanges;
         this.#whenDrawn(() => {
             this.#isBusy = false;
-            this.onPicture(!isPreview && oversampling === OVERSAMPLING);
+            this.onPicture(!isPreview && oversampling === OVERSAMPLING && numChanges === this.#numChanges);
             if (isPreview)
                 this.#endPreview();
         });

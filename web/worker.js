@@ -77,6 +77,11 @@ function distinct(diagnostics) {
 }
 
 const KINDS = {
+    /** The answer tells that the worker runs; the compiler may not be ready. */
+    started() {
+        return {};
+    },
+
     async about() {
         const { mxgen } = await ready;
         return { version: mxgen.version, targets: mxgen.targets.map(({ name }) => name) };

@@ -84,7 +84,7 @@ const drop = files => `(() => {
 
 if (mode !== "pictures") {
     test("from a folder on disk: a picture, its inputs, and no complaints", () => withPage(onDisk, async page => {
-        await page.until("document.body.dataset.picture");
+        await page.until("document.body.dataset.picture && document.body.dataset.compiled");
         assert.equal(await textOf(page), example("gold.mtlx"));
         assert.match(await status(page), /^1 closures, \d+ ms$/);
         assert.deepEqual(await page.evaluate("[...document.querySelectorAll('#inputs label')].map(label => label.dataset.path).slice(0, 2)"),
@@ -184,10 +184,10 @@ if (mode !== "pictures") {
         const part = `<materialx version="1.39"><image name="i" type="color3"><input name="file" type="filename" value="textures/dot.png"/></image>
             <standard_surface name="SR" type="surfaceshader"><input name="base_color" type="color3" nodename="i"/><input name="specular" type="float" value="0"/>
             </standard_surface></materialx>`;
-        await page.evaluate(drop([["main.mtlx", "", main]]));
+        await compile(page, drop([["main.mtlx", "", main]]));
         await page.until("document.querySelector('#messages .error')"); // the include is missing
         // Includes come beside the document: the first .mtlx is the document.
-        await page.evaluate(drop([["main.mtlx", "", main], ["part.mtlx", "", part]]));
+        await compile(page, drop([["main.mtlx", "", main], ["part.mtlx", "", part]]));
         await page.until("/textures\\/dot.png/.test(document.getElementById('status').textContent)");
         const blue = await page.evaluate(`(async () => {
             const canvas = new OffscreenCanvas(4, 4), context = canvas.getContext("2d");
