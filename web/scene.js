@@ -7,8 +7,8 @@ const PI = Math.PI, DEGREE = PI / 180;
 // ---- Vectors and matrices; a matrix has its columns one after the other ----
 
 function normalize(v) {
-    const length = Math.hypot(...v);
-    return v.map(x => x / length);
+    const length = Math.sqrt(dot(v, v));
+    return [v[0] / length, v[1] / length, v[2] / length];
 }
 
 function cross(a, b) {
@@ -95,29 +95,36 @@ const SHAPES = {
 };
 export const SHAPE_NAMES = Object.keys(SHAPES);
 
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const sum = (items, value) => items.reduce((total, item) => total + value(item), 0);
+
 /** Position, normal, tangent and texture coordinates of all vertices, and indices of triangles. `detail` multiplies the cells. */
 export function makeMesh(name, detail) {
-    const position = [], normal = [], tangent = [], texcoord = [], indices = [];
+    const patches = SHAPES[name].map(([point, across, up]) => ({ point, across: across * detail, up: up * detail }));
+    const count = sum(patches, ({ across, up }) => (across + 1) * (up + 1));
+    const position = new Float32Array(3 * count), normal = new Float32Array(3 * count), tangent = new Float32Array(3 * count);
+    const texcoord = new Float32Array(2 * count), indices = new Uint32Array(6 * sum(patches, ({ across, up }) => across * up));
     const inside = x => Math.max(1e-4, Math.min(1 - 1e-4, x)); // away from poles, where a patch has no tangent
-    for (const [point, cellsAcross, cellsUp] of SHAPES[name]) {
-        const across = cellsAcross * detail, up = cellsUp * detail, first = texcoord.length / 2;
+    let vertex = 0, index = 0;
+    for (const { point, across, up } of patches) {
+        const first = vertex;
         for (let j = 0; j <= up; j++)
-            for (let i = 0; i <= across; i++) {
+            for (let i = 0; i <= across; i++, vertex++) {
                 const u = i / across, v = j / up, a = inside(u), b = inside(v);
-                const [left, right, below, above] = [point(a - 1e-5, b), point(a + 1e-5, b), point(a, b - 1e-5), point(a, b + 1e-5)];
-                const x = right.map((_, c) => right[c] - left[c]), y = above.map((_, c) => above[c] - below[c]);
-                position.push(...point(u, v));
-                normal.push(...normalize(cross(x, y)));
-                tangent.push(...normalize(x));
-                texcoord.push(u, v);
+                const x = minus(point(a + 1e-5, b), point(a - 1e-5, b)), y = minus(point(a, b + 1e-5), point(a, b - 1e-5));
+                position.set(point(u, v), 3 * vertex);
+                normal.set(normalize(cross(x, y)), 3 * vertex);
+                tangent.set(normalize(x), 3 * vertex);
+                texcoord[2 * vertex] = u;
+                texcoord[2 * vertex + 1] = v;
             }
         for (let j = 0; j < up; j++)
-            for (let i = 0; i < across; i++) {
+            for (let i = 0; i < across; i++, index += 6) {
                 const corner = first + j * (across + 1) + i, higher = corner + across + 1;
-                indices.push(corner, corner + 1, higher + 1, corner, higher + 1, higher);
+                indices.set([corner, corner + 1, higher + 1, corner, higher + 1, higher], index);
             }
     }
-    return { count: texcoord.length / 2, position, normal, tangent, texcoord, indices: new Uint32Array(indices) };
+    return { count, position, normal, tangent, texcoord, indices };
 }
 
 /** The triangles of a mesh in the order of their distance, the farthest first. A counting sort, because each frame needs it. */
@@ -152,7 +159,7 @@ const LINEAR = [
 export function attributeOf(mesh, name) {
     const own = { i_position: [mesh.position, 3], i_normal: [mesh.normal, 3], i_tangent: [mesh.tangent, 3], i_texcoord_0: [mesh.texcoord, 2] }[name];
     if (own)
-        return { values: new Float32Array(own[0]), components: own[1] };
+        return { values: own[0], components: own[1] };
     const found = LINEAR.find(([pattern]) => pattern.test(name));
     if (!found)
         return null;
