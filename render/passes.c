@@ -22,9 +22,10 @@ static const struct {
     int which; /* -1: all tiles */
     enum use use;
 } runs[] = {
-    {"classify", -1, LIGHTS},    {"compose", 0, LIGHTS},       {"light_simple", 1, LIGHTS},
-    {"light_single", 2, LIGHTS}, {"light_complex", 3, LIGHTS}, {"light_special", 4, LIGHTS},
-    {"diffuse", -1, LIGHTS},     {"show", -1, SHOWS},          {"light_rays", -1, LIGHTS_RAYS},
+    {"classify", -1, LIGHTS},        {"compose", 0, LIGHTS},       {"light_simple", 1, LIGHTS},
+    {"light_single", 2, LIGHTS},     {"light_complex", 3, LIGHTS}, {"light_special", 4, LIGHTS},
+    {"diffuse", -1, LIGHTS},         {"blur", -1, LIGHTS},         {"show", -1, SHOWS},
+    {"light_rays", -1, LIGHTS_RAYS},
 };
 
 /* Makes the text of a pass; false: with the first message. */

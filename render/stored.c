@@ -18,6 +18,7 @@ enum {
     PAYLOADS,
     RAYS,
     SCATTERED,
+    BELOW,
     NUM_BINDINGS
 };
 
@@ -34,6 +35,7 @@ static const VkDescriptorType types[NUM_BINDINGS] = {
     [PAYLOADS] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     [RAYS] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     [SCATTERED] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+    [BELOW] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
 };
 
 struct frame { /* as the passes declare it */
@@ -54,7 +56,7 @@ struct stored {
     bool marks; /* fills the words with `mark` first */
     uint32_t mark;
     const struct gpu_image *lit, *depth;
-    struct gpu_image color, targets[STORED_TARGETS], words, scattered;
+    struct gpu_image color, targets[STORED_TARGETS], words, scattered, below;
     struct gpu_buffer tiles, frame;
     struct gpu_buffer payloads, rays; /* of stored_hold_rays */
     VkSampler sampler;
@@ -83,6 +85,9 @@ static bool create_images(struct stored *stored, uint32_t words)
            && gpu_create_image(gpu, VK_FORMAT_R16G16B16A16_SFLOAT, width, height, 2, 1,
                                VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
                                &stored->scattered)
+           && gpu_create_image(gpu, VK_FORMAT_R16G16B16A16_SFLOAT, width, height, 2, 1,
+                               VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
+                               &stored->below)
            && gpu_create_image(gpu, VK_FORMAT_R32_UINT, width, height, words ? words : 1, 1,
                                VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT
                                    | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
@@ -139,6 +144,7 @@ static VkImageView view_of(const struct stored *stored, uint32_t binding)
     case COLOR: return stored->color.view;
     case LIT: return stored->lit->view;
     case SCATTERED: return stored->scattered.view;
+    case BELOW: return stored->below.view;
     default: return stored->targets[binding - WORD_0].view;
     }
 }
@@ -160,7 +166,7 @@ static void write_set(struct stored *stored, uint32_t first, uint32_t end)
         const VkDescriptorBufferInfo buffer = {from->buffer, 0, VK_WHOLE_SIZE};
         VkDescriptorImageInfo image = {.sampler = stored->sampler,
                                        .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
-        if (i < TILES || i == SCATTERED)
+        if (i < TILES || i >= SCATTERED)
             image.imageView = view_of(stored, i);
         const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                             .dstSet = stored->set,
@@ -247,6 +253,7 @@ void stored_close(struct stored *stored)
     gpu_destroy_buffer(gpu, &stored->tiles);
     gpu_destroy_image(gpu, &stored->words);
     gpu_destroy_image(gpu, &stored->scattered);
+    gpu_destroy_image(gpu, &stored->below);
     for (unsigned i = 0; i < STORED_TARGETS; ++i)
         gpu_destroy_image(gpu, &stored->targets[i]);
     gpu_destroy_image(gpu, &stored->color);
@@ -329,6 +336,7 @@ void stored_begin(const struct stored *stored, VkCommandBuffer commands)
         make_general(commands, &stored->targets[i], VK_IMAGE_ASPECT_COLOR_BIT);
     make_general(commands, &stored->words, VK_IMAGE_ASPECT_COLOR_BIT);
     make_general(commands, &stored->scattered, VK_IMAGE_ASPECT_COLOR_BIT);
+    make_general(commands, &stored->below, VK_IMAGE_ASPECT_COLOR_BIT);
     if (!stored->marks)
         return;
     const VkClearColorValue mark = {.uint32 = {stored->mark}};

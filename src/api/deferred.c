@@ -27,6 +27,7 @@ struct deferred_layout generation_storage(const struct option_value *options,
         .sets = target->caps & CAP_SETS,
         .is_payload = is_payload,
         .diffuses = !is_payload && options[OPTION_sss].number,
+        .blurs = !is_payload && options[OPTION_rough_refraction].number,
     };
 }
 

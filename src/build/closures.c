@@ -46,13 +46,14 @@ static ir_ref slab_like(void *user_data, ir_ref leaf, ir_ref albedo)
 
 static struct slabs_host slabs_host(struct builder *b, const struct closure_host *closures)
 {
-    return (struct slabs_host){.user_data = b,
-                               .lobes = slab_lobes,
-                               .slab_of = slab_of,
-                               .slab_like = slab_like,
-                               .closures = closures,
-                               .tracks_roughness =
-                                   !(b->options->slab_features_off & 1u << SLAB_ROUGHNESS)};
+    return (struct slabs_host){
+        .user_data = b,
+        .lobes = slab_lobes,
+        .slab_of = slab_of,
+        .slab_like = slab_like,
+        .closures = closures,
+        .tracks_roughness = !(b->options->slab_features_off & 1u << SLAB_ROUGHNESS),
+        .blurs = b->options->blurs && !(b->options->slab_features_off & 1u << SLAB_REFRACTION)};
 }
 
 ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, ir_ref root)

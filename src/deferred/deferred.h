@@ -29,6 +29,7 @@ struct deferred_layout {
     bool sets;       /* the target has descriptor sets */
     bool is_payload; /* of a ray, in place of a pixel */
     bool diffuses;   /* the option `sss`: the pass "diffuse" spreads the light of bodies */
+    bool blurs;      /* the option `rough-refraction`: the pass "blur" */
 };
 
 /* A hash of the storage: materials and passes with equal ones fit together. */
@@ -67,6 +68,7 @@ enum deferred_pass {
     PASS_COMPLEX,
     PASS_SPECIAL,
     PASS_DIFFUSE,
+    PASS_BLUR,
     PASS_SHOW,
     PASS_LIGHT_RAYS, /* over payloads, not pixels */
     NUM_PASSES

@@ -36,8 +36,13 @@ static const struct {
      {"scattered", "image2DArray", "rgba16f",
       "two layers, with --sss diffusion: light that enters bodies over their albedo, and other "
       "light of the same pixels"}},
+    {"MX_BELOW",
+     {"below", "image2DArray", "rgba16f",
+      "two layers, with --rough-refraction blur: light from below rough interfaces with the width "
+      "of its blur, and other light of the same pixels"}},
 };
 #define NUM_RESOURCES (sizeof resources / sizeof *resources)
+enum { SCATTERED = NUM_RESOURCES - 2, BELOW }; /* those that depend on options */
 
 static const struct {
     const char *name;
@@ -53,6 +58,7 @@ static const struct {
     [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, true, deferred_light, 0x1ff},
     [PASS_SPECIAL] = {"light_special", CLASS_SPECIAL, true, deferred_light, 0x1ff},
     [PASS_DIFFUSE] = {"diffuse", CLASS_EMPTY, false, deferred_diffuse, 0x15e | 1},
+    [PASS_BLUR] = {"blur", CLASS_EMPTY, false, deferred_blur, 0x150},
     [PASS_SHOW] = {"show", CLASS_EMPTY, false, deferred_show, 0x14f},
     [PASS_LIGHT_RAYS] = {"light_rays", CLASS_COMPLEX, false, deferred_light_rays, 0x740},
 };
@@ -71,13 +77,23 @@ static bool knows_bodies(enum deferred_pass pass)
            || pass == PASS_SPECIAL || pass == PASS_DIFFUSE;
 }
 
+/* Only pixels with several closures have light from below an interface. */
+static bool knows_blur(enum deferred_pass pass, const struct deferred_layout *layout)
+{
+    return pass == PASS_CLASSIFY || pass == PASS_COMPLEX || pass == PASS_SPECIAL
+           || pass == PASS_BLUR || (pass == PASS_DIFFUSE && layout->diffuses);
+}
+
 bool deferred_reads(enum deferred_pass pass, const struct deferred_layout *layout,
                     uint32_t resource)
 {
     assert(pass < NUM_PASSES && resource < NUM_RESOURCES);
-    if (resource == NUM_RESOURCES - 1)
+    if (resource == SCATTERED)
         return layout->diffuses && knows_bodies(pass);
-    return passes[pass].reads >> resource & 1 && (layout->diffuses || pass != PASS_DIFFUSE);
+    if (resource == BELOW)
+        return layout->blurs && knows_blur(pass, layout);
+    return passes[pass].reads >> resource & 1 && (layout->diffuses || pass != PASS_DIFFUSE)
+           && (layout->blurs || pass != PASS_BLUR);
 }
 
 bool deferred_is_indirect(enum deferred_pass pass)
@@ -131,7 +147,8 @@ void deferred_copy_closures(char *out)
 
 void deferred_write_storage(const struct deferred_layout *layout, struct text *out)
 {
-    text_fmt(out, "#define MX_STORAGE %u\n", (unsigned)layout->storage);
+    text_fmt(out, "#define MX_STORAGE %u\n#define MX_BLUR %d\n", (unsigned)layout->storage,
+             layout->blurs);
     for (unsigned i = 0; i < NUM_RESOURCES; i++) {
         text_fmt(out, "#define %s ", resources[i].macro);
         if (layout->sets)
@@ -145,7 +162,7 @@ uint32_t deferred_layout_number(const struct deferred_layout *layout)
 {
     uint64_t h = HASH_STABLE_SEED;
     uint32_t storage = (uint32_t)layout->storage | (uint32_t)layout->is_payload << 8
-                       | (uint32_t)layout->diffuses << 9;
+                       | (uint32_t)layout->diffuses << 9 | (uint32_t)layout->blurs << 10;
     for (const char *const *line = deferred_record; *line; line++)
         h = hash_stable(h, *line, strlen(*line));
     h = hash_stable(h, &storage, sizeof storage);
@@ -196,6 +213,8 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
     deferred_write_storage(layout, out);
     deferred_write_lines(pass == PASS_LIGHT_RAYS ? deferred_unpack : deferred_read, out);
     deferred_write_lines(deferred_frame, out);
+    if ((pass == PASS_DIFFUSE && layout->diffuses) || (pass == PASS_BLUR && layout->blurs))
+        deferred_write_lines(deferred_plane, out);
     if (surface)
         write_fill(surface, out);
     deferred_write_lines(passes[pass].text, out);

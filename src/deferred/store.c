@@ -116,6 +116,7 @@ enum mark_operand {
     MARK_glint_uv,
     MARK_specular_lut,
     MARK_specular_lut_weight,
+    MARK_blur,
     NUM_MARK_OPERANDS
 };
 

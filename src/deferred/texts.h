@@ -5,7 +5,9 @@
 
 extern const char *const deferred_record[];
 extern const char *const deferred_store_closure[];
+extern const char *const deferred_plane[];
 extern const char *const deferred_diffuse[];
+extern const char *const deferred_blur[];
 extern const char *const deferred_write[];
 extern const char *const deferred_read[];
 extern const char *const deferred_frame[];

@@ -32,6 +32,7 @@ struct slab_place {
     ir_ref thickness; /* float, centimetres */
     ir_ref below;     /* vec3: albedo of everything below */
     ir_ref is_body;   /* float: 1 at the bottom of a body, 0 in a layer or sheet */
+    ir_ref blur;      /* float, centimetres: deviation by rough interfaces above; 0: none */
 };
 
 struct slabs_host {
@@ -47,6 +48,7 @@ struct slabs_host {
     ir_ref (*slab_like)(void *user_data, ir_ref leaf, ir_ref albedo);
     const struct closure_host *closures;
     bool tracks_roughness; /* matter below a rough interface looks rougher */
+    bool blurs;            /* and is blurred: slab_place.blur */
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };
 

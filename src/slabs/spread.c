@@ -2,7 +2,8 @@
 #include "slabs/spread.h"
 
 #define POWER 1.1f
-#define MOST 0.999f /* alpha^1.1 of the widest lobe */
+#define MOST 0.999f   /* alpha^1.1 of the widest lobe */
+#define SLOPE 0.0801f /* of alpha 1: 1 / (18 ln 2) */
 
 static ir_ref num(struct ir_graph *g, float f)
 {
@@ -55,11 +56,24 @@ static ir_ref presence(struct ir_graph *g, const ir_ref *in)
     return ir_op3(g, IR_SELECT, is_open, bend, zero);
 }
 
-ir_ref slab_spread(struct ir_graph *g, const ir_ref *in)
+/* Of both lobes. */
+static ir_ref mean_alpha(struct ir_graph *g, const ir_ref *in)
 {
     ir_ref mean =
         mixed(g, in[SLAB_roughness], in[SLAB_second_roughness], in[SLAB_second_roughness_weight]);
-    ir_ref alpha = mul(g, mean, mean), seen = presence(g, in);
+    return mul(g, mean, mean);
+}
+
+ir_ref slab_slope(struct ir_graph *g, const ir_ref *in)
+{
+    ir_ref alpha = mean_alpha(g, in), seen = presence(g, in), unit = num(g, SLOPE);
+    ir_ref slope = mul(g, mul(g, alpha, alpha), unit);
+    return mul(g, mul(g, slope, seen), in[SLAB_coverage]);
+}
+
+ir_ref slab_spread(struct ir_graph *g, const ir_ref *in)
+{
+    ir_ref alpha = mean_alpha(g, in), seen = presence(g, in);
     ir_ref inwards = variance(g, mul(g, alpha, num(g, 1.0f / 6.0f)));
     ir_ref outwards = variance(g, mul(g, alpha, num(g, 0.25f)));
     ir_ref both = ir_op2(g, IR_ADD, inwards, outwards);

@@ -20,10 +20,19 @@
 
 #include <assert.h>
 
+/*
+ * The way of the view behind rough interfaces: covariance of its slope and its place along an axis
+ * of the surface, floats; all 0: the interfaces above are smooth, or nobody blurs.
+ */
+struct way {
+    ir_ref slope, both, place;
+};
+
 struct where {
     ir_ref thickness; /* float, centimetres */
     ir_ref below;     /* closure: the lobes of everything below; 0: nothing */
     ir_ref spread;    /* float: of the interfaces above; 0: there are none */
+    struct way way;
     uint32_t is_body;
 };
 
@@ -44,7 +53,8 @@ struct walk {
     struct table known; /* visits by hash */
     VEC(uint32_t) open;
     VEC(ir_ref) albedos; /* in pairs: lobes, their albedo */
-    ir_ref *spreads;     /* per node below the root: of a closure, a float; 0: none */
+    /* per node below the root, of a closure, a float; 0: none */
+    ir_ref *spreads, *slopes;
 };
 
 static bool is_closure(const struct walk *w, ir_ref ref)
@@ -61,15 +71,12 @@ static bool has_slabs(const struct walk *w, ir_ref ref)
 
 static uint32_t hash_of(ir_ref node, const struct where *where)
 {
-    uint32_t words[] = {node, where->thickness, where->below, where->spread, where->is_body};
-    return hash_bytes(words, sizeof words);
+    return hash_bytes(where, sizeof *where) ^ node * UINT32_C(0x9e3779b9);
 }
 
 static bool is_visit(const struct visit *visit, ir_ref node, const struct where *where)
 {
-    return visit->node == node && visit->where.thickness == where->thickness
-           && visit->where.below == where->below && visit->where.spread == where->spread
-           && visit->where.is_body == where->is_body;
+    return visit->node == node && memcmp(&visit->where, where, sizeof *where) == 0;
 }
 
 /* The number of a visit + 1; 0: there is none yet. */
@@ -206,7 +213,9 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
     slab_widen(g, where->spread, inputs);
     struct slab_place place = {.thickness = where->thickness,
                                .below = ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
-                               .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f)};
+                               .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f),
+                               .blur = where->way.place ? ir_op1(g, IR_SQRT, where->way.place)
+                                                        : ir_const_float(g, 0.0f)};
     if (where->below && may_bounce(w, inputs))
         place.below = albedo_of(w, where->below);
     ir_ref lobes = w->host->lobes(w->host->user_data, inputs, &place);
@@ -229,20 +238,33 @@ static ir_ref sum_of(struct ir_graph *g, ir_ref a, ir_ref b)
     return a && b ? ir_op2(g, IR_ADD, a, b) : a ? a : b;
 }
 
+/* Goes through an interface and then a thickness: a shear, place += thickness * slope. */
+static struct way way_below(struct ir_graph *g, struct way way, ir_ref slope, ir_ref thickness)
+{
+    way.slope = sum_of(g, way.slope, slope);
+    if (!way.slope)
+        return way;
+    ir_ref step = ir_op2(g, IR_MUL, thickness, way.slope), before = way.both;
+    way.both = sum_of(g, before, step);
+    ir_ref twice = sum_of(g, before, way.both);
+    way.place = sum_of(g, way.place, ir_op2(g, IR_MUL, thickness, twice));
+    return way;
+}
+
 /* A layer. False: an operand is open. */
 static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *out_result)
 {
     struct ir_graph *g = w->graph;
     const struct ir_node node = *ir_get(g, ref);
     ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
+    ir_ref thickness =
+        node.op == IR_SLAB_LAYER ? ir_arg(g, ref, 2) : ir_const_float(g, SLABS_LAYER_THICKNESS);
     struct where below = where;
     below.spread = sum_of(g, where.spread, top ? w->spreads[top] : 0);
+    below.way = way_below(g, where.way, top ? w->slopes[top] : 0, thickness);
     if (!visited(w, base, below, &base))
         return false;
-    struct where above = {.thickness = node.op == IR_SLAB_LAYER
-                                           ? ir_arg(g, ref, 2)
-                                           : ir_const_float(g, SLABS_LAYER_THICKNESS),
-                          .spread = where.spread};
+    struct where above = {.thickness = thickness, .spread = where.spread, .way = where.way};
     bool is_surface = base && ir_type_of(g, base) == IR_TYPE_BSDF;
     above.below = is_surface ? layered(w, base, where.below) : where.below;
     if (!visited(w, top, above, &top))
@@ -373,25 +395,27 @@ static uint8_t *find_slabs(const struct shader *shader, ir_ref root)
     return has;
 }
 
-/* What an operator spreads: both of a layer, the mean of a mix. */
-static ir_ref spread_of_operator(struct walk *w, ir_ref ref)
+/* A variance of an operator, from those of its operands: the sum of a layer, the mean of a mix. */
+static ir_ref variance_of_operator(struct walk *w, ir_ref ref, const ir_ref *variances)
 {
     struct ir_graph *g = w->graph;
     const struct ir_node node = *ir_get(g, ref);
-    ir_ref a = ir_arg(g, ref, 0) ? w->spreads[ir_arg(g, ref, 0)] : 0;
+    ir_ref a = ir_arg(g, ref, 0) ? variances[ir_arg(g, ref, 0)] : 0;
     if (node.op == IR_CLOSURE_SCALE)
         return a;
-    ir_ref b = ir_arg(g, ref, 1) ? w->spreads[ir_arg(g, ref, 1)] : 0;
+    ir_ref b = ir_arg(g, ref, 1) ? variances[ir_arg(g, ref, 1)] : 0;
     if (node.op != IR_CLOSURE_MIX || (!a && !b))
         return sum_of(g, a, b);
     ir_ref nothing = ir_const_float(g, 0.0f);
     return ir_op3(g, IR_MIX, a ? a : nothing, b ? b : nothing, ir_arg(g, ref, 2));
 }
 
-static void find_spreads(struct walk *w)
+/* The variances of all nodes: `of_slab` says those of slabs. All 0 if nobody asks. */
+static ir_ref *find_variances(struct walk *w, bool is_asked,
+                              ir_ref (*of_slab)(struct ir_graph *graph, const ir_ref *inputs))
 {
-    w->spreads = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
-    for (ir_ref ref = 1; w->host->tracks_roughness && ref < w->num_nodes; ref++) {
+    ir_ref *variances = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
+    for (ir_ref ref = 1; is_asked && ref < w->num_nodes; ref++) {
         if (!w->has_slabs[ref])
             continue;
         const struct ir_node node = *ir_get(w->graph, ref);
@@ -399,11 +423,12 @@ static void find_spreads(struct walk *w)
         if (node.op == IR_SLAB) {
             ir_ref in[NUM_SLAB_OPERANDS];
             memcpy(in, ir_args(w->graph, ref), sizeof in);
-            w->spreads[ref] = slab_spread(w->graph, in);
+            variances[ref] = of_slab(w->graph, in);
         } else if (node.type == IR_TYPE_BSDF && (is_layer || is_operator(&node))) {
-            w->spreads[ref] = spread_of_operator(w, ref);
+            variances[ref] = variance_of_operator(w, ref, variances);
         }
     }
+    return variances;
 }
 
 bool slabs_has(const struct shader *shader, ir_ref ref)
@@ -418,7 +443,8 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
     w.has_slabs = find_slabs(shader, root);
     if (!root || !w.has_slabs[root])
         return root;
-    find_spreads(&w);
+    w.spreads = find_variances(&w, host->tracks_roughness, slab_spread);
+    w.slopes = find_variances(&w, host->blurs, slab_slope);
     if (ir_type_is_closure(ir_type_of(g, root)))
         return walk_closure(&w, root, body(&w));
     ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.num_nodes);

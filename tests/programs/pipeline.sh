@@ -7,7 +7,7 @@ source "$(dirname "$(realpath "$0")")/common.sh"
 # ---- passes ----
 
 check "passes" "$mxgen" pipeline passes
-for name in classify compose light_simple light_single light_complex light_special diffuse show light_rays; do
+for name in classify compose light_simple light_single light_complex light_special diffuse blur show light_rays; do
     check "$name" test -s "passes/$name.comp" -a -s "passes/$name.json"
 done
 check "passes for OpenGL" "$mxgen" pipeline gl --target glsl
@@ -27,7 +27,9 @@ compiles() {
 if command -v glslangValidator >/dev/null; then
     "$mxgen" pipeline shadow --shadow-map --environment prefiltered --albedo table --storage float >/dev/null
     "$mxgen" pipeline spread --sss diffusion >/dev/null
-    for folder in passes few shadow spread; do
+    "$mxgen" pipeline blurred --rough-refraction blur >/dev/null
+    "$mxgen" pipeline soft --rough-refraction blur --sss diffusion >/dev/null
+    for folder in passes few shadow spread blurred soft; do
         check "$folder compile" compiles "$folder" "-V -o code.spv"
     done
     check "gl compile" compiles gl ""
@@ -51,8 +53,11 @@ check "one layout in all reflections" fits
 other_layout() { [ "$(number float/show.json layout)" != "$(number passes/show.json layout)" ]; }
 check "another storage has another layout" other_layout
 "$mxgen" pipeline spread --sss diffusion >/dev/null
+"$mxgen" pipeline blurred --rough-refraction blur >/dev/null
+check "blur, too" eval '[ "$(number blurred/show.json layout)" != "$(number passes/show.json layout)" ]'
 check "diffusion, too" eval '[ "$(number spread/show.json layout)" != "$(number passes/show.json layout)" ]'
 check "and has an image" eval 'grep -q "\"scattered\"" spread/light_single.json && ! grep -q "\"scattered\"" passes/light_single.json'
+check "and has an image" eval 'grep -q "\"below\"" blurred/light_complex.json && ! grep -q "\"below\"" blurred/light_single.json'
 words() { [ "$(number "materials/$1.json" words)" = "$2" ]; }
 check "words of Plain" words Plain 3
 check "words of Lacquered" words Lacquered 10

@@ -244,7 +244,7 @@ class Passes(unittest.TestCase):
     def test_passes(self):
         context = mxgen.Context()
         passes = context.passes("vulkan", options={"max-lights": 1})
-        self.assertEqual(list(passes), ["classify", "compose", "light_simple", "light_single", "light_complex", "light_special", "diffuse", "show", "light_rays"])
+        self.assertEqual(list(passes), ["classify", "compose", "light_simple", "light_single", "light_complex", "light_special", "diffuse", "blur", "show", "light_rays"])
         self.assertIn("u_lightData[1]", passes["light_simple"].pixel)
         document = context.load(common.EXAMPLES / "deferred.mtlx")
         stored = document.generate("vulkan", "Lacquered", options={"pipeline": "deferred", "interface": "reduced"})

@@ -27,6 +27,7 @@ static const struct setting {
     {"form", "form", {"program", "function", "payload"}},
     {"storage", "storage", {"dither", "round", "float"}},
     {"sss", "sss", {"wrap", "diffusion"}},
+    {"rough_refraction", "rough-refraction", {"sharp", "blur"}},
     {"slots", "slots", {"blend", "stochastic"}},
     {"transparency", "transparency", {"auto", "opaque", "mask", "blend", "dual"}},
     {"transmission", "transmission", {"refraction", "opacity"}},

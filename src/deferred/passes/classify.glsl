@@ -4,6 +4,9 @@ shared uint mx_classes;
 #if MX_SSS == 1
 layout(MX_SCATTERED, rgba16f) uniform writeonly restrict image2DArray mx_scattered;
 #endif
+#if MX_BLUR == 1
+layout(MX_BELOW, rgba16f) uniform writeonly restrict image2DArray mx_below;
+#endif
 
 void main()
 {
@@ -17,6 +20,10 @@ void main()
 #if MX_SSS == 1
     if (!mx_is_outside(pixel))
         imageStore(mx_scattered, ivec3(pixel, 0), vec4(0.0)); // no body yet
+#endif
+#if MX_BLUR == 1
+    if (!mx_is_outside(pixel))
+        imageStore(mx_below, ivec3(pixel, 0), vec4(0.0));
 #endif
     uint class_ = gl_LocalInvocationIndex;
     if (class_ < 5u && (mx_classes >> class_ & 1u) != 0u)

@@ -4,9 +4,11 @@
 // Subsurface Scattering Using Burley's Normalized Diffusion in Real-Time". Weights have the sum 1, so that no light is gained or lost.
 
 #if MX_SSS == 1
-layout(MX_DEPTH) uniform sampler2D mx_depth;
 layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
 layout(MX_SCATTERED, rgba16f) uniform readonly restrict image2DArray mx_scattered;
+#if MX_BLUR == 1
+layout(MX_BELOW, rgba16f) uniform restrict image2DArray mx_below;
+#endif
 
 const int MX_NUM_SAMPLES = 64;
 
@@ -21,23 +23,6 @@ MxClosure mx_body(ivec2 pixel)
             body = c;
     }
     return body;
-}
-
-vec3 mx_point(ivec2 pixel)
-{
-    vec4 point = mx_to_world * vec4(vec2(pixel) + 0.5, texelFetch(mx_depth, pixel, 0).x, 1.0);
-    return point.xyz / point.w;
-}
-
-// The normal of the geometry, whose neighbours are those with the smaller step of depth.
-vec3 mx_plane(ivec2 pixel, vec3 point)
-{
-    ivec2 last = ivec2(mx_size.xy) - 1;
-    vec3 right = mx_point(min(pixel + ivec2(1, 0), last)) - point, left = point - mx_point(max(pixel - ivec2(1, 0), ivec2(0)));
-    vec3 down = mx_point(min(pixel + ivec2(0, 1), last)) - point, up = point - mx_point(max(pixel - ivec2(0, 1), ivec2(0)));
-    bool is_left = pixel.x == last.x || (pixel.x > 0 && dot(left, left) < dot(right, right));
-    bool is_up = pixel.y == last.y || (pixel.y > 0 && dot(up, up) < dot(down, down));
-    return normalize(cross(is_left ? left : right, is_up ? up : down));
 }
 
 // The distance of sample u, whose density in the plane is R: a quarter of the samples falls off over d, the others over 3d.
@@ -61,13 +46,12 @@ void main()
     float widest = max(d.x, max(d.y, d.z));
     mat4 to_pixels = inverse(mx_to_world);
     mx_across(mx_plane(pixel, point), x, y);
-    float turn = 6.2831853 * fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715)))); // Jimenez 2014
+    float turn = mx_turn(pixel);
     vec3 light = vec3(0.0), weights = vec3(0.0);
     for (int i = 0; i < MX_NUM_SAMPLES; ++i) {
-        float r = mx_distance((float(i) + 0.5) / float(MX_NUM_SAMPLES), widest), angle = turn + 2.3999632 * float(i); // the golden angle
-        vec4 at = to_pixels * vec4(point + r * (cos(angle) * x + sin(angle) * y), 1.0);
-        ivec2 other = ivec2(floor(at.xy / at.w));
-        if (any(lessThan(other, ivec2(0))) || mx_is_outside(other))
+        float r = mx_distance((float(i) + 0.5) / float(MX_NUM_SAMPLES), widest), angle = turn + MX_GOLDEN_ANGLE * float(i);
+        ivec2 other = mx_pixel_at(to_pixels, point + r * (cos(angle) * x + sin(angle) * y));
+        if (other.x < 0)
             continue;
         vec4 sampled = imageLoad(mx_scattered, ivec3(other, 0));
         if (sampled.w == 0.0)
@@ -81,7 +65,14 @@ void main()
     vec3 own = imageLoad(mx_scattered, ivec3(pixel, 0)).xyz;
     vec3 spread = vec3(weights.x > 0.0 ? light.x / weights.x : own.x, weights.y > 0.0 ? light.y / weights.y : own.y,
                        weights.z > 0.0 ? light.z / weights.z : own.z);
-    imageStore(mx_lit, pixel, vec4(rest.xyz + body.diffuse_albedo * spread, rest.w));
+    vec4 lit = vec4(rest.xyz + body.diffuse_albedo * spread, rest.w);
+#if MX_BLUR == 1
+    if (imageLoad(mx_below, ivec3(pixel, 0)).w > 0.0) { // the pass "blur" finishes the pixel
+        imageStore(mx_below, ivec3(pixel, 1), lit);
+        return;
+    }
+#endif
+    imageStore(mx_lit, pixel, lit);
 }
 #else
 void main()

@@ -17,6 +17,10 @@ vec3 mx_split(MxClosure closure, vec3 point, vec3 top)
 }
 #endif
 
+#if MX_BLUR == 1 && MX_CLASS > 2
+layout(MX_BELOW, rgba16f) uniform writeonly restrict image2DArray mx_below;
+#endif
+
 void main()
 {
     uint tile = mx_tile[MX_CLASS * mx_size.w + gl_WorkGroupID.x];
@@ -31,6 +35,9 @@ void main()
 #if MX_SSS == 1 && MX_CLASS > 1
     vec3 inside = vec3(0.0), albedo = vec3(0.0);
 #endif
+#if MX_BLUR == 1 && MX_CLASS > 2
+    vec4 below = vec4(0.0); // light that is blurred, and how wide
+#endif
     while (reader.next < reader.num_closures) {
         MxClosure closure = mx_next(reader);
         mx_fill(closure, point.xyz / point.w, reader.normals[0]);
@@ -41,15 +48,30 @@ void main()
             albedo = closure.diffuse_albedo;
         }
 #endif
+#if MX_BLUR == 1 && MX_CLASS > 2
+        if (closure.blur > 0.0) {
+            below = vec4(below.xyz + out1.xyz, max(below.w, closure.blur));
+            continue;
+        }
+#endif
         lit.xyz += out1.xyz;
 #if MX_CLASS < 3
         break;
 #endif
     }
+#if MX_BLUR == 1 && MX_CLASS > 2
+    imageStore(mx_below, ivec3(pixel, 0), below);
+#endif
 #if MX_SSS == 1 && MX_CLASS > 1
     if (max(albedo.x, max(albedo.y, albedo.z)) > 0.0) {
         imageStore(mx_scattered, ivec3(pixel, 0), vec4(inside / max(albedo, 1e-3), 1.0));
         imageStore(mx_scattered, ivec3(pixel, 1), lit);
+        return;
+    }
+#endif
+#if MX_BLUR == 1 && MX_CLASS > 2
+    if (below.w > 0.0) {
+        imageStore(mx_below, ivec3(pixel, 1), lit);
         return;
     }
 #endif

@@ -72,6 +72,7 @@ MxClosure mx_next(inout MxReader reader)
     c.glint_extent.y = mx_get_float(reader);
     c.tint_index = mx_get_float(reader);
     c.tint_weight = mx_get_float(reader);
+    c.blur = mx_get_float(reader);
     c.steady = mx_get_vector(reader);
     c.color = mx_get_vector(reader);
     c.decay = mx_get_vector(reader);

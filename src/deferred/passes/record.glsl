@@ -1,5 +1,5 @@
 // The storage of closures (docs/deferred.md): how values become bits, for those who write and those who read. MX_STORAGE: 0 rounds with
-// dither, 1 rounds, 2 keeps whole floats.
+// dither, 1 rounds, 2 keeps whole floats. MX_BLUR: 1 where rough interfaces blur what lies below.
 
 // A slab, with what lies above it: light on a way x through media weighs steady + color * pow(decay, x).
 struct MxClosure
@@ -14,6 +14,7 @@ struct MxClosure
     float phase_anisotropy, is_thick, glint_density;
     vec2 glint_uv, glint_extent; // the latter: how far a pixel goes along each
     float tint_index, tint_weight;
+    float blur; // deviation on the surface, in the world
     vec3 steady, color, decay;
     float spreads;
 };
@@ -237,6 +238,18 @@ uint[4] mx_glint_words(MxClosure c, vec3 normal)
                  | uint(rest.x) << 24u | uint(rest.y) << 28u);
 }
 
+// Three bits: 0 for none, else its logarithm, in seven steps up to a half.
+uint mx_blur_bits(float blur)
+{
+    float steps = clamp(log2(max(blur, 1e-12)) + 8.0, 0.0, 7.0);
+    return mx_cut(steps / 7.0, 3u, 12u);
+}
+
+float mx_blur_of(uint bits)
+{
+    return bits == 0u ? 0.0 : exp2(float(bits) - 8.0);
+}
+
 // The class of a pixel or ray with one closure that has these features.
 uint mx_class_of(uint has)
 {
@@ -250,6 +263,9 @@ MxRecord mx_pack(MxClosure c, vec3 stored_normal)
     uint steady = mx_cut_color(1.0 - c.steady), color = mx_cut_color(c.color), decay = color == 0u ? 0u : mx_cut_color(c.decay);
     r.weights[0] = steady | color << 20u;
     r.weights[1] = color >> 12u | decay << 8u | (decay != 0u && c.spreads > 0.0 ? 1u << 28u : 0u);
+#if MX_BLUR == 1
+    r.weights[1] |= mx_blur_bits(c.blur) << 29u;
+#endif
     r.medium = mx_medium_word(c);
     r.lobes = mx_lobes_word(c);
     r.fuzz = mx_fuzz_word(c);
@@ -303,5 +319,6 @@ MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
     c.color = mx_uncut_color(r.weights[0] >> 20u | r.weights[1] << 12u);
     c.decay = mx_uncut_color(r.weights[1] >> 8u);
     c.spreads = float(r.weights[1] >> 28u & 1u);
+    c.blur = mx_blur_of(r.weights[1] >> 29u);
     return c;
 }

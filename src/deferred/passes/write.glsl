@@ -86,6 +86,7 @@ void mx_put_whole(MxClosure c)
     mx_put(c.glint_extent.y);
     mx_put(c.tint_index);
     mx_put(c.tint_weight);
+    mx_put(c.blur);
     mx_put(c.steady);
     mx_put(c.color);
     mx_put(c.decay);
