@@ -229,6 +229,14 @@ static ir_ref read_variable(struct shader *shader, uint32_t local)
     return ir_build(g, IR_LOCAL, shader->locals.items[local].type, local, &light, 1);
 }
 
+static bool have_one_direction(const struct one_light *lights, uint32_t num)
+{
+    for (uint32_t i = 1; i < num; i++)
+        if (lights[i].direction != lights->direction)
+            return false;
+    return true;
+}
+
 /* Several types: the last one stands for all others, dark. */
 static void choose_light(struct shader *shader, struct one_light *lights, uint32_t num,
                          struct closure_light *out)
@@ -237,10 +245,16 @@ static void choose_light(struct shader *shader, struct one_light *lights, uint32
     ir_ref color = split_color(g, lights, num);
     uint32_t direction = declare(shader, out, STR_L, lights->direction),
              intensity = declare(shader, out, STR_intensity, lights->intensity);
+    bool has_direction = false;
     for (uint32_t i = 0; i < num; i++) {
+        bool is_common = !has_direction && have_one_direction(&lights[i], num - i);
+        if (is_common)
+            choose(shader, out, EFFECT_ASSIGN, direction, lights[i].direction);
+        has_direction |= is_common;
         if (i + 1 < num)
             choose(shader, out, EFFECT_IF, 0, lights[i].is_this);
-        choose(shader, out, EFFECT_ASSIGN, direction, lights[i].direction);
+        if (!has_direction)
+            choose(shader, out, EFFECT_ASSIGN, direction, lights[i].direction);
         choose(shader, out, EFFECT_ASSIGN, intensity, lights[i].intensity);
         if (i + 1 < num)
             choose(shader, out, EFFECT_ELSE, 0, 0);
