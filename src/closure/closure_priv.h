@@ -153,8 +153,9 @@ ir_ref closure_light_distance(struct shader *shader, const struct closure_host *
 
 /* A contribution of a leaf: a value and its weight. */
 struct closure_part {
-    ir_ref leaf;   /* its operands after the first are the inputs */
-    ir_ref scalar; /* if 0, the leaf is skipped */
+    ir_ref leaf;    /* its operands after the first are the inputs */
+    uint32_t order; /* of the leaf among those of the surface */
+    ir_ref scalar;  /* if 0, the leaf is skipped */
     ir_ref value;
     bool is_guarded; /* needs a branch around the leaf */
     bool has_loop;   /* calls a function with a loop, which no other part calls */
@@ -166,6 +167,14 @@ enum closure_place { PLACE_LIGHT, PLACE_WHOLE, PLACE_SAMPLE, NUM_PLACES };
 struct closure_parts {
     VEC(struct closure_part) parts;
 };
+
+/* batches.c: leaves that share a loop over the lights, by the order after the last one of each. */
+struct closure_batches {
+    VEC(uint32_t) ends;
+};
+/* lit: the parts per light. */
+void closure_find_batches(struct shader *shader, const struct closure_parts *lit,
+                          struct closure_batches *out);
 
 /*
  * displacement.c: moves the shaded point and the vertices, and returns the surface with the

@@ -70,12 +70,14 @@ void emitter_declare_color(struct emitter *e)
                                : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
-static void add_part(struct emitter *e, enum closure_place place, const struct closure_leaf *leaf,
-                     ir_ref value)
+static void add_part(struct emitter *e, enum closure_place place, const struct closure_list *list,
+                     uint32_t order, ir_ref value)
 {
+    const struct closure_leaf *leaf = &list->leaves.items[order];
     if (value)
         vec_push(e->shader->arena, &e->lit.at[place].parts,
-                 (struct closure_part){leaf->leaf, leaf->scalar, value, false, false});
+                 (struct closure_part){
+                     .leaf = leaf->leaf, .order = order, .scalar = leaf->scalar, .value = value});
 }
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
@@ -226,17 +228,19 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
         ir_ref value = weighted(
             e, leaf,
             closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction), way);
-        add_part(e, PLACE_LIGHT, leaf, value);
+        add_part(e, PLACE_LIGHT, list, i, value);
         emitted[i] |= value != 0;
     }
 }
 
-static bool add_surrounding_part(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
+static bool add_surrounding_part(struct emitter *e, const struct closure_list *list, uint32_t order,
+                                 ir_ref value)
 {
+    const struct closure_leaf *leaf = &list->leaves.items[order];
     ir_ref way = value && leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
     value = weighted(e, leaf, value, way);
     bool is_sampled = value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
-    add_part(e, is_sampled ? PLACE_SAMPLE : PLACE_WHOLE, leaf, value);
+    add_part(e, is_sampled ? PLACE_SAMPLE : PLACE_WHOLE, list, order, value);
     return value != 0;
 }
 
@@ -271,12 +275,12 @@ static void find_surrounding_parts(struct emitter *e, ir_ref bsdf, const struct 
             refracted = closure_call(e->shader, e->host, other->leaf, LEAF_TRANSMISSION, NULL);
         if (shows)
             reflected = closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL);
-        emitted[i] |= add_surrounding_part(e, leaf, reflected);
+        emitted[i] |= add_surrounding_part(e, list, i, reflected);
         if (transmits_alpha)
             emitted[i] |= add_through(e, other);
         else if (refracted)
             emitted[i] |=
-                add_surrounding_part(e, other, closure_mul(e->graph, refracted, other->medium));
+                add_surrounding_part(e, behind, i, closure_mul(e->graph, refracted, other->medium));
     }
 }
 
@@ -289,7 +293,7 @@ const bool *emitter_find_parts(struct emitter *e, ir_ref bsdf, const struct clos
 }
 
 /* Only the first light has a shadow map: its factor is 1 in the later rounds of the loop. */
-static void loop_lights(struct emitter *e)
+static void loop_lights(struct emitter *e, struct closure_parts *lit)
 {
     ir_ref factor = e->lit.light.intensity;
     uint32_t local = 0;
@@ -306,7 +310,7 @@ static void loop_lights(struct emitter *e)
         const struct effect *part = &e->lit.light.choice.items[i];
         emitter_effect(e, (enum effect_kind)part->kind, part->index, part->value);
     }
-    accumulate_all(e, &e->lit.at[PLACE_LIGHT], true, factor);
+    accumulate_all(e, lit, true, factor);
     if (e->lighting->shadow)
         emitter_effect(e, EFFECT_ASSIGN, local, ir_const_float(e->graph, 1.0f));
     emitter_effect(e, EFFECT_END, 0, 0);
@@ -382,26 +386,45 @@ static void gather_samples(struct emitter *e, struct closure_sample_loop *loop, 
         emitter_effect(e, EFFECT_END, 0, 0);
 }
 
+/* The light of a batch. open: the part of the environment that is not occluded; 0: all. */
+static void write_batch(struct emitter *e, struct closure_parts *at, ir_ref open)
+{
+    if (at[PLACE_LIGHT].parts.len)
+        loop_lights(e, &at[PLACE_LIGHT]);
+    if (!at[PLACE_SAMPLE].parts.len && !at[PLACE_WHOLE].parts.len)
+        return;
+    emitter_comment(e, STR_environment);
+    accumulate_all(e, &at[PLACE_WHOLE], false, open);
+    struct closure_sample_loops samples = {0};
+    closure_find_sample_loops(e->shader, &at[PLACE_SAMPLE], &samples);
+    for (uint32_t i = 0; i < samples.loops.len; i++)
+        gather_samples(e, &samples.loops.items[i], open);
+}
+
 void emitter_write_lit(struct emitter *e)
 {
-    bool has_lights = e->lit.light.intensity != 0,
-         has_samples = e->lit.at[PLACE_SAMPLE].parts.len > 0;
-    if (!has_lights && !has_samples && !e->lit.at[PLACE_WHOLE].parts.len)
+    struct closure_parts *all = e->lit.at;
+    bool has_environment = all[PLACE_SAMPLE].parts.len || all[PLACE_WHOLE].parts.len;
+    if (!all[PLACE_LIGHT].parts.len && !has_environment)
         return;
     emitter_declare_color(e);
-    if (has_lights)
-        loop_lights(e);
-    bool has_environment = has_samples || e->lit.at[PLACE_WHOLE].parts.len;
     ir_ref open = has_environment && e->lighting->occlusion
                       ? closure_occlusion(e->shader, e->lighting->flips_v)
                       : 0;
-    if (has_environment)
-        emitter_comment(e, STR_environment);
-    accumulate_all(e, &e->lit.at[PLACE_WHOLE], false, open);
-    struct closure_sample_loops samples = {0};
-    closure_find_sample_loops(e->shader, &e->lit.at[PLACE_SAMPLE], &samples);
-    for (uint32_t i = 0; i < samples.loops.len; i++)
-        gather_samples(e, &samples.loops.items[i], open);
+    struct closure_batches batches = {0};
+    closure_find_batches(e->shader, &all[PLACE_LIGHT], &batches);
+    uint32_t next[NUM_PLACES] = {0};
+    for (uint32_t i = 0; i < batches.ends.len; i++) {
+        struct closure_parts batch[NUM_PLACES] = {0};
+        for (unsigned place = 0; place < NUM_PLACES; place++)
+            for (; next[place] < all[place].parts.len; next[place]++) {
+                const struct closure_part *part = &all[place].parts.items[next[place]];
+                if (part->order >= batches.ends.items[i])
+                    break;
+                vec_push(e->shader->arena, &batch[place].parts, *part);
+            }
+        write_batch(e, batch, open);
+    }
     e->shader->lit = true;
 }
 

@@ -78,16 +78,16 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
-float mx_map_square(const vec3 d)
-{
-    return d.x * d.x + (d.z * d.z + 1e-16);
-}
-
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
+}
+
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(const vec3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -95,8 +95,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
 }
 
 vec3 mx_environment_radiance(const vec3 direction, const float lod)
@@ -164,11 +164,12 @@ void main()
         color += u_lightData[i].color * (intensity * (coat_product * mx_ggx_light(coat_vector, V, L) + paint_response));
     }
     // environment
-    // coat, paint
+    // paint
     vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)),
         0.0).xyz * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_response = paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
-    color += scale * mx_ggx_prefiltered(N, V) + paint_response;
+    color += paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
+    // coat
+    color += scale * mx_ggx_prefiltered(N, V);
     out1 = vec4(color, 1.0);
 }

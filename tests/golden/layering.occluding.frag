@@ -57,8 +57,11 @@ float mx_fresnel_conductor(const float cosine, const float re, const float im)
 // One channel after the other, which needs a third of the registers.
 vec3 mx_fresnel_conductor(const float cosine)
 {
-    return vec3(mx_fresnel_conductor(cosine, -11.690287, 1.253184), mx_fresnel_conductor(cosine, -5.326475, 1.975332),
-        mx_fresnel_conductor(cosine, -1.2477709, 4.86042));
+    vec3 color = vec3(0.0);
+    for (int i = 0; i < 3; ++i)
+        color[i] = mx_fresnel_conductor(cosine, vec3(-11.690287, -5.326475, -1.2477709)[i],
+            vec3(1.253184, 1.975332, 4.86042)[i]);
+    return color;
 }
 
 // The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times

@@ -57,8 +57,11 @@ float mx_fresnel_conductor(const float cosine, const float re, const float im)
 // One channel after the other, which needs a third of the registers.
 vec3 mx_fresnel_conductor(const float cosine)
 {
-    return vec3(mx_fresnel_conductor(cosine, -11.690287, 1.253184), mx_fresnel_conductor(cosine, -5.326475, 1.975332),
-        mx_fresnel_conductor(cosine, -1.2477709, 4.86042));
+    vec3 color = vec3(0.0);
+    for (int i = 0; i < 3; ++i)
+        color[i] = mx_fresnel_conductor(cosine, vec3(-11.690287, -5.326475, -1.2477709)[i],
+            vec3(1.253184, 1.975332, 4.86042)[i]);
+    return color;
 }
 
 // The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
@@ -92,15 +95,18 @@ void main()
     float ggx_masking = sqrt(cos_v * cos_v * 0.9975 + 0.0025);
     mx_GgxLobe metal_vector = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.05), ggx_masking);
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
-        // metal, red, blue
+        // red, blue
         float light_intensity = u_lightData[i].intensity;
+        float choice = u_lightData[i].type == 1 ? light_intensity : 0.0;
         vec3 L = -u_lightData[i].direction;
         float cos_l = max(dot(L, facing), 1e-8);
+        color += u_lightData[i].color * (choice
+            * (cos_l * vec3(0.066845074, 0.011140846, 0.005570423) + cos_l
+            * vec3(0.007957747, 0.015915494, 0.09549297)));
+        // metal
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        vec3 metal_response = scaled_ggx_compensation * (fresnel * mx_ggx_light(metal_vector, V, L));
-        vec3 sum = cos_l * vec3(0.007957747, 0.015915494, 0.09549297)
-            + (metal_response + cos_l * vec3(0.066845074, 0.011140846, 0.005570423));
-        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
+        color += u_lightData[i].color * (choice
+            * (scaled_ggx_compensation * (fresnel * mx_ggx_light(metal_vector, V, L))));
     }
     out1 = vec4(color, 1.0);
 }

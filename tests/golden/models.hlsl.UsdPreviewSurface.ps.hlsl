@@ -208,14 +208,10 @@ float mx_fresnel_conductor(float cosine, float re, float im)
 // One channel after the other, which needs a third of the registers.
 float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
 {
-    return float3(mx_fresnel_conductor(cosine, re.x, im.x), mx_fresnel_conductor(cosine, re.y, im.y),
-        mx_fresnel_conductor(cosine, re.z, im.z));
-}
-
-// The square of the distance of a unit direction from the axis of the picture, never 0.
-float mx_map_square(float3 d)
-{
-    return d.x * d.x + (d.z * d.z + 1e-16);
+    float3 color = float3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 3; ++i)
+        color[i] = mx_fresnel_conductor(cosine, re[i], im[i]);
+    return color;
 }
 
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
@@ -224,13 +220,19 @@ float mx_half_turn(float sine, float cosine)
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(float3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
-    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
 }
 
 // Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).

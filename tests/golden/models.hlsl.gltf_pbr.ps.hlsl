@@ -156,41 +156,21 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
         * x);
 }
 
-// A channel of one polarisation after interference.
-float mx_film_channel(float a, float2 r, float terms)
+// What Gaussian i sees of one polarisation after interference.
+float mx_film_light(float a, float2 r, float d, int i)
 {
+    float4 gaussian = float4x4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
+        -0.0093046, 1.0, 2.2084, 1.001122, -0.0066121, 1.0)[i];
+    float c = cos(gaussian.x * d);
+    float s = sin(gaussian.x * d);
+    float decay = exp(gaussian.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return a * a + even + 2.0 * (even - t) * terms;
-}
-
-// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
-// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
-float mx_film_terms(float a, float2 r, float d, float3 gauss)
-{
-    float c = cos(gauss.x * d);
-    float s = sin(gauss.x * d);
-    float decay = exp(gauss.z * d * d);
-    float x = r.x * c - r.y * s;
-    float y = r.x * s + r.y * c;
-    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
-}
-
-float mx_film_z(float a, float2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
-}
-
-float mx_film_y(float a, float2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.7953, 1.000222, -0.0093046)));
-}
-
-float mx_film_x(float a, float2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, r, d, float3(2.2399, 0.153868, -0.0045282)));
+    return gaussian.w * (a * a + even) + 2.0 * (even - t)
+        * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
 }
 
 // Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
@@ -206,11 +186,14 @@ float3 mx_film_schlick_facing(float3 f0, float film, float film_ior)
     float ior = max(film_ior, 1.0);
     float a = (1.0 - ior) / (1.0 + ior);
     float d = 0.012566372 * ior * film;
-    float3 r = -mx_film_turned(f0, f0, ior);
-    return clamp(mul(float3(mx_film_x(a, float2(r.x, 0.0), d), mx_film_y(a, float2(r.y, 0.0), d),
-        mx_film_z(a, float2(r.z, 0.0), d)),
-        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
-        0.0, 1.0);
+    float3 r = mx_film_turned(f0, f0, ior);
+    float3 xyz = float3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        xyz[channel] += mx_film_light(a, float2(-r[channel], 0.0), d, i);
+    }
+    return clamp(mul(xyz, float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338,
+        0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
 float3 mx_fresnel_facing(float3 n, float film, float film_ior)
@@ -274,11 +257,17 @@ float3 mx_film_schlick(float cosine, float3 f0, float3 f90, float film, float fi
     float2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.012566372 * ior * c * film;
     float3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, f90), ior);
-    return clamp(mul(0.5 * float3(mx_film_x(a.x, float2(-r.x, 0.0), d) + mx_film_x(a.y, float2(r.x, 0.0), d),
-        mx_film_y(a.x, float2(-r.y, 0.0), d) + mx_film_y(a.y, float2(r.y, 0.0), d), mx_film_z(a.x, float2(-r.z, 0.0), d)
-        + mx_film_z(a.y, float2(r.z, 0.0), d)),
-        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
-        0.0, 1.0);
+    float3 xyz = float3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        float below = r[channel];
+        for (int p = 0; p < 2; ++p) {
+            below = -below;
+            xyz[channel] += mx_film_light(a[p], float2(below, 0.0), d, i);
+        }
+    }
+    return clamp(mul(0.5 * xyz, float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338,
+        0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
 float3 mx_fresnel(float cosine, float3 n, float3 f90, float film, float film_ior)
@@ -328,16 +317,16 @@ float mx_ggx_light_2(mx_GgxLobe lobe, float3 V, float3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
-float mx_map_square(float3 d)
-{
-    return d.x * d.x + (d.z * d.z + 1e-16);
-}
-
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(float sine, float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
+}
+
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(float3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -345,8 +334,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
-    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
 }
 
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)

@@ -159,30 +159,21 @@ float mx_fresnel_dielectric_facing(float ior)
     return r * r;
 }
 
-// A channel of one polarisation after interference.
-float mx_film_channel(float a, float2 r, float terms)
+// What Gaussian i sees of one polarisation after interference.
+float mx_film_light(float a, float2 r, float d, int i)
 {
+    float4 gaussian = float4x4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
+        -0.0093046, 1.0, 2.2084, 1.001122, -0.0066121, 1.0)[i];
+    float c = cos(gaussian.x * d);
+    float s = sin(gaussian.x * d);
+    float decay = exp(gaussian.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return a * a + even + 2.0 * (even - t) * terms;
-}
-
-// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
-// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
-float mx_film_terms(float a, float2 r, float d, float3 gauss)
-{
-    float c = cos(gauss.x * d);
-    float s = sin(gauss.x * d);
-    float decay = exp(gauss.z * d * d);
-    float x = r.x * c - r.y * s;
-    float y = r.x * s + r.y * c;
-    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
-}
-
-float mx_film_z(float a, float2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(2.2084, 1.001122, -0.0066121)));
+    return gaussian.w * (a * a + even) + 2.0 * (even - t)
+        * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
 }
 
 // Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
@@ -200,31 +191,21 @@ float2 mx_fresnel_refract(float cosine, float re, float im)
     return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
 }
 
-float mx_film_y(float a, float2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.7953, 1.000222, -0.0093046)));
-}
-
-float mx_film_x(float a, float2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, float3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, r, d, float3(2.2399, 0.153868, -0.0045282)));
-}
-
 // Facing the viewer both polarisations are alike.
 float3 mx_film_index_facing(float3 re, float3 im, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
     float a = (1.0 - ior) / (1.0 + ior);
     float d = 0.012566372 * ior * film;
-    float2 across = float2(1.0, 0.0);
-    float3 r = re / (ior * ior);
-    float3 i = im / (ior * ior);
-    return clamp(mul(float3(mx_film_x(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.x, i.x)), d),
-        mx_film_y(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.y, i.y)), d),
-        mx_film_z(a, mx_film_amplitude(float2(1.0, 0.0), mx_fresnel_refract(1.0, r.z, i.z)), d)),
-        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
-        0.0, 1.0);
+    float3 xyz = float3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        xyz[channel] += mx_film_light(a,
+            mx_film_amplitude(float2(1.0, 0.0),
+            mx_fresnel_refract(1.0, re[channel] / (ior * ior), im[channel] / (ior * ior))), d, i);
+    }
+    return clamp(mul(xyz, float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338,
+        0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
 float3 mx_fresnel_facing(float3 n, float film, float film_ior)
@@ -340,8 +321,10 @@ float mx_fresnel_conductor(float cosine, float re, float im)
 // One channel after the other, which needs a third of the registers.
 float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
 {
-    return float3(mx_fresnel_conductor(cosine, re.x, im.x), mx_fresnel_conductor(cosine, re.y, im.y),
-        mx_fresnel_conductor(cosine, re.z, im.z));
+    float3 color = float3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 3; ++i)
+        color[i] = mx_fresnel_conductor(cosine, re[i], im[i]);
+    return color;
 }
 
 float3 mx_fresnel_facing(float3 n, float3 k, float film, float film_ior)
@@ -366,19 +349,19 @@ float3 mx_film_index(float cosine, float3 re, float3 im, float film, float film_
     float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
     float2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.012566372 * ior * c * film;
-    float2 across = float2(c, 0.0);
-    float2 below = float2(re.x, im.x) / (ior * ior);
-    float2 u = mx_fresnel_refract(c, below.x, below.y);
-    float x = mx_film_x(a.x, mx_film_amplitude(across, u), d) + mx_film_x(a.y, mx_film_amplitude(c * below, u), d);
-    below = float2(re.y, im.y) / (ior * ior);
-    u = mx_fresnel_refract(c, below.x, below.y);
-    float y = mx_film_y(a.x, mx_film_amplitude(across, u), d) + mx_film_y(a.y, mx_film_amplitude(c * below, u), d);
-    below = float2(re.z, im.z) / (ior * ior);
-    u = mx_fresnel_refract(c, below.x, below.y);
-    float z = mx_film_z(a.x, mx_film_amplitude(across, u), d) + mx_film_z(a.y, mx_film_amplitude(c * below, u), d);
-    return clamp(mul(0.5 * float3(x, y, z),
-        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
-        0.0, 1.0);
+    float3 xyz = float3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        float2 below = float2(re[channel], im[channel]) / (ior * ior);
+        float2 u = mx_fresnel_refract(c, below.x, below.y);
+        float2 x = float2(c, 0.0);
+        for (int p = 0; p < 2; ++p) {
+            xyz[channel] += mx_film_light(a[p], mx_film_amplitude(x, u), d, i);
+            x = c * below;
+        }
+    }
+    return clamp(mul(0.5 * xyz, float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338,
+        0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
 float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
@@ -405,10 +388,13 @@ float mx_subsurface_light(float radius, float curvature, float cos_l)
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
-float mx_map_square(float3 d)
+// Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
+float3 mx_subsurface_light(float3 radius, float curvature, float cos_l)
 {
-    return d.x * d.x + (d.z * d.z + 1e-16);
+    float3 light = float3(0.0, 0.0, 0.0);
+    for (int i = 0; i < 3; ++i)
+        light[i] = mx_subsurface_light(radius[i], curvature, cos_l);
+    return light;
 }
 
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
@@ -417,13 +403,19 @@ float mx_half_turn(float sine, float cosine)
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(float3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
-    return float2(frac(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
 }
 
 // The frame of a round lobe has V above its x.
@@ -635,13 +627,9 @@ void main(
                 * (reflection_product * (ggx_light
                 * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR))));
         // scatter
-        if (scatter_weight > 0.0) {
-            float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
-            float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
+        if (scatter_weight > 0.0)
             color += light_color * (intensity
-                * (float3(scatter_subsurface_light, scatter_subsurface_light_2,
-                mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
-        }
+                * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_product));
     }
     // environment
     // fuzz, scatter, diffuse

@@ -129,31 +129,21 @@ float mx_fresnel_dielectric_facing(const float ior)
     return r * r;
 }
 
-// A channel of one polarisation after interference.
-float mx_film_channel(const float a, const vec2 r, const float terms)
+// What Gaussian i sees of one polarisation after interference.
+float mx_film_light(const float a, const vec2 r, const float d, const int i)
 {
+    vec4 gaussian = mat4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
+        -0.0093046, 1.0, 2.2084, 1.001122, -0.0066121, 1.0)[i];
+    float c = cos(gaussian.x * d);
+    float s = sin(gaussian.x * d);
+    float decay = exp(gaussian.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return a * a + even + 2.0 * (even - t) * terms;
-}
-
-// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
-// is -a, and the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre.
-float mx_film_terms(const float a, const vec2 r, const float d, const vec3 gauss)
-{
-    float c = cos(gauss.x * d);
-    float s = sin(gauss.x * d);
-    float decay = exp(gauss.z * d * d);
-    float x = r.x * c - r.y * s;
-    float y = r.x * s + r.y * c;
-    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
-}
-
-float mx_film_x(const float a, const vec2 r, const float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(1.681, 0.84659, -0.0043278))
-        + mx_film_terms(a, r, d, vec3(2.2399, 0.153868, -0.0045282)));
+    return gaussian.w * (a * a + even) + 2.0 * (even - t)
+        * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
 }
 
 // Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
@@ -171,29 +161,21 @@ vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
     return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
-float mx_film_y(const float a, const vec2 r, const float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(1.7953, 1.000222, -0.0093046)));
-}
-
-float mx_film_z(const float a, const vec2 r, const float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, vec3(2.2084, 1.001122, -0.0066121)));
-}
-
 // Facing the viewer both polarisations are alike.
 vec3 mx_film_index_facing(const vec3 re, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
     float a = (1.0 - ior) / (1.0 + ior);
     float d = 0.012566372 * ior * film;
-    vec2 across = vec2(1.0, 0.0);
-    vec3 r = re / (ior * ior);
-    vec3 i = vec3(0.0) / (ior * ior);
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        xyz[channel] += mx_film_light(a,
+            mx_film_amplitude(vec2(1.0, 0.0),
+            mx_fresnel_refract(1.0, re[channel] / (ior * ior), vec3(0.0)[channel] / (ior * ior))), d, i);
+    }
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * vec3(mx_film_x(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.x, i.x)), d),
-        mx_film_y(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.y, i.y)), d),
-        mx_film_z(a, mx_film_amplitude(vec2(1.0, 0.0), mx_fresnel_refract(1.0, r.z, i.z)), d)), vec3(0.0), vec3(1.0));
+        1.0093968) * xyz, vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
@@ -290,10 +272,14 @@ vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_io
     float ior = max(film_ior, 1.0);
     float a = (1.0 - ior) / (1.0 + ior);
     float d = 0.012566372 * ior * film;
-    vec3 r = -mx_film_turned(f0, f0, ior);
+    vec3 r = mx_film_turned(f0, f0, ior);
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        xyz[channel] += mx_film_light(a, vec2(-r[channel], 0.0), d, i);
+    }
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * vec3(mx_film_x(a, vec2(r.x, 0.0), d), mx_film_y(a, vec2(r.y, 0.0), d),
-        mx_film_z(a, vec2(r.z, 0.0), d)), vec3(0.0), vec3(1.0));
+        1.0093968) * xyz, vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel_facing_2(const vec3 n, const float film, const float film_ior)
@@ -326,10 +312,17 @@ vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 bend, const f
     vec2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.012566372 * ior * c * film;
     vec3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, bend), ior);
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        float below = r[channel];
+        for (int p = 0; p < 2; ++p) {
+            below = -below;
+            xyz[channel] += mx_film_light(a[p], vec2(below, 0.0), d, i);
+        }
+    }
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * vec3(mx_film_x(a.x, vec2(-r.x, 0.0), d) + mx_film_x(a.y, vec2(r.x, 0.0), d),
-        mx_film_y(a.x, vec2(-r.y, 0.0), d) + mx_film_y(a.y, vec2(r.y, 0.0), d), mx_film_z(a.x, vec2(-r.z, 0.0), d)
-        + mx_film_z(a.y, vec2(r.z, 0.0), d))), vec3(0.0), vec3(1.0));
+        1.0093968) * (0.5 * xyz), vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
@@ -346,18 +339,19 @@ vec3 mx_film_index(const float cosine, const vec3 re, const float film, const fl
     float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
     vec2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.012566372 * ior * c * film;
-    vec2 across = vec2(c, 0.0);
-    vec2 below = vec2(re.x, 0.0) / (ior * ior);
-    vec2 u = mx_fresnel_refract(c, below.x, below.y);
-    float x = mx_film_x(a.x, mx_film_amplitude(across, u), d) + mx_film_x(a.y, mx_film_amplitude(c * below, u), d);
-    below = vec2(re.y, 0.0) / (ior * ior);
-    u = mx_fresnel_refract(c, below.x, below.y);
-    float y = mx_film_y(a.x, mx_film_amplitude(across, u), d) + mx_film_y(a.y, mx_film_amplitude(c * below, u), d);
-    below = vec2(re.z, 0.0) / (ior * ior);
-    u = mx_fresnel_refract(c, below.x, below.y);
-    float z = mx_film_z(a.x, mx_film_amplitude(across, u), d) + mx_film_z(a.y, mx_film_amplitude(c * below, u), d);
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        vec2 below = vec2(re[channel], vec3(0.0)[channel]) / (ior * ior);
+        vec2 u = mx_fresnel_refract(c, below.x, below.y);
+        vec2 x = vec2(c, 0.0);
+        for (int p = 0; p < 2; ++p) {
+            xyz[channel] += mx_film_light(a[p], mx_film_amplitude(x, u), d, i);
+            x = c * below;
+        }
+    }
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * vec3(x, y, z)), vec3(0.0), vec3(1.0));
+        1.0093968) * (0.5 * xyz), vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)
@@ -376,6 +370,15 @@ float mx_subsurface_light(const float radius, const float curvature, const float
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
+// Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
+vec3 mx_subsurface_light(const vec3 radius, const float curvature, const float cos_l)
+{
+    vec3 light = vec3(0.0);
+    for (int i = 0; i < 3; ++i)
+        light[i] = mx_subsurface_light(radius[i], curvature, cos_l);
+    return light;
+}
+
 // Directional albedo of Fujii's lobe.
 float mx_fujii_albedo(const float cosine, const float r)
 {
@@ -385,16 +388,16 @@ float mx_fujii_albedo(const float cosine, const float r)
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
-float mx_map_square(const vec3 d)
-{
-    return d.x * d.x + (d.z * d.z + 1e-16);
-}
-
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
+}
+
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(const vec3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -402,8 +405,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
 }
 
 // Albedo of what the lobe scatters more than once, relative to `color`.
@@ -664,13 +667,9 @@ void main()
             color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
         // scatter
-        if (scatter_weight > 0.0) {
-            float scatter_subsurface_light = mx_subsurface_light(scatter_radius.x, curvature, cos_l);
-            float scatter_subsurface_light_2 = mx_subsurface_light(scatter_radius.y, curvature, cos_l);
+        if (scatter_weight > 0.0)
             color += light_color * (intensity
-                * (vec3(scatter_subsurface_light, scatter_subsurface_light_2,
-                mx_subsurface_light(scatter_radius.z, curvature, cos_l)) * scatter_product));
-        }
+                * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_product));
         // diffuse
         if (diffuse_weight > 0.0) {
             float diffuse_s = s / greater;

@@ -139,16 +139,16 @@ vec3 mx_medium_reflected(const float way)
     return mx_medium_layer(way, ignored);
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
-float mx_map_square(const vec3 d)
-{
-    return d.x * d.x + (d.z * d.z + 1e-16);
-}
-
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
+}
+
+// The square of the distance of a unit direction from the axis of the picture, never 0.
+float mx_map_square(const vec3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
 // The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
@@ -156,8 +156,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
 }
 
 // Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Shaders need no more registers on a GPU than MaterialX's, reduced ones fewer, and at least as many waves run at once: what Mesa's compiler tells of an AMD GPU
-# that need not be there. Arguments: mxgen, bench-gpustat, the folder bench.
+# Shaders need no more registers on a GPU than MaterialX's, reduced ones fewer, and at least as many waves run at once; the layers of a stack do not need
+# registers together. What Mesa's compiler tells of an AMD GPU that need not be there. Arguments: mxgen, bench-gpustat, the folder bench.
 mxgen=$(realpath "$1") gpustat=$(realpath "$2") bench=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
@@ -10,6 +10,7 @@ drivers=(/usr/share/vulkan/icd.d/radeon_icd.*.json)
 command -v glslangValidator >/dev/null || { skip 'no glslangValidator'; finish gpu; }
 
 theirs() { awk -F'\t' -v d="$1" -v i="$2" -v c="$3" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } $1 == d && $2 == i && $3 == "navi21" { print $at[c] }' "$bench/gpu/materialx.tsv"; }
+statistics_of() { VK_ICD_FILENAMES=${drivers[0]} RADV_FORCE_FAMILY=navi21 MESA_SHADER_CACHE_DISABLE=true "$gpustat" "$@" >statistics 2>err; } # MODULE...
 ours() { sed -n "s/^$1=//p" statistics; } # NAME
 declare -A percent=([complete]=27 [reduced]=45) # of MaterialX's inverse throughput
 declare -A registers=([complete]=100 [reduced]=80)
@@ -20,10 +21,33 @@ for document in standard_surface_default open_pbr_default; do
         for stage in vert frag; do
             check "$folder compiles" exits 0 glslangValidator -V "$folder"/*.$stage -o $stage.spv
         done
-        VK_ICD_FILENAMES=${drivers[0]} RADV_FORCE_FAMILY=navi21 MESA_SHADER_CACHE_DISABLE=true "$gpustat" vert.spv frag.spv >statistics 2>err
+        statistics_of vert.spv frag.spv
         check "$folder: registers" test "$(ours VGPRs)" -le "$(($(theirs $document $interface vgprs) * ${registers[$interface]} / 100))"
         check "$folder: waves per SIMD" test "$(ours 'Subgroups per SIMD')" -ge "$(theirs $document $interface subgroups_per_simd)"
         check "$folder: inverse throughput" test "$(ours 'Inverse Throughput')" -le "$(($(theirs $document $interface inverse_throughput) * ${percent[$interface]} / 100))"
     done
 done
+
+# Four layers in one loop over the lights would need all 256 registers, the slabs of a pixel 176.
+{
+    echo '<materialx version="1.39">'
+    for i in 0 1 2 3; do
+        echo "<standard_surface name=\"s$i\" type=\"surfaceshader\"/><substance name=\"m$i\" type=\"material\">"
+        echo "<input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"s$i\"/><input name=\"mask\" type=\"float\" value=\"0.5\"/></substance>"
+    done
+    echo '<look name="stack">'
+    for i in 0 1 2 3; do echo "<materialassign name=\"a$i\" slot=\"00$i\" material=\"m$i\" geom=\"/\"/>"; done
+    echo '</look></materialx>'
+} >stack.mtlx
+printf '#usda 1.0\ndef Mesh "ball"\n{\n}\n' >stage.usda
+check 'a stack is generated' exits 0 "$mxgen" stack.mtlx --look stack --stage stage.usda --slots blend --target vulkan --interface complete -o stack
+for stage in vert frag; do
+    check 'a stack compiles' exits 0 glslangValidator -V stack/*.$stage -o $stage.spv
+done
+statistics_of vert.spv frag.spv
+check 'a stack: registers' test "$(ours VGPRs)" -le 184
+check 'passes are generated' exits 0 "$mxgen" pipeline passes
+check 'a pass compiles' exits 0 glslangValidator -V passes/light_complex.comp -o pass.spv
+statistics_of pass.spv
+check 'light_complex: registers' test "$(ours VGPRs)" -le 160
 finish gpu

@@ -207,8 +207,10 @@ float mx_subsurface_light(float radius, float curvature, float cos_l)
 // Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
 vec3 mx_subsurface_light(vec3 radius, float curvature, float cos_l)
 {
-    return vec3(mx_subsurface_light(radius.x, curvature, cos_l), mx_subsurface_light(radius.y, curvature, cos_l),
-                mx_subsurface_light(radius.z, curvature, cos_l));
+    vec3 light = vec3(0.0);
+    for (int i = 0; i < 3; ++i)
+        light[i] = mx_subsurface_light(radius[i], curvature, cos_l);
+    return light;
 }
 
 vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)

@@ -39,8 +39,9 @@ vec2 mx_map_point(vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    float turn = 0.5 * mx_half_turn(d.x * stretch, abs(d.z) * stretch);
-    return vec2(fract(d.z > 0.0 ? -turn : 0.5 + turn), 0.5 - mx_half_turn(d.y, square * stretch));
+    float around = mx_half_turn(d.x * stretch, abs(d.z) * stretch);
+    float side = d.z > 0.0 ? -0.5 : 0.5;
+    return vec2(fract(side * (around + 0.5) + 0.25), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // Where the light from a direction of the world lies in the environment's picture.

@@ -74,8 +74,10 @@ float mx_fresnel_conductor(float cosine, float re, float im)
 // One channel after the other, which needs a third of the registers.
 vec3 mx_fresnel_conductor(float cosine, vec3 re, vec3 im)
 {
-    return vec3(mx_fresnel_conductor(cosine, re.x, im.x), mx_fresnel_conductor(cosine, re.y, im.y),
-                mx_fresnel_conductor(cosine, re.z, im.z));
+    vec3 color = vec3(0.0);
+    for (int i = 0; i < 3; ++i)
+        color[i] = mx_fresnel_conductor(cosine, re[i], im[i]);
+    return color;
 }
 
 // What bends Schlick's curve towards f82 at cos = 1/7 (Hoffman 2019, "Fresnel Equations Considered Harmful"): the factor of cos (1 - cos)^6.
@@ -95,49 +97,29 @@ vec3 mx_fresnel_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float expone
 // ---- thin films -----------------------------------------------------------------------------------------------------
 // Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence".
 
-// The channels of XYZ and the polarisations come one after the other, which needs a sixth of the registers.
+// The CIE sensitivities, sums of Gaussians, after a Fourier transform: (frequency, height, -1 / width, weight of light that does not
+// interfere). X is the sum of two, hence the last number.
+const mat4 MX_FILM_GAUSSIANS = mat4(1.6810, 0.846590, -0.0043278, 1.0, // X
+                                    2.2399, 0.153868, -0.0045282, 0.0,
+                                    1.7953, 1.000222, -0.0093046, 1.0,  // Y
+                                    2.2084, 1.001122, -0.0066121, 1.0); // Z
 
-// The CIE sensitivities, sums of Gaussians, after a Fourier transform: (frequency, height, -1 / width). X has two.
-const vec3 MX_FILM_X = vec3(1.6810, 0.846590, -0.0043278);
-const vec3 MX_FILM_X2 = vec3(2.2399, 0.153868, -0.0045282);
-const vec3 MX_FILM_Y = vec3(1.7953, 1.000222, -0.0093046);
-const vec3 MX_FILM_Z = vec3(2.2084, 1.001122, -0.0066121);
-
-// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind is -a, and the
-// complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre. The second term is of the first one's
-// square: its distance is twice as long.
-float mx_film_terms(float a, vec2 r, float d, vec3 gauss)
+// What Gaussian i sees of one polarisation after interference. Amplitude `a` of the film's own interface, which from behind is -a, and
+// the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre. Two terms of the series (section 3.3):
+// the second is of the first one's square, because its distance is twice as long.
+float mx_film_light(float a, vec2 r, float d, int i)
 {
-    float c = cos(gauss.x * d);
-    float s = sin(gauss.x * d);
-    float decay = exp(gauss.z * d * d);
+    vec4 gaussian = MX_FILM_GAUSSIANS[i];
+    float c = cos(gaussian.x * d);
+    float s = sin(gaussian.x * d);
+    float decay = exp(gaussian.z * d * d);
     float x = r.x * c - r.y * s;
     float y = r.x * s + r.y * c;
-    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
-}
-
-// A channel of one polarisation after interference.
-float mx_film_channel(float a, vec2 r, float terms)
-{
+    float terms = gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return a * a + even + 2.0 * (even - t) * terms;
-}
-
-float mx_film_x(float a, vec2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, MX_FILM_X) + mx_film_terms(a, r, d, MX_FILM_X2));
-}
-
-float mx_film_y(float a, vec2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, MX_FILM_Y));
-}
-
-float mx_film_z(float a, vec2 r, float d)
-{
-    return mx_film_channel(a, r, mx_film_terms(a, r, d, MX_FILM_Z));
+    return gaussian.w * (a * a + even) + 2.0 * (even - t) * terms;
 }
 
 // Cosine inside of the film.
@@ -168,24 +150,25 @@ vec3 mx_film_rgb(vec3 xyz)
     return clamp(XYZ_TO_RGB * xyz, 0.0, 1.0);
 }
 
-// A film on a permittivity.
+// A film on a permittivity. Gaussians and polarisations come one after the other: together they would need eight times the registers.
 vec3 mx_film_index(float cosine, vec3 re, vec3 im, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
     float c = mx_film_cosine(cosine, ior);
     vec2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.004 * MX_PI * ior * c * film;
-    vec2 across = vec2(c, 0.0);
-    vec2 below = vec2(re.x, im.x) / (ior * ior);
-    vec2 u = mx_fresnel_refract(c, below.x, below.y);
-    float x = mx_film_x(a.x, mx_film_amplitude(across, u), d) + mx_film_x(a.y, mx_film_amplitude(c * below, u), d);
-    below = vec2(re.y, im.y) / (ior * ior);
-    u = mx_fresnel_refract(c, below.x, below.y);
-    float y = mx_film_y(a.x, mx_film_amplitude(across, u), d) + mx_film_y(a.y, mx_film_amplitude(c * below, u), d);
-    below = vec2(re.z, im.z) / (ior * ior);
-    u = mx_fresnel_refract(c, below.x, below.y);
-    float z = mx_film_z(a.x, mx_film_amplitude(across, u), d) + mx_film_z(a.y, mx_film_amplitude(c * below, u), d);
-    return mx_film_rgb(0.5 * vec3(x, y, z));
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        vec2 below = vec2(re[channel], im[channel]) / (ior * ior);
+        vec2 u = mx_fresnel_refract(c, below.x, below.y);
+        vec2 x = vec2(c, 0.0);
+        for (int p = 0; p < 2; ++p) {
+            xyz[channel] += mx_film_light(a[p], mx_film_amplitude(x, u), d, i);
+            x = c * below;
+        }
+    }
+    return mx_film_rgb(0.5 * xyz);
 }
 
 // Facing the viewer both polarisations are alike.
@@ -194,12 +177,13 @@ vec3 mx_film_index_facing(vec3 re, vec3 im, float film, float film_ior)
     float ior = max(film_ior, 1.0);
     float a = (1.0 - ior) / (1.0 + ior);
     float d = 0.004 * MX_PI * ior * film;
-    vec2 across = vec2(1.0, 0.0);
-    vec3 r = re / (ior * ior);
-    vec3 i = im / (ior * ior);
-    float x = mx_film_x(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.x, i.x)), d);
-    float y = mx_film_y(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.y, i.y)), d);
-    return mx_film_rgb(vec3(x, y, mx_film_z(a, mx_film_amplitude(across, mx_fresnel_refract(1.0, r.z, i.z)), d)));
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        vec2 u = mx_fresnel_refract(1.0, re[channel] / (ior * ior), im[channel] / (ior * ior));
+        xyz[channel] += mx_film_light(a, mx_film_amplitude(vec2(1.0, 0.0), u), d, i);
+    }
+    return mx_film_rgb(xyz);
 }
 
 // Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the film is lower.
@@ -217,10 +201,16 @@ vec3 mx_film_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float exponent,
     vec2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.004 * MX_PI * ior * c * film;
     vec3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, bend, f90, exponent), ior);
-    float x = mx_film_x(a.x, vec2(-r.x, 0.0), d) + mx_film_x(a.y, vec2(r.x, 0.0), d);
-    float y = mx_film_y(a.x, vec2(-r.y, 0.0), d) + mx_film_y(a.y, vec2(r.y, 0.0), d);
-    float z = mx_film_z(a.x, vec2(-r.z, 0.0), d) + mx_film_z(a.y, vec2(r.z, 0.0), d);
-    return mx_film_rgb(0.5 * vec3(x, y, z));
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        float below = r[channel];
+        for (int p = 0; p < 2; ++p) {
+            below = -below;
+            xyz[channel] += mx_film_light(a[p], vec2(below, 0.0), d, i);
+        }
+    }
+    return mx_film_rgb(0.5 * xyz);
 }
 
 vec3 mx_film_schlick_facing(vec3 f0, float film, float film_ior)
@@ -228,10 +218,13 @@ vec3 mx_film_schlick_facing(vec3 f0, float film, float film_ior)
     float ior = max(film_ior, 1.0);
     float a = (1.0 - ior) / (1.0 + ior);
     float d = 0.004 * MX_PI * ior * film;
-    vec3 r = -mx_film_turned(f0, f0, ior);
-    float x = mx_film_x(a, vec2(r.x, 0.0), d);
-    float y = mx_film_y(a, vec2(r.y, 0.0), d);
-    return mx_film_rgb(vec3(x, y, mx_film_z(a, vec2(r.z, 0.0), d)));
+    vec3 r = mx_film_turned(f0, f0, ior);
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        xyz[channel] += mx_film_light(a, vec2(-r[channel], 0.0), d, i);
+    }
+    return mx_film_rgb(xyz);
 }
 
 // ---- all of them ----------------------------------------------------------------------------------------------------
