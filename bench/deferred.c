@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The cost of drawing in the deferred pipeline (docs/benchmarks.md, "The deferred pipeline"): the
- * processor time that lavapipe takes for a frame on one thread, as ratios of one run. Each number
- * is the least of a few frames. Argument: examples/deferred.mtlx.
+ * processor time that lavapipe takes for a frame on one thread. The frames that are compared are
+ * drawn in turn, and numbers are medians of the rounds. Argument: examples/deferred.mtlx.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "bench/drawn.h"
@@ -15,7 +15,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { SIZE = 384, NUM_FRAMES = 9, NUM_ROUNDS = 3, NUM_LIGHTS = 8 };
+enum { SIZE = 384, NUM_FRAMES = 3, NUM_ROUNDS = 11, NUM_LIGHTS = 8 };
 
 /* How a material is drawn. */
 enum way {
@@ -32,6 +32,7 @@ struct bench {
     mxg_context *context;
     mxg_options *options;
     mxg_document *examples, *mixes;
+    struct draw_canvas *blank; /* the picture alone */
     float *pixels;
 };
 
@@ -139,28 +140,7 @@ static struct draw_program *open_plain(struct draw_canvas *canvas, struct bind *
     return draw_open(canvas, &bind->draw);
 }
 
-/* ---- Time ---- */
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double frame_seconds(struct bench *b, struct draw_canvas *canvas,
-                            struct draw_program *const *programs, size_t count)
-{
-    double best = 1e9;
-    for (int i = 0; i < NUM_FRAMES; ++i) {
-        double begin = now();
-        if (!draw_frame(canvas, programs, count, b->pixels))
-            bench_fail("a frame fails: %s", b->gpu.reason);
-        double time = now() - begin;
-        best = time < best ? time : best;
-    }
-    return best;
-}
+/* ---- Frames ---- */
 
 struct frame {
     struct draw_canvas *canvas;
@@ -169,6 +149,7 @@ struct frame {
     struct render render;
     struct compiled compiled;
     struct draw_program *program;
+    struct draw_canvas *empty; /* what a frame without a program is drawn to */
 };
 
 static void open_stores(struct bench *b, struct frame *f, enum way way)
@@ -191,87 +172,173 @@ static void open_stores(struct bench *b, struct frame *f, enum way way)
     f->bind.draw.role = DRAW_STORES;
 }
 
-/*
- * The time for a frame of so many copies. Less that of a frame without a program: of the same
- * images for a part of a frame, of the picture alone for a whole one.
- */
-static double seconds(struct bench *b, const char *element, enum way way, uint32_t copies)
+/* A frame of so many copies. */
+static void open_frame(struct bench *b, const char *element, enum way way, uint32_t copies,
+                       struct frame *f)
 {
     bool stores = way == WAY_DEFERRED || way == WAY_STORED;
-    struct frame f = {.canvas = draw_open_canvas(&b->gpu, SIZE, SIZE)};
-    f.bind = (struct bind){.result = generate(b, element, stores ? "deferred" : "forward"),
-                           .scene = &b->scene,
-                           .objects = b->copies + BENCH_COPIES - copies,
-                           .num_objects = copies};
-    double empty = way == WAY_DEFERRED ? frame_seconds(b, f.canvas, NULL, 0) : 0;
+    *f = (struct frame){.canvas = draw_open_canvas(&b->gpu, SIZE, SIZE)};
+    f->bind = (struct bind){.result = generate(b, element, stores ? "deferred" : "forward"),
+                            .scene = &b->scene,
+                            .objects = b->copies + BENCH_COPIES - copies,
+                            .num_objects = copies};
     if (stores)
-        open_stores(b, &f, way);
+        open_stores(b, f, way);
     for (int i = 0; way == WAY_PLAIN && i < 3; ++i)
-        draw_add_output(f.canvas, DRAW_WHOLE);
-    if (way != WAY_DEFERRED)
-        empty = frame_seconds(b, f.canvas, NULL, 0);
+        draw_add_output(f->canvas, DRAW_WHOLE);
     if (way == WAY_PLAIN)
-        f.program = open_plain(f.canvas, &f.bind, &f.compiled);
-    else if (!render_open(&f.render, f.canvas, &b->gpu, &f.bind) || !bind_scene(&f.bind))
-        bench_fail("%s: %s", element, f.bind.reason);
-    struct draw_program *program = f.program ? f.program : f.render.program;
-    if (way == WAY_DEFERRED && !passes_aim(&f.passes))
-        bench_fail("%s", f.passes.reason);
-    double time = frame_seconds(b, f.canvas, &program, 1) - empty;
-    if (f.program)
-        draw_close(f.program);
+        f->program = open_plain(f->canvas, &f->bind, &f->compiled);
+    else if (!render_open(&f->render, f->canvas, &b->gpu, &f->bind) || !bind_scene(&f->bind))
+        bench_fail("%s: %s", element, f->bind.reason);
     else
-        render_close(&f.render);
-    draw_close_canvas(f.canvas);
-    passes_close(&f.passes);
-    compiled_finish(&f.compiled);
-    mxg_result *result = (mxg_result *)(uintptr_t)f.bind.result;
-    bind_finish(&f.bind);
+        f->program = f->render.program;
+    if (way == WAY_DEFERRED && !passes_aim(&f->passes))
+        bench_fail("%s", f->passes.reason);
+    f->empty = way == WAY_DEFERRED ? b->blank : f->canvas;
+}
+
+static void close_frame(struct frame *f)
+{
+    if (f->render.program)
+        render_close(&f->render);
+    else
+        draw_close(f->program);
+    draw_close_canvas(f->canvas);
+    passes_close(&f->passes);
+    compiled_finish(&f->compiled);
+    mxg_result *result = (mxg_result *)(uintptr_t)f->bind.result;
+    bind_finish(&f->bind);
     mxg_result_destroy(result);
-    return time;
+}
+
+/* ---- Time ---- */
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The least time of a few frames. program: may be NULL. */
+static double least_seconds(struct bench *b, struct draw_canvas *canvas,
+                            struct draw_program *program)
+{
+    double best = 1e9;
+    for (int i = 0; i < NUM_FRAMES; ++i) {
+        double begin = now();
+        if (!draw_frame(canvas, &program, program ? 1 : 0, b->pixels))
+            bench_fail("a frame fails: %s", b->gpu.reason);
+        best = fmin(best, now() - begin);
+    }
+    return best;
+}
+
+/*
+ * Less the time of a frame without a program: of the same images for a part of a frame, of the
+ * picture alone for a whole one.
+ */
+static double seconds(struct bench *b, const struct frame *f)
+{
+    return least_seconds(b, f->canvas, f->program) - least_seconds(b, f->empty, NULL);
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+static double median(double *numbers)
+{
+    qsort(numbers, NUM_ROUNDS, sizeof *numbers, compare_numbers);
+    return numbers[NUM_ROUNDS / 2];
 }
 
 /* ---- Rows ---- */
 
-static void row(const char *what, double time, double other)
+/* Times of each round, and their ratio: other work on the machine slows both of a round. */
+struct pair {
+    double time[NUM_ROUNDS], other[NUM_ROUNDS], ratio[NUM_ROUNDS];
+};
+
+static void record(struct pair *pair, int round, double time, double other)
 {
-    printf("| %s | %.1f | %.1f | %.2f |\n", what, 1e3 * time, 1e3 * other, time / other);
+    pair->time[round] = time;
+    pair->other[round] = other;
+    pair->ratio[round] = time / other;
+}
+
+static void print_head(void)
+{
+    printf("| frame | milliseconds | of what | ratio | half of the rounds |\n"
+           "| --- | --- | --- | --- | --- |\n");
+}
+
+static void print_row(const char *what, struct pair *pair)
+{
+    double middle = median(pair->ratio);
+    printf("| %s | %.1f | %.1f | %.2f | %.2f to %.2f |\n", what, 1e3 * median(pair->time),
+           1e3 * median(pair->other), middle, pair->ratio[NUM_ROUNDS / 4],
+           pair->ratio[NUM_ROUNDS - 1 - NUM_ROUNDS / 4]);
+    fflush(stdout);
+}
+
+static void compare(struct bench *b, const char *what, const char *element, enum way way,
+                    enum way other, uint32_t copies)
+{
+    struct frame frames[2];
+    struct pair pair;
+    open_frame(b, element, way, copies, &frames[0]);
+    open_frame(b, element, other, copies, &frames[1]);
+    for (int round = 0; round < NUM_ROUNDS; ++round)
+        record(&pair, round, seconds(b, &frames[0]), seconds(b, &frames[1]));
+    print_row(what, &pair);
+    close_frame(&frames[0]);
+    close_frame(&frames[1]);
 }
 
 static void measure(struct bench *b)
 {
-    printf("| frame | milliseconds | of what | ratio |\n| --- | --- | --- | --- |\n");
-    b->scene.num_lights = 3;
-    row("material pass of one slab (SIMPLE), of a plain G-buffer of four targets",
-        seconds(b, "Plain", WAY_STORED, 1), seconds(b, "Plain", WAY_PLAIN, 1));
-    b->scene.num_lights = NUM_LIGHTS;
-    row("one surface, 8 lights: one slab, of forward", seconds(b, "Plain", WAY_DEFERRED, 1),
-        seconds(b, "Plain", WAY_FORWARD, 1));
-    row("overdraw 4, 8 lights: one slab, of forward", seconds(b, "Plain", WAY_DEFERRED, 4),
-        seconds(b, "Plain", WAY_FORWARD, 4));
-    row("overdraw 4, 8 lights: two slabs with all features, of forward",
-        seconds(b, "Lacquered", WAY_DEFERRED, 4), seconds(b, "Lacquered", WAY_FORWARD, 4));
+    print_head();
+    compare(b, "material pass of one slab (SIMPLE), of a plain G-buffer of four targets", "Plain",
+            WAY_STORED, WAY_PLAIN, 1);
+    compare(b, "one surface, 8 lights: one slab, of forward", "Plain", WAY_DEFERRED, WAY_FORWARD,
+            1);
+    compare(b, "overdraw 4, 8 lights: one slab, of forward", "Plain", WAY_DEFERRED, WAY_FORWARD, 4);
+    compare(b, "overdraw 4, 8 lights: two slabs with all features, of forward", "Lacquered",
+            WAY_DEFERRED, WAY_FORWARD, 4);
 }
 
-/* The least of a few rounds, because the frames of many slabs wait for memory. */
+enum { HALF, NUM_MIXES = 9 }; /* M1 to M8 by their numbers */
+
 static void measure_closures(struct bench *b)
 {
-    double of_half = 1e9, of[9] = {0};
+    struct frame frames[NUM_MIXES];
+    static double times[NUM_MIXES][NUM_ROUNDS];
+    static struct pair of_eight, of_mean;
+    for (int i = 0; i < NUM_MIXES; ++i) {
+        const char name[] = {'M', (char)('0' + i), 0};
+        open_frame(b, i == HALF ? "Half" : name, WAY_DEFERRED, 1, &frames[i]);
+    }
     for (int round = 0; round < NUM_ROUNDS; ++round) {
-        of_half = fmin(of_half, seconds(b, "Half", WAY_DEFERRED, 1));
-        for (int i = 1; i <= 8; ++i) {
-            const char name[] = {'M', (char)('0' + i), 0};
-            double time = seconds(b, name, WAY_DEFERRED, 1);
-            of[i] = round ? fmin(of[i], time) : time;
-        }
+        for (int i = 0; i < NUM_MIXES; ++i)
+            times[i][round] = seconds(b, &frames[i]);
+        record(&of_eight, round, times[HALF][round], times[8][round]);
+        record(&of_mean, round, times[HALF][round], (times[1][round] + times[8][round]) / 2);
     }
     printf("\n| slabs beside each other | milliseconds, 8 lights | for a slab |\n| --- | --- | --- "
            "|\n");
-    for (int i = 1; i <= 8; ++i)
-        printf("| %d | %.1f | %.1f |\n", i, 1e3 * of[i], 1e3 * of[i] / i);
-    printf("\n| frame | milliseconds | of what | ratio |\n| --- | --- | --- | --- |\n");
-    row("half 1 slab and half 8, of 8 slabs everywhere", of_half, of[8]);
-    row("the same, of the mean of 1 and 8 slabs", of_half, (of[1] + of[8]) / 2);
+    for (int i = 1; i < NUM_MIXES; ++i) {
+        double time = 1e3 * median(times[i]);
+        printf("| %d | %.1f | %.1f |\n", i, time, time / i);
+    }
+    printf("\n");
+    print_head();
+    print_row("half 1 slab and half 8, of 8 slabs everywhere", &of_eight);
+    print_row("the same, of the mean of 1 and 8 slabs", &of_mean);
+    for (int i = 0; i < NUM_MIXES; ++i)
+        close_frame(&frames[i]);
 }
 
 int main(int argc, char **argv)
@@ -291,8 +358,11 @@ int main(int argc, char **argv)
     mxg_options_set(b.options, "interface", "reduced");
     mxg_options_set(b.options, "environment", "none");
     mxg_options_set(b.options, "max-lights", "8");
+    b.scene.num_lights = NUM_LIGHTS;
+    b.blank = draw_open_canvas(&b.gpu, SIZE, SIZE);
     measure(&b);
     measure_closures(&b);
+    draw_close_canvas(b.blank);
     mxg_document_destroy(b.examples);
     mxg_document_destroy(b.mixes);
     mxg_options_destroy(b.options);

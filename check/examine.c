@@ -309,7 +309,7 @@ static void examine_element(struct examiner *examiner, const mxg_document *docum
         generate(examiner, document, element, shader);
     }
     if (examiner->render && element->num_shaders && element->shaders[0].failed != CHECK_GENERATE)
-        examine_picture(examiner, element);
+        examine_picture(examiner, document, element);
 }
 
 const struct check_document *examine(struct examiner *examiner, const char *path)

@@ -39,7 +39,11 @@ void examine_settings(struct examiner *examiner, const mxg_result *result,
 
 /* examine_picture.c: lists the images in an element's picture; draws the picture. */
 void examine_images(struct examiner *examiner, const mxg_result *result);
-void examine_picture(struct examiner *examiner, struct check_element *element);
+void examine_picture(struct examiner *examiner, const mxg_document *document,
+                     struct check_element *element);
+/* examine_steps.c: the steps of the budget of slabs, without drawn errors. */
+void examine_steps(struct examiner *examiner, const mxg_document *document,
+                   struct check_element *element);
 
 /* Adds a message of the current document for a shader and copies its text. */
 void examine_add(struct examiner *examiner, struct check_shader *shader,

@@ -39,11 +39,14 @@ static bool make_folder(struct examiner *examiner)
     return examiner->folder != NULL;
 }
 
+/* Which steps of a budget of slabs a picture shows; from 1 on: so many. */
+enum { NO_STEPS = -1, ALL_STEPS = 0 };
+
 /*
- * Runs the renderer with its output in a file; full: without options that make slabs cheaper.
- * Returns 0, its exit code, or -1 if it cannot start or dies.
+ * Runs the renderer with its output in a file. Returns 0, its exit code, or -1 if it cannot start
+ * or dies.
  */
-static int run(struct examiner *examiner, const char *element, bool full)
+static int run(struct examiner *examiner, const char *element, int steps)
 {
     struct arg_list args = {0};
     args_append(&args, cli_program("mxgen-render"));
@@ -54,10 +57,12 @@ static int run(struct examiner *examiner, const char *element, bool full)
     args_append(&args, cli_format("--size=" SIZE));
     args_append(&args, cli_format("--frame=%d", FRAME));
     args_append(&args, cli_format("--missing-texture=checker"));
-    if (full)
+    if (steps == NO_STEPS)
         cli_forward_full(examiner->cli, &args);
     else
         cli_forward(examiner->cli, &args);
+    if (steps > 0)
+        args_append(&args, cli_format("--max-steps=%d", steps));
     args_append(&args, NULL);
 
     posix_spawn_file_actions_t actions;
@@ -134,10 +139,10 @@ struct drawn {
     size_t png_size, ppm_size;
 };
 
-static struct drawn draw(struct examiner *examiner, const char *element, bool full)
+static struct drawn draw(struct examiner *examiner, const char *element, int steps)
 {
     struct drawn out = {0};
-    bool good = make_folder(examiner) && run(examiner, element, full) == 0;
+    bool good = make_folder(examiner) && run(examiner, element, steps) == 0;
     if (!examiner->folder)
         return out;
     out.png = read_output(examiner, "picture.png", &out.png_size);
@@ -158,34 +163,60 @@ static void drop(struct drawn *drawn)
     free(drawn->log);
 }
 
-/* The material without a budget, and how far the picture is from it. */
-static void add_full(struct examiner *examiner, struct check_element *element,
-                     const struct drawn *cheaper)
+/* How far a picture is from the one without a budget; "" after a message. */
+static const char *compare(struct examiner *examiner, const struct check_element *element,
+                           const struct drawn *full, const struct drawn *cheaper)
 {
-    struct drawn full = draw(examiner, element->path, true);
-    double error = drawn_difference(full.ppm, full.ppm_size, cheaper->ppm, cheaper->ppm_size);
-    if (full.png && error >= 0) {
-        char text[32];
-        snprintf(text, sizeof text, "%.2f", error);
+    char text[32];
+    double error = drawn_difference(full->ppm, full->ppm_size, cheaper->ppm, cheaper->ppm_size);
+    if (error < 0) {
+        fail(examiner, element, full->ppm ? cheaper->log : full->log);
+        return "";
+    }
+    snprintf(text, sizeof text, "%.2f", error);
+    return store_text(&examiner->store, text, strlen(text));
+}
+
+/* The error of each step; the last one is that of the picture with the whole budget. */
+static void draw_steps(struct examiner *examiner, struct check_element *element,
+                       const struct drawn *full)
+{
+    for (size_t i = 0; i + 1 < element->num_steps; ++i) {
+        channel_mark(&examiner->channel, CHECK_RENDER, element->path, "vulkan");
+        struct drawn drawn = draw(examiner, element->path, (int)i + 1);
+        element->steps[i].drawn = compare(examiner, element, full, &drawn);
+        drop(&drawn);
+    }
+    if (element->num_steps)
+        element->steps[element->num_steps - 1].drawn = element->drawn_error;
+}
+
+/* The material without a budget, how far the picture is from it, and by which steps. */
+static void add_full(struct examiner *examiner, const mxg_document *document,
+                     struct check_element *element, const struct drawn *cheaper)
+{
+    struct drawn full = draw(examiner, element->path, NO_STEPS);
+    element->drawn_error = compare(examiner, element, &full, cheaper);
+    if (full.png && *element->drawn_error) {
         element->full = picture_base64(&examiner->store, full.png, full.png_size);
-        element->drawn_error = store_text(&examiner->store, text, strlen(text));
-    } else {
-        fail(examiner, element, full.log);
+        examine_steps(examiner, document, element);
+        draw_steps(examiner, element, &full);
     }
     drop(&full);
 }
 
-void examine_picture(struct examiner *examiner, struct check_element *element)
+void examine_picture(struct examiner *examiner, const mxg_document *document,
+                     struct check_element *element)
 {
     double begin = examine_clock();
     channel_mark(&examiner->channel, CHECK_RENDER, element->path, "vulkan");
-    struct drawn drawn = draw(examiner, element->path, false);
+    struct drawn drawn = draw(examiner, element->path, ALL_STEPS);
     char *signature = drawn.ppm ? picture_sign(&examiner->store, drawn.ppm, drawn.ppm_size) : NULL;
     if (signature && drawn.png) {
         element->signature = signature;
         element->picture = picture_base64(&examiner->store, drawn.png, drawn.png_size);
         if (cli_has_budget(examiner->cli))
-            add_full(examiner, element, &drawn);
+            add_full(examiner, document, element, &drawn);
     } else {
         fail(examiner, element, drawn.log);
     }

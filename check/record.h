@@ -98,6 +98,13 @@ struct check_setting {
     const char *path, *value;
 };
 
+/* A step of a budget of slabs. Errors are of all steps so far, mean CIEDE2000; "": unknown. */
+struct check_step {
+    const char *text;
+    uint32_t closures_before, closures_after, bytes_before, bytes_after;
+    const char *estimated, *drawn;
+};
+
 struct check_element {
     const char *path, *type;
     struct check_shader *shaders;
@@ -109,6 +116,8 @@ struct check_element {
     const char *signature; /* signature of the picture, see picture.h */
     /* where options make slabs cheaper: a PNG without them, and the mean CIEDE2000 between both */
     const char *full, *drawn_error; /* "": none */
+    struct check_step *steps;       /* of that budget */
+    size_t num_steps;
 };
 
 /* Differences from a baseline: kind, name, meaning, whether it fails a run without --fail-on. */

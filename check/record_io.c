@@ -111,6 +111,18 @@ static void shader(struct record_io *io, void *item)
     io->coding->time(io, "compileMs", &shader->compile_ms);
 }
 
+static void step(struct record_io *io, void *item)
+{
+    struct check_step *step = item;
+    text(io, "step", &step->text);
+    small_count(io, "closuresBefore", &step->closures_before);
+    small_count(io, "closuresAfter", &step->closures_after);
+    small_count(io, "bytesBefore", &step->bytes_before);
+    small_count(io, "bytesAfter", &step->bytes_after);
+    text(io, "estimatedError", &step->estimated);
+    text(io, "drawnError", &step->drawn);
+}
+
 static void element(struct record_io *io, void *item)
 {
     struct check_element *element = item;
@@ -124,6 +136,8 @@ static void element(struct record_io *io, void *item)
     text(io, "picture", &element->picture);
     text(io, "fullPicture", &element->full);
     text(io, "drawnError", &element->drawn_error);
+    element->steps = objects(io, "steps", false, element->steps, &element->num_steps,
+                             sizeof *element->steps, step);
 }
 
 static void change(struct record_io *io, void *item)

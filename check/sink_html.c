@@ -138,6 +138,26 @@ static void write_head(FILE *out, const struct check_run *run, const struct card
         fprintf(out, "<p>drawn error of the budget: %s</p>", card->element->drawn_error);
 }
 
+static void write_steps(FILE *out, const struct check_element *element)
+{
+    if (!element->num_steps)
+        return;
+    fputs("<table><tr><th>step</th><th>closures</th><th>bytes</th><th>estimated</th>"
+          "<th>drawn</th></tr>",
+          out);
+    for (size_t i = 0; i < element->num_steps; ++i) {
+        const struct check_step *step = &element->steps[i];
+        fputs("<tr><td>", out);
+        markup_text(out, step->text);
+        fprintf(out,
+                "</td><td>%" PRIu32 " to %" PRIu32 "</td><td>%" PRIu32 " to %" PRIu32
+                "</td><td>%s</td><td>%s</td></tr>",
+                step->closures_before, step->closures_after, step->bytes_before, step->bytes_after,
+                step->estimated, step->drawn);
+    }
+    fputs("</table>", out);
+}
+
 /* "The compiler rejects the shader for glsl: 'x' is undeclared": the first failure in words. */
 static void write_reason(FILE *out, const struct card *card)
 {
@@ -300,6 +320,8 @@ static void write_card(struct sink *sink, const struct card *card)
     write_reason(out, card);
     if (card->element)
         write_table(out, card->element);
+    if (card->element)
+        write_steps(out, card->element);
     write_changes(out, sink->run, card);
     write_messages(out, card);
     if (card->is_gone)

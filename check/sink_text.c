@@ -162,6 +162,33 @@ static void print_messages(FILE *out, const struct check_run *run,
     free(targets);
 }
 
+/* "'Coated': the layer 'coat': closures 2 to 1, bytes 28 to 16, error estimated 1.71, drawn 1.46"
+ */
+static void print_steps(FILE *out, const struct check_document *document)
+{
+    for (size_t i = 0; i < document->num_elements; ++i) {
+        const struct check_element *element = &document->elements[i];
+        for (size_t k = 0; k < element->num_steps; ++k) {
+            const struct check_step *step = &element->steps[k];
+            fprintf(out,
+                    "  '%s': %s: closures %" PRIu32 " to %" PRIu32 ", bytes %" PRIu32 " to %" PRIu32
+                    ", error estimated %s, drawn %s\n",
+                    element->path, step->text, step->closures_before, step->closures_after,
+                    step->bytes_before, step->bytes_after,
+                    *step->estimated ? step->estimated : "unknown",
+                    *step->drawn ? step->drawn : "unknown");
+        }
+    }
+}
+
+static bool has_steps(const struct check_document *document)
+{
+    for (size_t i = 0; i < document->num_elements; ++i)
+        if (document->elements[i].num_steps)
+            return true;
+    return false;
+}
+
 static void print_verdict(struct sink *sink, const char *verdict,
                           const struct check_document *document, bool with_warnings)
 {
@@ -170,6 +197,8 @@ static void print_verdict(struct sink *sink, const char *verdict,
     fprintf(out, "%s %s", verdict, document->file);
     fprintf(out, document->failed ? " (%s)\n" : "\n", check_stage_names[document->failed]);
     print_messages(out, sink->run, document, with_warnings);
+    if (!sink->run->quiet)
+        print_steps(out, document);
 }
 
 /*
@@ -233,7 +262,9 @@ static void print_document(struct sink *sink, const struct check_document *docum
     else if (!run->is_compared && document->failed)
         print_verdict(sink, "FAILED", document, !run->quiet);
     else if (!document->failed
-             && (run->verbose || (has_warning(document) && !run->quiet && !run->is_compared)))
+             && (run->verbose
+                 || ((has_warning(document) || has_steps(document)) && !run->quiet
+                     && !run->is_compared)))
         print_verdict(sink, "passed", document, !run->quiet);
     print_changes(sink, document);
 }

@@ -222,8 +222,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
 /* True for options that make slabs cheaper. */
 static bool is_budget(const char *key)
 {
-    static const char *const keys[] = {"slabs",     "max-closures", "max-bytes",
-                                       "max-error", "features",     "profile"};
+    static const char *const keys[] = {"slabs",    "max-closures", "max-bytes", "max-error",
+                                       "features", "profile",      "max-steps"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
         if (strcmp(keys[i], key) == 0)
             return true;

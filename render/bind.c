@@ -2,6 +2,7 @@
 #include "render/bind.h"
 
 #include "render/bake.h"
+#include "render/stored.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -521,6 +522,7 @@ bool bind_shader(struct bind *bind)
     mxg_result_info(bind->result, &info);
     bind->draw.blend = info.alpha == MXG_ALPHA_BLEND && !bind->is_opaque;
     bind->draw.blends_twice = bind->draw.blend && bind_has_semantic(bind->result, "transmittance");
+    bind->draw.stores_layers = info.stored_words > STORED_TARGETS;
     bind->max_lights = info.num_lights;
     return make_objects(bind) && check_values(bind) && make_blocks(bind) && bind_textures(bind)
            && bind_attributes(bind) && bind_scene(bind);

@@ -99,7 +99,8 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
 
 struct stored *draw_store(struct draw_canvas *canvas, uint32_t words)
 {
-    canvas->stored = stored_open(canvas->gpu, canvas->width, canvas->height, words,
+    uint32_t layers = words > STORED_TARGETS ? words - STORED_TARGETS : 0;
+    canvas->stored = stored_open(canvas->gpu, canvas->width, canvas->height, layers,
                                  &canvas->outputs[0], &canvas->depth);
     return canvas->stored;
 }
@@ -221,12 +222,13 @@ static const VkPipelineMultisampleStateCreateInfo samples = {
     .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
 };
 
-/* The three ways in which a program draws. */
+/* The ways in which a program draws. */
 enum draw_way {
-    WAY_LIT,    /* to a picture */
-    WAY_DEPTH,  /* depth alone, before the program stores */
-    WAY_CUT,    /* the same with holes */
-    WAY_STORED, /* to the images of stored.h, where it is in front */
+    WAY_LIT,     /* to a picture */
+    WAY_DEPTH,   /* depth alone, before the program stores */
+    WAY_CUT,     /* the same with holes */
+    WAY_STORED,  /* to the images of stored.h, where its depth is in front */
+    WAY_TARGETS, /* to the targets of stored.h alone, with its depth */
     NUM_WAYS
 };
 static const struct {
@@ -238,6 +240,7 @@ static const struct {
     [WAY_DEPTH] = {0, 1, VK_COMPARE_OP_LESS, true},
     [WAY_CUT] = {0, 2, VK_COMPARE_OP_LESS, true},
     [WAY_STORED] = {1 + STORED_TARGETS, 2, VK_COMPARE_OP_EQUAL, false},
+    [WAY_TARGETS] = {1 + STORED_TARGETS, 2, VK_COMPARE_OP_LESS, true},
 };
 enum {
     MAX_TARGETS = DRAW_MAX_OUTPUTS > 1 + STORED_TARGETS ? DRAW_MAX_OUTPUTS : 1 + STORED_TARGETS
@@ -322,6 +325,8 @@ static bool create_pipelines(struct draw_program *program, const struct draw_can
         return create_pipeline(program, canvas, WAY_LIT, &program->pipeline);
     if (draw->role == DRAW_CUTS)
         return create_pipeline(program, canvas, WAY_CUT, &program->depth_pipeline);
+    if (!draw->stores_layers && !draw->has_holes)
+        return create_pipeline(program, canvas, WAY_TARGETS, &program->pipeline);
     return create_pipeline(program, canvas, WAY_STORED, &program->pipeline)
            && (draw->has_holes
                || create_pipeline(program, canvas, WAY_DEPTH, &program->depth_pipeline));

@@ -57,9 +57,10 @@ struct draw {
     uint32_t num_attributes, num_blocks, num_textures;
     struct draw_object *objects; /* malloc */
     uint32_t num_objects;
-    bool has_holes;    /* of DRAW_STORES: another program draws its depth */
-    bool blends_twice; /* with a second source: what the surface lets through */
-    bool blend;        /* colours are premultiplied, and triangles are sorted from far to near */
+    bool has_holes;     /* of DRAW_STORES: another program draws its depth */
+    bool stores_layers; /* of DRAW_STORES: in an image, where one fragment of a pixel may write */
+    bool blends_twice;  /* with a second source: what the surface lets through */
+    bool blend;         /* colours are premultiplied, and triangles are sorted from far to near */
     enum draw_role role;
 };
 

@@ -307,17 +307,12 @@ VkFormat stored_target_format(unsigned target)
 void stored_update(struct stored *stored, const struct stored_frame *from)
 {
     struct frame *frame = stored->frame.mapped;
-    uint32_t *commands = stored->tiles.mapped;
     memcpy(frame->to_world, from->to_world, sizeof frame->to_world);
     frame->size[0] = stored->width;
     frame->size[1] = stored->height;
     frame->size[2] = stored->tiles_x;
     frame->size[3] = stored->tiles_x * stored->tiles_y;
     frame->shown[0] = from->shown;
-    for (unsigned i = 0; i < STORED_CLASSES; ++i) {
-        commands[4 * i] = 0;
-        commands[4 * i + 1] = commands[4 * i + 2] = 1;
-    }
     for (uint32_t i = 0; i < stored->num_passes; ++i)
         inputs_update(stored->passes[i].source.draw, &stored->passes[i].inputs);
 }
@@ -329,8 +324,19 @@ static void make_general(VkCommandBuffer commands, const struct gpu_image *image
                       VK_IMAGE_LAYOUT_GENERAL);
 }
 
+/* The lists of tiles are empty at the begin of a frame; one frame runs at a time. */
+static void reset_tiles(const struct stored *stored)
+{
+    uint32_t *commands = stored->tiles.mapped;
+    for (unsigned i = 0; i < STORED_CLASSES; ++i) {
+        commands[4 * i] = 0;
+        commands[4 * i + 1] = commands[4 * i + 2] = 1;
+    }
+}
+
 void stored_begin(const struct stored *stored, VkCommandBuffer commands)
 {
+    reset_tiles(stored);
     make_general(commands, &stored->color, VK_IMAGE_ASPECT_COLOR_BIT);
     for (unsigned i = 0; i < STORED_TARGETS; ++i)
         make_general(commands, &stored->targets[i], VK_IMAGE_ASPECT_COLOR_BIT);

@@ -54,7 +54,7 @@ void stored_mark(struct stored *stored, uint32_t mark);
 bool stored_read(struct stored *stored, uint32_t x, uint32_t y, uint32_t *out, uint32_t count);
 
 void stored_update(struct stored *stored, const struct stored_frame *frame);
-/* Makes the images ready to be written, except those of the caller. */
+/* Makes images and lists of tiles ready to be written, except the images of the caller. */
 void stored_begin(const struct stored *stored, VkCommandBuffer commands);
 /* Runs the passes in the order in which they were added. */
 void stored_run(const struct stored *stored, VkCommandBuffer commands);

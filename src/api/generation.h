@@ -103,6 +103,8 @@ void generation_start_closures(struct generation *g);
  * False, after a message, where they cannot be cheap enough.
  */
 bool generation_budget_slabs(struct generation *g);
+/* The budget of the options. */
+struct slab_budget generation_slab_budget(const struct generation *g);
 /* The option `features` as bits; false after a message about a word. */
 bool generation_slab_features(struct generation *g, uint32_t *out_off);
 /* Replaces the slabs below the root by their lobes; needs the closures' host. */

@@ -105,7 +105,8 @@ static void view_sheet(struct generation *g, struct text *out,
     if (!generation_start(g) || !generation_build(g))
         return;
     generation_start_closures(g);
-    build_fill_sheet(g->builder, &g->closure_host, &g->estimates, g->root, &sheet);
+    struct slab_budget budget = generation_slab_budget(g);
+    build_fill_sheet(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &sheet);
     if (read_drawn(g, &sheet))
         write(&sheet, out);
 }

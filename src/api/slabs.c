@@ -56,7 +56,7 @@ bool generation_slab_features(struct generation *g, uint32_t *out_off)
     return true;
 }
 
-static struct slab_budget budget_of(const struct generation *g)
+struct slab_budget generation_slab_budget(const struct generation *g)
 {
     return (struct slab_budget){
         .max_closures = generation_packs(g) ? 1 : (uint32_t)g->options[OPTION_max_closures].number,
@@ -64,6 +64,7 @@ static struct slab_budget budget_of(const struct generation *g)
         .max_error = g->options[OPTION_max_error].real,
         .off = g->build_options.slab_features_off,
         .recognises = g->options[OPTION_slabs].number != 0 || generation_packs(g),
+        .max_steps = generation_packs(g) ? 0 : (uint32_t)g->options[OPTION_max_steps].number,
     };
 }
 
@@ -114,7 +115,7 @@ bool generation_budget_slabs(struct generation *g)
 {
     if (g->is_pass) /* it has the lobes of all slabs */
         return true;
-    struct slab_budget budget = budget_of(g);
+    struct slab_budget budget = generation_slab_budget(g);
     struct slab_report *report = &g->result->slabs;
     g->root =
         build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, report);

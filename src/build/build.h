@@ -144,7 +144,8 @@ ir_ref build_without_hidden(struct builder *builder, ir_ref root);
 ir_ref build_walk_slabs(struct builder *builder, const struct closure_host *closures, ir_ref root);
 /* slabs_fill_sheet with the library's slabs; scratch as below. */
 void build_fill_sheet(struct builder *builder, const struct closure_host *closures,
-                      struct arena *scratch, ir_ref root, struct slab_sheet *out);
+                      struct arena *scratch, const struct slab_budget *budget, ir_ref root,
+                      struct slab_sheet *out);
 /* slabs_budget with the library's slabs. scratch: empty, and again after the call. */
 ir_ref build_budget_slabs(struct builder *builder, const struct closure_host *closures,
                           struct arena *scratch, const struct slab_budget *budget, ir_ref root,

@@ -73,11 +73,11 @@ ir_ref build_budget_slabs(struct builder *b, const struct closure_host *closures
 }
 
 void build_fill_sheet(struct builder *b, const struct closure_host *closures, struct arena *scratch,
-                      ir_ref root, struct slab_sheet *out)
+                      const struct slab_budget *budget, ir_ref root, struct slab_sheet *out)
 {
     struct slabs_host host = slabs_host(b, closures);
     host.scratch = scratch;
-    slabs_fill_sheet(b->shader, &host, root, out);
+    slabs_fill_sheet(b->shader, &host, budget, root, out);
 }
 
 static ir_ref without_slabs(struct builder *b, ir_ref root)

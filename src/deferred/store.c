@@ -276,6 +276,7 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     struct source_fault fault;
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
+    text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->stored_words);
     deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
     deferred_write_lines(deferred_store_closure, &text);
     uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),
@@ -354,13 +355,15 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     struct closure_list spread = {0};
     struct closure_host spreading = *host;
     const struct deferred_layout *layout = host->store_data;
-    uint32_t source = add_source(shader, layout);
     ir_ref emission = surface->emission;
     spreading.spreads = true;
     closure_flatten(shader, &spreading, surface->bsdf, &spread);
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
     assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
     struct closure_list marks = marks_of(shader, surface->bsdf, surface->list);
+    shader->stored_words =
+        layout->is_payload ? DEFERRED_PAYLOAD_WORDS : count_words(shader, &marks, layout->storage);
+    uint32_t source = add_source(shader, layout);
     if (layout->is_payload)
         premultiply(shader, surface, &marks, &emission);
     shader->closures.len = 0; /* lights of slabs are no closures of their own here */
@@ -369,8 +372,6 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
         store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
                    layout->storage == STORAGE_FLOAT);
     }
-    shader->stored_words =
-        layout->is_payload ? DEFERRED_PAYLOAD_WORDS : count_words(shader, &marks, layout->storage);
     if (layout->is_payload)
         finish_payload(shader, source, local, emission, surface->alpha);
     else

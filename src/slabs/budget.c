@@ -183,6 +183,12 @@ static struct candidate best_step(struct saver *s)
 
 /* ---- Limits ---- */
 
+/* False: the steps that the budget wants to see are done. */
+static bool goes_on(const struct saver *s)
+{
+    return !s->budget->max_steps || s->report->steps.len < s->budget->max_steps;
+}
+
 static bool keeps_closures(const struct saver *s)
 {
     return !s->budget->max_closures || s->cost.closures <= s->budget->max_closures;
@@ -212,7 +218,7 @@ static struct candidate next_step(struct saver *s)
 
 static void meet_limits(struct saver *s)
 {
-    while (!keeps(s)) {
+    while (!keeps(s) && goes_on(s)) {
         struct candidate c = next_step(s);
         if (!c.root)
             return;
@@ -225,7 +231,7 @@ static void meet_limits(struct saver *s)
 /* Cheaper steps until the next one is above the error. */
 static void spend_error(struct saver *s)
 {
-    while (s->budget->max_error >= 0.0f) {
+    while (s->budget->max_error >= 0.0f && goes_on(s)) {
         struct candidate c = best_step(s);
         if (!c.root || c.step.error > s->budget->max_error)
             return;
@@ -238,7 +244,7 @@ static void spend_error(struct saver *s)
 /* The operators that the document asks to blend, the deepest first. */
 static void blend_asked(struct saver *s)
 {
-    for (bool any = true; any;) {
+    for (bool any = true; any && goes_on(s);) {
         any = false;
         for (uint32_t i = s->spots.items.len; i-- > 0 && !any;) {
             const struct slab_spot *spot = &s->spots.items.items[i];
@@ -259,8 +265,7 @@ static bool has_limits(const struct slab_budget *budget)
     return budget->max_closures || budget->max_bytes || budget->max_error >= 0.0f;
 }
 
-/* True if the options ask for steps. */
-static bool is_asked(const struct slab_budget *budget)
+bool slabs_is_asked(const struct slab_budget *budget)
 {
     return has_limits(budget) || budget->recognises || budget->off;
 }
@@ -289,7 +294,7 @@ static void turn_off(struct saver *s)
 {
     for (int feature = 0; feature < NUM_SLAB_FEATURES; feature++) {
         struct candidate c = feature_step(s, (enum slab_feature)feature);
-        if (c.root && s->budget->off & 1u << feature)
+        if (c.root && s->budget->off & 1u << feature && goes_on(s))
             record(s, c.step, c.root);
     }
 }
@@ -304,11 +309,11 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
                       .report = out,
                       .blend = {shader, host, budget->off}};
     *out = (struct slab_report){.is_met = true};
-    if (!root || (!is_asked(budget) && !slabs_has(shader, root)))
+    if (!root || (!slabs_is_asked(budget) && !slabs_has(shader, root)))
         return root;
     set_root(&s, has_limits(budget) ? slabs_join_stacks(shader, host, root) : root);
     out->before = out->after = s.cost;
-    if (!s.cost.closures || (!is_asked(budget) && !any_asked(&s)))
+    if (!s.cost.closures || (!slabs_is_asked(budget) && !any_asked(&s)))
         return s.root;
     if (host->scratch)
         slabs_look(shader, host, s.root, NULL, &s.whole);
@@ -316,7 +321,8 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
     blend_asked(&s);
     turn_off(&s);
     meet_limits(&s);
-    out->is_met = keeps(&s) && (budget->max_error < 0.0f || out->error <= budget->max_error);
+    out->is_met = !goes_on(&s)
+                  || (keeps(&s) && (budget->max_error < 0.0f || out->error <= budget->max_error));
     if (out->is_met)
         spend_error(&s);
     out->after = s.cost;

@@ -10,9 +10,10 @@
 
 struct slab_budget {
     uint32_t max_closures, max_bytes; /* 0: no limit */
-    float max_error; /* mean CIEDE2000; cheaper until the next step is above it. Below 0: none */
-    uint32_t off;    /* features that are turned off before, as bits */
-    bool recognises; /* all closures become slabs before */
+    float max_error;    /* mean CIEDE2000; cheaper until the next step is above it. Below 0: none */
+    uint32_t off;       /* features that are turned off before, as bits */
+    bool recognises;    /* all closures become slabs before */
+    uint32_t max_steps; /* the first steps alone, whatever the limits; 0: all */
 };
 
 enum slab_step_kind {
@@ -44,6 +45,9 @@ struct slab_report {
 /* The cheaper tree. root: of any type; without slabs it stays as it is. */
 ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
                     const struct slab_budget *budget, ir_ref root, struct slab_report *out);
+
+/* True if the budget asks for steps. */
+bool slabs_is_asked(const struct slab_budget *budget);
 
 /* "layer 'coated'", "second lobe": what a step removes. */
 void slabs_describe_step(const struct shader *shader, const struct slab_step *step,

@@ -92,7 +92,7 @@ static void write_steps(const struct slab_sheet *sheet, struct text *out)
 {
     const struct slab_report *report = &sheet->report;
     if (report->steps.len)
-        text_str(out, "to one closure\n");
+        text_str(out, sheet->is_asked ? "to the budget\n" : "to one closure\n");
     for (uint32_t i = 0; i < report->steps.len; i++) {
         const struct slab_step *step = &report->steps.items[i];
         text_str(out, "  ");

@@ -277,12 +277,14 @@ float slab_drawn_error(const struct slab_sheet *sheet, const struct slab_step *s
     return -1.0f;
 }
 
-void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host, ir_ref root,
-                      struct slab_sheet *out)
+void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
+                      const struct slab_budget *budget, ir_ref root, struct slab_sheet *out)
 {
     const struct ir_graph *g = shader->graph;
-    struct slab_budget budget = {.max_closures = 1, .max_error = -1.0f};
-    *out = (struct slab_sheet){.shader = shader};
+    const struct slab_budget one = {.max_closures = 1, .max_error = -1.0f};
+    *out = (struct slab_sheet){.shader = shader, .is_asked = slabs_is_asked(budget)};
+    if (out->is_asked)
+        slabs_budget(shader, host, budget, root, &out->report);
     root = slabs_join_stacks(shader, host, root);
     out->is_recognised = root && !slabs_has(shader, root);
     if (out->is_recognised)
@@ -301,5 +303,6 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host, ir_r
     }
     if (ir_type_is_closure(ir_type_of(g, root)))
         fill_tree(&f, root, root);
-    slabs_budget(shader, host, &budget, root, &out->report);
+    if (!out->is_asked)
+        slabs_budget(shader, host, &one, root, &out->report);
 }

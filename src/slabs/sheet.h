@@ -51,12 +51,13 @@ struct slab_sheet {
     VEC(struct slab_tree) trees;
     VEC(ir_ref) textures;      /* that the estimate does not read */
     bool is_recognised;        /* the slabs stand for other closures */
-    struct slab_report report; /* of a budget of one closure */
+    struct slab_report report; /* of the budget */
+    bool is_asked;             /* the caller has a budget; otherwise it is one closure */
     VEC(struct slab_drawn) drawn;
 };
 
-void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host, ir_ref root,
-                      struct slab_sheet *out);
+void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
+                      const struct slab_budget *budget, ir_ref root, struct slab_sheet *out);
 
 /* The inputs of a slab that all three show. */
 struct slab_shown {

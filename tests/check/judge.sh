@@ -147,6 +147,13 @@ else
     check 'a budget of slabs' exits 0 "${draw[@]}" --features -fuzz --slabs --html slabs.html --json slabs.json
     check 'is beside the full picture' eval '[ "$(grep -o "src=\"data:image/png" slabs.html | wc -l)" = 2 ] && grep -q "drawn error of the budget: 0" slabs.html'
     check 'with its error' says slabs.json '0 <= float(d[0]["elements"][0]["drawnError"]) < 3' True
+    cp "$here/../../examples/slabs.mtlx" paints.mtlx
+    steps=("$mxgen" check paints.mtlx --no-compile --render --max-error 1.2 -t glsl)
+    check 'steps of a budget' exits 0 "${steps[@]}" --html steps.html --json steps.json
+    check 'have their costs and errors' grep -Eq "^  'CarPaint': one slab for the layer 'coated': closures 2 to 1, bytes 24 to 16, error estimated [01]\.[0-9]+, drawn [01]\.[0-9]+" out
+    check 'in pages' grep -q "<td>one slab for the layer 'coated'</td><td>2 to 1</td><td>24 to 16</td><td>" steps.html
+    check 'each is drawn' says steps.json '[all(float(s["drawnError"]) >= 0 for s in e["steps"]) and e["steps"][-1]["drawnError"] == e["drawnError"] for e in d[0]["elements"] if e["path"] == "CarPaint"]' '[True]'
+    check 'by itself' says steps.json '[len({s["drawnError"] for s in e["steps"]}) > 1 for e in d[0]["elements"] if e["path"] == "CarPaint"]' '[True]'
     sed -i 's/0.8, 0.1, 0.1/0.1, 0.8, 0.1/' red.mtlx
     check 'another colour' exits 0 "${draw[@]}" --baseline red.json --json green.json
     check 'looks different, though the shader is the same' is "$(changes green.json)" "[('red.mtlx', 'values'), ('red.mtlx', 'picture')]"

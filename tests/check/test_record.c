@@ -37,6 +37,7 @@ static struct check_document *make_document(void)
                                             {.target = "osl"}};
     static struct check_setting values[] = {{"SR/base", "0.5"}, {"SR/empty", ""}},
                                 textures[] = {{"I/file", "wood.png"}};
+    static struct check_step steps[] = {{"one slab", 3, 2, 40, 28, "0.2", "0.44"}};
     static struct check_element elements[] = {{.path = "M",
                                                .type = "material",
                                                .shaders = shaders,
@@ -48,7 +49,9 @@ static struct check_document *make_document(void)
                                                .picture = "cGljdHVyZQ==",
                                                .signature = "1,2",
                                                .full = "ZnVsbA==",
-                                               .drawn_error = "1.35"},
+                                               .drawn_error = "1.35",
+                                               .steps = steps,
+                                               .num_steps = 1},
                                               {.path = "N"}};
     static const char *files[] = {"a.mtlx", "b.mtlx"}, *folders[] = {"./"}, *images[] = {"c.png"};
     static struct check_document document = {.file = "../a.mtlx",

@@ -56,33 +56,64 @@ static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
     return REQUIRE(good);
 }
 
-bool drawing_open(struct bench *b, const char *element, const char *storage, uint32_t shown,
-                  struct drawing *d)
+/* Reads what the last program stores: images are for the largest material. */
+static void read_info(struct drawing *d, bool *out_has_holes)
 {
-    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float))};
-    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
-    if (!add_program(b, d, element, storage ? "deferred" : "forward", storage ? storage : "float",
-                     DRAW_LIT))
-        return false;
     mxg_shader_info info = {sizeof info};
-    mxg_result_info(d->results[0], &info);
-    d->stored_words = info.stored_words;
+    struct bind *bind = &d->binds[d->count - 1];
+    mxg_result_info(bind->result, &info);
+    *out_has_holes = info.stored_words && info.alpha == MXG_ALPHA_MASK;
     d->layout = info.layout;
-    if (info.stored_words) {
-        d->binds[0].draw.role = DRAW_STORES;
-        d->binds[0].draw.has_holes = info.alpha == MXG_ALPHA_MASK;
-        if (!open_passes(b, d, shown)
-            || (d->binds[0].draw.has_holes
-                && !add_program(b, d, element, "depth", storage, DRAW_CUTS)))
-            return false;
-    }
+    if (info.stored_words > d->stored_words)
+        d->stored_words = info.stored_words;
+    if (info.stored_words)
+        bind->draw.role = DRAW_STORES;
+    bind->draw.has_holes = *out_has_holes;
+}
+
+static bool draw_programs(struct bench *b, struct drawing *d)
+{
     bool good = true;
     for (size_t i = 0; good && i < d->count; ++i) {
         good = render_open(&d->renders[i], d->canvas, &b->gpu, &d->binds[i]);
         if (!good)
-            printf("%s: %s\n", element, d->binds[i].reason);
+            printf("%s\n", d->binds[i].reason);
     }
     return REQUIRE(good && render_frame(d->renders, d->count, d->canvas, d->pixels));
+}
+
+static void begin(struct bench *b, struct drawing *d)
+{
+    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float))};
+    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
+}
+
+bool drawing_open(struct bench *b, const char *element, const char *storage, uint32_t shown,
+                  struct drawing *d)
+{
+    bool has_holes;
+    begin(b, d);
+    if (!add_program(b, d, element, storage ? "deferred" : "forward", storage ? storage : "float",
+                     DRAW_LIT))
+        return false;
+    read_info(d, &has_holes);
+    return (!d->stored_words || open_passes(b, d, shown))
+           && (!has_holes || add_program(b, d, element, "depth", storage, DRAW_CUTS))
+           && draw_programs(b, d);
+}
+
+bool drawing_open_both(struct bench *b, const struct drawing_part parts[2], struct drawing *d)
+{
+    bool has_holes = false;
+    begin(b, d);
+    for (int i = 0; i < 2; ++i) {
+        if (!add_program(b, d, parts[i].element, "deferred", "round", DRAW_STORES))
+            return false;
+        read_info(d, &has_holes);
+        d->binds[i].objects = &parts[i].object;
+        d->binds[i].num_objects = 1;
+    }
+    return REQUIRE(!has_holes) && open_passes(b, d, UINT32_MAX) && draw_programs(b, d);
 }
 
 void drawing_close(struct drawing *d)

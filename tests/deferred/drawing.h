@@ -38,6 +38,13 @@ bool drawing_generate(struct bench *b, const char *element, const char *pipeline
 /* Draws an element; storage NULL: forward. Call drawing_close in any case. */
 bool drawing_open(struct bench *b, const char *element, const char *storage, uint32_t shown,
                   struct drawing *d);
+/* A material on an object of its own. */
+struct drawing_part {
+    const char *element;
+    struct scene_object object;
+};
+/* Draws two stored materials without holes, in this order. Call drawing_close in any case. */
+bool drawing_open_both(struct bench *b, const struct drawing_part parts[2], struct drawing *d);
 void drawing_close(struct drawing *d);
 
 #endif

@@ -7,6 +7,7 @@
 #include "unit/test.h"
 
 #include "deferred/drawing.h"
+#include "render/matrix.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -322,6 +323,31 @@ static void test_culling(struct bench *b)
     drawing_close(&d);
 }
 
+/* ---- Order ---- */
+
+/*
+ * A ball around another one hides it, in either order: the one whose words are all in targets has
+ * no depth pass, the other one has layers of an image.
+ */
+static void test_order(struct bench *b)
+{
+    static const char *const pairs[][2] = {{"Plain", "Lacquered"}, {"Lacquered", "Plain"}};
+    for (size_t i = 0; i < 4; ++i) {
+        const char *const *pair = pairs[i / 2]; /* outside, inside */
+        size_t first = i % 2;
+        struct drawing_part parts[2] = {{pair[first], b->scene.object},
+                                        {pair[1 - first], b->scene.object}};
+        struct matrix *inside = &parts[1 - first].object.world;
+        *inside = matrix_multiply(*inside, matrix_scale(0.9, 0.9, 0.9));
+        struct drawing alone, both;
+        if (drawing_open(b, pair[0], "round", UINT32_MAX, &alone)
+            && drawing_open_both(b, parts, &both))
+            REQUIRE(memcmp(alone.pixels, both.pixels, PIXELS * 4 * sizeof(float)) == 0);
+        drawing_close(&alone);
+        drawing_close(&both);
+    }
+}
+
 /* ---- Debug views ---- */
 
 static void test_views(struct bench *b)
@@ -475,6 +501,7 @@ int main(int argc, char **argv)
     if (open_document(&b, argv[1], "deferred.mtlx")) {
         test_sizes(&b);
         test_culling(&b);
+        test_order(&b);
         test_views(&b);
         for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
             test_picture(&b, features[i]);

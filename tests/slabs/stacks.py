@@ -59,10 +59,14 @@ GLOW = """<uniform_edf name="light" type="EDF"><input name="color" type="color3"
 NORMAL = """<rotate3d name="bent" type="vector3"><input name="in" type="vector3" nodename="up"/><input name="amount" type="float" value="20"/>
   </rotate3d><normal name="up" type="vector3"><input name="space" type="string" value="world"/></normal>"""
 
+CUT = """<extract name="across" type="float"><input name="in" type="vector3" nodename="place"/></extract>
+  <ifgreater name="side" type="float"><input name="value1" type="float" nodename="across"/><input name="value2" type="float" value="0.1"/>
+  <input name="in1" type="float" value="1"/></ifgreater>"""
+
 
 def document(kind):
-    """Eight layers: `slabs` alone, or with `others`, a vertical coat on the third, a `hole` in all."""
-    parts = []
+    """Eight layers: `slabs` alone, or with `others`, a vertical coat on the third, a `hole` in all, half of the ball `cut` away."""
+    parts = [CUT] if kind == "cut" else []
     for i in range(NUM_LAYERS):
         part = slab_layer(i)
         if kind == "others" and i == 3:
@@ -71,6 +75,8 @@ def document(kind):
             part = NORMAL + part.replace("</substance>", '<input name="normal" type="vector3" nodename="bent"/></substance>')
         if kind == "hole" and i == 6:
             part = part.replace("</substance>", '<input name="cutout" type="float" value="0.6"/></substance>')
+        if kind == "cut" and i == 6:
+            part = part.replace("</substance>", '<input name="cutout" type="float" nodename="side"/></substance>')
         if kind == "hole" and i == 0:
             part = part.replace("</substance>", '<input name="mask" type="float" value="0.4"/></substance>')
         parts.append(part)
@@ -136,6 +142,25 @@ def check_pictures(kind, path, stage, num):
     return True
 
 
+def check_cut(folder, stage):
+    """A cut-out whose numbers are uniforms may have any opacity, unless an option says that it is a mask."""
+    path = folder / "cut.mtlx"
+    path.write_text(document("cut"))
+    stores = ("--interface", "complete", "--pipeline", "deferred")
+    made = generate(path, stage, folder / "made", *stores)
+    check("drawn-forward" in made.stderr, f"a cut-out of uniforms is stored: {made.stderr}")
+    made = generate(path, stage, folder / "made", *stores, "--transparency", "mask")
+    check(made.returncode == 0 and "drawn-forward" not in made.stderr, f"a mask of uniforms is not stored: {made.stderr}")
+    if RENDER is None:
+        return
+    forward = draw(path, stage, "forward", "--interface", "complete")
+    stored = draw(path, stage, "stored", *stores, "--transparency", "mask")
+    whole = draw(folder / "slabs.mtlx", stage, "whole")
+    if forward and stored and whole:
+        check(slabs.compare(forward, stored) < 0.5, f"the stored cut-out differs from forward by {slabs.compare(forward, stored)}")
+        check(slabs.compare(whole, stored) > 5, f"nothing is cut away: {slabs.compare(whole, stored)}")
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -148,6 +173,7 @@ def main():
             num = NUM_LAYERS + (kind == "coat")
             check_reports(kind, path, stage, num)
             draws = draws and check_pictures(kind, path, stage, num)
+        check_cut(folder, stage)
         stored = generate(folder / "slabs.mtlx", stage, folder / "stored", "--pipeline", "deferred", "--max-closures", 3)
         check(stored.returncode == 0 and "drawn-forward" not in stored.stderr, f"the deferred pipeline: {stored.stderr}")
         unknown = run(MXGEN, "inspect", "--slabs", folder / "slabs.mtlx", "--stage", stage, "-e", "/bell")

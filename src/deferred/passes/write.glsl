@@ -1,10 +1,10 @@
 // The end of a material pass: it writes the closures of a pixel, from the top down. Words 0 to 2 are outputs, the others layers of an image.
+// MX_WORDS: the most words of a pixel. Without an image there is one closure at most, without features.
 
-layout(early_fragment_tests) in; // the depth pass ran before: one fragment of a pixel writes
+layout(early_fragment_tests) in; // where there is an image, the depth pass ran before: one fragment of a pixel writes
 layout(location = 1) out uint mx_word_0;
 layout(location = 2) out uint mx_word_1;
 layout(location = 3) out uint mx_word_2;
-layout(MX_STORED_IMAGE, r32ui) uniform writeonly restrict uimage2DArray mx_words;
 
 MxRecord mx_pending;            // the last closure, which is written when the next one or the end comes
 vec3 mx_normals[3];             // of the top, and the last two with words of their own
@@ -18,6 +18,9 @@ vec2 mx_glint_extent(vec2 uv)
 {
     return max(abs(dFdx(uv)), abs(dFdy(uv)));
 }
+
+#if MX_WORDS > 3
+layout(MX_STORED_IMAGE, r32ui) uniform writeonly restrict uimage2DArray mx_words;
 
 void mx_put(uint word)
 {
@@ -107,6 +110,15 @@ void mx_flush()
     mx_put_features(mx_pending);
 #endif
 }
+#else
+void mx_put_features(MxRecord r)
+{
+}
+
+void mx_flush()
+{
+}
+#endif
 
 // The number of a normal, and its word where it needs one.
 uint mx_number_normal(vec3 normal, inout uint word)
