@@ -71,6 +71,22 @@ static void put_end(struct reflect *r, const struct network *network, const stru
     json_close(&r->json, '}');
 }
 
+static void put_aovs(struct reflect *r, const struct network *network, uint32_t num)
+{
+    json_key(&r->json, "aovs");
+    json_open(&r->json, '[');
+    for (uint32_t i = 0; i < num; i++) {
+        const struct network_aov *aov = &network->aovs.items[i];
+        json_item(&r->json);
+        json_open(&r->json, '{');
+        reflect_id(r, "name", aov->name);
+        reflect_id(r, "documentType", aov->doc_type);
+        put_source(r, network, &aov->value);
+        json_close(&r->json, '}');
+    }
+    json_close(&r->json, ']');
+}
+
 static void put_group(struct reflect *r, const struct network *network,
                       const struct osl_group *group)
 {
@@ -87,6 +103,8 @@ static void put_group(struct reflect *r, const struct network *network,
     json_close(&r->json, ']');
     if (!group->end->name)
         put_source(r, network, &network->results[group->end->inputs[0].result]);
+    if (osl_num_aovs(network, group->end))
+        put_aovs(r, network, osl_num_aovs(network, group->end));
     json_close(&r->json, '}');
 }
 

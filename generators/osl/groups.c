@@ -51,11 +51,18 @@ static void need(bool *needed, const struct network_input *input)
         needed[input->layer] = true;
 }
 
+uint32_t osl_num_aovs(const struct network *network, const struct osl_end *end)
+{
+    return end == &ends[SURFACE] ? network->aovs.len : 0;
+}
+
 static const bool *find_needed(struct network *network, const struct osl_end *end)
 {
     bool *needed = ARENA_ARRAY(network->arena, bool, network->layers.len + 1);
     for (unsigned i = 0; i < OSL_MAX_ENDS && end->inputs[i].parameter; i++)
         need(needed, &network->results[end->inputs[i].result]);
+    for (uint32_t i = 0; i < osl_num_aovs(network, end); i++)
+        need(needed, &network->aovs.items[i].value);
     for (uint32_t i = network->layers.len; i-- > 0;) {
         const struct network_layer *layer = &network->layers.items[i];
         struct network_node *node = &network->nodes.items[layer->node];
@@ -129,6 +136,10 @@ static uint64_t hash_end(const struct network *network, const struct osl_group *
                            ? &network->results[group->end->inputs[i].result]
                            : &none,
                        h);
+    for (uint32_t i = 0; i < osl_num_aovs(network, group->end); i++) {
+        const char *name = str_text(network->strings, network->aovs.items[i].name);
+        h = hash_input(group, &network->aovs.items[i].value, hash_stable(h, name, strlen(name)));
+    }
     return h;
 }
 

@@ -39,6 +39,8 @@ static inline const struct osl_program *osl_program_of(const struct network *net
 }
 
 /* groups.c */
+/* AOVs belong to the group of the surface: the number of those of a group with this end. */
+uint32_t osl_num_aovs(const struct network *network, const struct osl_end *end);
 void osl_plan_network(struct network *network);
 void osl_add_network_parts(struct network *network);
 uint64_t osl_network_topology(const struct network *network);

@@ -112,11 +112,7 @@ static void add_rank(struct builder *b, const struct own_aovs *own, uint32_t ran
             if (other && other->name == use->name)
                 is_good = build_report_second_aov(b, other, use);
         }
-        if (is_good && b->recorder)
-            build_leave_out_aov(b, use,
-                                "OSL networks have no AOVs; generate one shader, without "
-                                "--osl-network");
-        else if (is_good)
+        if (is_good)
             build_add_aov(b, use, root);
     }
 }

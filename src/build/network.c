@@ -19,7 +19,8 @@ struct recorder {
     VEC(uint8_t) output_of; /* by variable of the shader: the output of the layer */
     ir_ref *source_of;      /* by discarded node: the layer's output that stands for it */
     uint32_t num_sources;
-    bool is_full; /* reported: it has too many layers */
+    bool is_full;            /* reported: it has too many layers */
+    VEC(uint32_t) lost_aovs; /* reported: numbers of AOVs that no layer takes */
 };
 
 void build_record_network(struct builder *b, struct network *network)
@@ -237,12 +238,35 @@ static struct network_input input_of(struct builder *b, ir_ref arg)
     return input;
 }
 
+static void leave_out_aov(struct builder *b, uint32_t number, const char *why)
+{
+    const struct shader_aov *aov = &b->shader->aovs.items[number];
+    const struct aov_use use = {.node = aov->element, .name = aov->name};
+    struct recorder *r = b->recorder;
+    for (uint32_t i = 0; i < r->lost_aovs.len; i++)
+        if (r->lost_aovs.items[i] == number)
+            return;
+    vec_push(b->arena, &r->lost_aovs, number);
+    build_leave_out_aov(b, &use, why);
+}
+
+/* A surface without its AOVs, which a layer that takes the surface cannot blend. */
+static ir_ref without_aovs(struct builder *b, ir_ref surface)
+{
+    for (; surface && ir_get(b->graph, surface)->op == IR_AOV;
+         surface = ir_arg(b->graph, surface, 0))
+        leave_out_aov(b, ir_get(b->graph, surface)->attr,
+                      "its surface is the input of a node, and OSL networks blend no AOVs; "
+                      "generate one shader, without --osl-network");
+    return surface;
+}
+
 static void add_input(struct builder *b, const struct frame *frame, const struct port *port,
                       ir_ref arg)
 {
     struct network_input input = {.kind = NETWORK_DEFAULT};
     if (!is_settled(b, frame->impl, port))
-        input = input_of(b, arg);
+        input = input_of(b, without_aovs(b, arg));
     input.doc_type = library_type_name(b->lib, port->type);
     struct ir_value usual = build_network_default(b, port);
     bool is_usual = input.kind == NETWORK_VALUE && !input.path && !port->geomprop
@@ -407,6 +431,56 @@ static uint32_t constant_layer(struct builder *b, ir_ref value, str_id type)
     return network->layers.len - 1;
 }
 
+/* ---- Results ---- */
+
+/* From a layer; if there is none, from one that is made for a constant. */
+static bool give_layer(struct builder *b, ir_ref value, str_id type, struct network_input *input)
+{
+    if (input->kind != NETWORK_LAYER) {
+        input->layer = constant_layer(b, value, type);
+        input->kind = NETWORK_LAYER;
+    }
+    return input->layer < b->recorder->network->layers.len;
+}
+
+/* Takes the AOVs off a surface: the values, by number, of those that have none yet. */
+static ir_ref take_aovs(struct builder *b, ir_ref surface, ir_ref *values)
+{
+    ir_ref *own = ARENA_ARRAY(b->arena, ir_ref, b->shader->aovs.len);
+    for (; surface && ir_get(b->graph, surface)->op == IR_AOV;
+         surface = ir_arg(b->graph, surface, 0)) {
+        uint32_t number = ir_get(b->graph, surface)->attr;
+        if (!own[number]) /* the outer one replaces it */
+            own[number] = ir_arg(b->graph, surface, 1);
+    }
+    for (uint32_t i = 0; i < b->shader->aovs.len; i++) {
+        if (own[i] && values[i] && own[i] != values[i])
+            leave_out_aov(b, i,
+                          "the front and the back have two values of it, and an OSL network has "
+                          "one; generate one shader, without --osl-network");
+        if (own[i] && !values[i])
+            values[i] = own[i];
+    }
+    return surface;
+}
+
+static void add_aovs(struct builder *b, const ir_ref *values)
+{
+    const struct shader *shader = b->shader;
+    uint32_t num = shader->lists_aovs ? shader->num_listed_aovs : shader->aovs.len;
+    for (uint32_t i = 0; i < num; i++) {
+        const struct shader_aov *from = &shader->aovs.items[i];
+        struct network_aov aov = {.name = from->name, .doc_type = from->doc_type};
+        if (!values[i])
+            continue;
+        aov.value = input_of(b, values[i]);
+        if (give_layer(b, values[i], from->doc_type, &aov.value))
+            vec_push(b->arena, &b->recorder->network->aovs, aov);
+        else
+            leave_out_aov(b, i, "no layer gives its value");
+    }
+}
+
 static enum network_result result_of(ir_type_id type)
 {
     if (type == IR_TYPE_DISPLACEMENT)
@@ -420,19 +494,19 @@ static enum network_result result_of(ir_type_id type)
 bool build_network_results(struct builder *b, ir_ref root, str_id type)
 {
     struct network *network = b->recorder->network;
+    ir_ref *aovs = ARENA_ARRAY(b->arena, ir_ref, b->shader->aovs.len);
     if (ir_get(b->graph, root)->op == IR_MATERIAL) {
         for (unsigned i = 0; i < NETWORK_PLAIN_VALUE; i++)
-            network->results[i] = input_of(b, ir_arg(b->graph, root, i));
+            network->results[i] = input_of(b, take_aovs(b, ir_arg(b->graph, root, i), aovs));
+        add_aovs(b, aovs);
         if (!ir_arg(b->graph, root, 0) && !ir_arg(b->graph, root, 1) && !ir_arg(b->graph, root, 3))
             network->results[NETWORK_SURFACE].type = IR_TYPE_SURFACE; /* a black surface */
         return true;
     }
     enum network_result result = result_of(ir_type_of(b->graph, root));
     struct network_input *input = &network->results[result];
+    root = take_aovs(b, root, aovs);
     *input = input_of(b, root);
-    if (result == NETWORK_PLAIN_VALUE && input->kind != NETWORK_LAYER) {
-        input->layer = constant_layer(b, root, type);
-        input->kind = NETWORK_LAYER;
-    }
-    return input->kind != NETWORK_LAYER || input->layer < network->layers.len;
+    add_aovs(b, aovs);
+    return result != NETWORK_PLAIN_VALUE || give_layer(b, root, type, input);
 }

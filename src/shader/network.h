@@ -59,6 +59,12 @@ struct network_part {
     const char *nodedef; /* "": not from a node */
 };
 
+/* An AOV of the surface (docs/slots.md): a value that the host may read. */
+struct network_aov {
+    str_id name, doc_type;
+    struct network_input value; /* from a layer */
+};
+
 /* The results of an element: the operands of a material in order, or a single value. */
 enum network_result {
     NETWORK_SURFACE,
@@ -75,6 +81,7 @@ struct network {
     VEC(struct network_node) nodes;
     VEC(struct network_layer) layers; /* in topological order */
     VEC(struct network_input) inputs;
+    VEC(struct network_aov) aovs;
     struct network_input results[NUM_NETWORK_RESULTS]; /* type VOID: absent */
     /* for the target */
     void *program;                  /* for the target's use */

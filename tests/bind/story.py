@@ -158,6 +158,7 @@ def check_pictures(folder):
             check_step(look, step, pictures, stacks, shown)
     check_modes(pictures)
     check_formats(pictures, folder)
+    check_mattes(pictures["finished"], shown, folder)
 
 
 def check_modes(pictures):
@@ -166,6 +167,26 @@ def check_modes(pictures):
         return len(pictures[look].changed(pictures["clean"]))
     check(differ("sign_none") > 2 * differ("sign"), f"none differs in {differ('sign_none')} pixels, mix in {differ('sign')}")
     check(len(pictures["sign_add"].changed(pictures["sign"])) > 20, "add and mix look alike")
+
+
+def check_mattes(picture, shown, folder):
+    """Each slot has a matte: the weights of all layers are the opacity, and a primitive has those of its own slots alone."""
+    path = folder / "mattes.exr"
+    result = run(RENDER, SLOTS / "looks.mtlx", "--stage", SLOTS / "receiver.usda", "--look", "finished", "--mattes", "-s", f"{WIDTH}x{HEIGHT}", "-o", path)
+    check(result.returncode == 0 and not result.stderr, f"render, mattes: {result.stderr}")
+    values = {name: [value for row in rows for value in row] for name, rows in exr.read(path)[2].items()} if result.returncode == 0 else {}
+    mattes = {name[len("matte."):]: numbers for name, numbers in values.items() if name.startswith("matte.")}
+    check(sorted(mattes) == ["000", "000|010", "010", "040", "050"], f"mattes of {sorted(mattes)}")
+    layers = {one["path"]: {layer["slot"] for layer in one["layers"]} | {part["slot"] for layer in one["layers"] for part in layer.get("vertical", [])}
+              for one in json.loads(bind(SLOTS / "looks.mtlx", "finished"))["primitives"]}
+    for slot, numbers in mattes.items():
+        has = {at for at, seen in shown.items() if any(slot in layers[path] for path in seen)}
+        lacks = [at for at in shown if not any(near in has or near not in shown for near in picture.near(at, REACH))]
+        check(any(numbers[at] > 0.5 for at in has), f"the matte of {slot} is nowhere")
+        check(slot == "000" or len(lacks) > 100, f"primitives without {slot} have {len(lacks)} pixels")
+        check(not any(numbers[at] > 0 for at in lacks), f"the matte of {slot} is where no primitive has it")
+    whole = [sum(numbers[at] for slot, numbers in mattes.items() if "|" not in slot) - values["A"][at] for at in range(len(values.get("A", [])))]
+    check(whole and max(map(abs, whole)) < 1e-5, "the mattes of the slots do not add up to the opacity")
 
 
 def check_formats(pictures, folder):

@@ -209,6 +209,8 @@ check 'has the light of the metal that the surface lacks' reads lights.exr R mea
 sed 's|<look name="L">|&<visibility geom="/a/floor" vistype="camera" visible="false"/>|' look.mtlx >hidden.mtlx
 check 'visibility' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L -o hidden.exr
 check 'hides' reads hidden.exr A 0.5 0.9 0 0
+check 'visibility in traced pictures' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L --path-trace --paths 4 -o hidden.exr
+check 'hides, too' reads hidden.exr A 0.5 0.9 0 0
 check 'all of it' eval 'sed -i "s|geom=\"/a/floor\" vistype=\"camera\"|geom=\"/\"|" hidden.mtlx; exits 1 "$render" hidden.mtlx --stage stage.usda -s 16 --look L -o no.exr && grep -q "empty-mesh" err'
 
 # More AOVs than attachments: drawn again and again.

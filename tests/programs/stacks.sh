@@ -290,4 +290,55 @@ check 'visibility' fact /a/b/d visibility camera false
 check 'nothing elsewhere' json 'set(d["primitives"][-1]) == {"path", "stack"}'
 check 'a set that is missing' eval 'sed -i "s/propertyset=\"PS\"/propertyset=\"QS\"/" look.mtlx; exits 1 stacks --look L && grep -q "no propertyset .QS.*\[unknown-assigned\]" err'
 
+# AOVs of an OSL network: the layers that have them, though nothing else may need these.
+cat >network.mtlx <<'XML'
+<materialx version="1.39">
+  <nodedef name="ND_painted" node="painted"><output name="out" type="surfaceshader"/><input name="tint" type="color3" value="1, 0, 0"/></nodedef>
+  <nodegraph name="NG_painted" nodedef="ND_painted">
+    <noise3d name="n" type="float"/>
+    <oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" interfacename="tint"/></oren_nayar_diffuse_bsdf>
+    <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="d"/></surface>
+    <aov name="a" type="float"><input name="name" type="string" value="grain"/><input name="value" type="float" nodename="n"/></aov>
+    <aov name="b" type="BSDF"><input name="name" type="string" value="matt"/><input name="value" type="BSDF" nodename="d"/></aov>
+    <output name="out" type="surfaceshader" nodename="s"/>
+  </nodegraph>
+  <painted name="P" type="surfaceshader"/>
+  <painted name="Q" type="surfaceshader"><input name="tint" type="color3" value="0, 1, 0"/></painted>
+  <mix name="both" type="surfaceshader"><input name="fg" type="surfaceshader" nodename="P"/><input name="bg" type="surfaceshader" nodename="Q"/></mix>
+  <aov name="id" type="integer"><input name="name" type="string" value="id"/><input name="value" type="integer" value="7"/></aov>
+  <surfacematerial name="One" type="material"><input name="surfaceshader" type="surfaceshader" nodename="P"/></surfacematerial>
+  <surfacematerial name="Sides" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="P"/><input name="backsurfaceshader" type="surfaceshader" nodename="Q"/>
+  </surfacematerial>
+  <surfacematerial name="Mixed" type="material"><input name="surfaceshader" type="surfaceshader" nodename="both"/></surfacematerial>
+</materialx>
+XML
+# network ELEMENT EXPRESSION OPTION...: Python on the AOVs by name as (type, layer, output), on the layers by name, and on the last layer `root`.
+network() {
+    exits 0 "$mxgen" network.mtlx -e "$1" --target osl --osl-network --reflect -o net "${@:3}" || return
+    python3 -c "
+import json
+group = json.load(open('net/$1.json'))['groups'][0]
+aovs = {a['name']: (a['documentType'], a['layer'], a['output']) for a in group.get('aovs', [])}
+layers = {l['name']: l for l in group['layers']}
+root = {i['name']: i['layer'] for i in layers['root']['inputs']}
+assert all(layer in layers for _, layer, _ in aovs.values()), (aovs, list(layers))
+assert $2, (aovs, layers, root)"
+}
+check 'AOVs of a network' network One 'list(aovs) == ["grain", "matt", "id"]'
+check 'without a message' test ! -s err
+check 'are values of layers' network One 'aovs["grain"] == ("float", "P_n", "out") and layers["P_n"]["shader"] == "ND_noise3d_float"'
+check 'closures, too' network One 'aovs["matt"] == ("BSDF", "P_d", "out")'
+check 'constants get one' network One '[i["value"] for i in layers[aovs["id"][1]]["inputs"]] == [7]'
+check 'the surface stays' network One 'root == {"surfaceshader": "P_s"}'
+check 'the group has these layers' eval 'grep -qx "shader ND_noise3d_float P_n ;" net/One.oslgroup && ls net/ND_noise3d_float.osl'
+check 'no AOVs' network One 'not aovs and "P_n" not in layers and root == {"surfaceshader": "P_s"}' --aovs none
+check 'an order' network One 'list(aovs) == ["id", "grain"]' --aovs id=integer,other=float,grain=float
+check 'of a surface alone' network P 'list(aovs) == ["grain", "matt", "id"] and root == {"surfaceshader": "P_s"}'
+check 'both sides' network Sides 'aovs["matt"][1] == "P_d" and root == {"surfaceshader": "P_s", "backsurfaceshader": "Q_s"}'
+check 'of which one value counts' test "$(grep -c "'matt' is left out: the front and the back" err)" = 1
+check 'and equal ones are one' eval '! grep -q "grain" err'
+check 'a mix of surfaces' network Mixed 'list(aovs) == ["id"] and root == {"surfaceshader": "both"} and {i["name"]: i.get("layer") for i in layers["both"]["inputs"]} == {"fg": "P_s", "bg": "Q_s", "mix_": None}'
+check 'leaves theirs out' test "$(grep -c '^network.mtlx.*\[aov-left-out\]' err)" = 2
+
 finish stacks
