@@ -35,10 +35,15 @@ static ir_ref light(struct osl_tree *t, ir_ref edf, ir_ref intensity, ir_ref exp
     return osl_scaled(t, edf, scale);
 }
 
-/* True for the parts of slabs. Light of matter itself is no layer of OSL, either. */
+/*
+ * True for the parts of slabs that are no tops of OSL's layers: media, light of matter itself, and
+ * tinted interfaces, because what a tint takes does not reach the base.
+ */
 static bool is_of_slab(const struct osl_tree *t, ir_ref ref)
 {
-    return closure_has(t->shader, t->host, ref, LEAF_TRANSMITTANCE)
+    ir_ref tint = closure_call(t->shader, t->host, ref, LEAF_TINT, NULL);
+    return (tint && !ir_const_is(t->graph, tint, 1.0f))
+           || closure_has(t->shader, t->host, ref, LEAF_TRANSMITTANCE)
            || (ir_type_of(t->graph, ref) == IR_TYPE_BSDF
                && closure_has(t->shader, t->host, ref, LEAF_EMISSION));
 }

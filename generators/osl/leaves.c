@@ -34,6 +34,9 @@ enum argument_kind {
     ARGUMENT_FLOAT,
     ARGUMENT_GREY,
     ARGUMENT_ALBEDO,
+    ARGUMENT_FACET,
+    ARGUMENT_FACET_X,
+    ARGUMENT_FACET_Y,
 };
 
 struct argument {
@@ -104,6 +107,18 @@ struct row {
 #define ARG_ALBEDO \
     { \
         .kind = ARGUMENT_ALBEDO \
+    }
+#define ARG_FACET \
+    { \
+        .kind = ARGUMENT_FACET \
+    }
+#define ARG_FACET_X(name) \
+    { \
+        .kind = ARGUMENT_FACET_X, .input = INPUT_##name \
+    }
+#define ARG_FACET_Y(name) \
+    { \
+        .kind = ARGUMENT_FACET_Y, .input = INPUT_##name \
     }
 #define ARG_KEYWORD(name) ARG_TEXT(#name), ARG(name)
 #define ARGUMENTS(...) ((const struct argument[]){__VA_ARGS__, {.kind = ARGUMENT_END}})
@@ -251,6 +266,19 @@ static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsign
     return built;
 }
 
+static ir_ref facet_of(const struct leaf *leaf)
+{
+    return closure_call(leaf->tree->shader, leaf->tree->host, leaf->ref, LEAF_FACET, NULL);
+}
+
+/* A component of an input, as much of it as the leaf's facet has. */
+static ir_ref facet_part(const struct leaf *leaf, ir_ref value, unsigned index)
+{
+    struct ir_graph *g = leaf->tree->graph;
+    ir_ref share = component(g, facet_of(leaf), 3, MAX_DEPTH);
+    return ir_op2(g, IR_MUL, component(g, value, index, MAX_DEPTH), share);
+}
+
 /* An argument that is no input; 0: it is one. */
 static ir_ref other_argument(const struct leaf *leaf, const struct argument *argument)
 {
@@ -262,6 +290,7 @@ static ir_ref other_argument(const struct leaf *leaf, const struct argument *arg
     case ARGUMENT_FLOAT: return ir_const_float(t->graph, (float)argument->number);
     case ARGUMENT_GREY: return ir_const_splat(t->graph, IR_TYPE_VEC3, (float)argument->number);
     case ARGUMENT_ALBEDO: return closure_call(t->shader, t->host, leaf->ref, LEAF_ALBEDO, NULL);
+    case ARGUMENT_FACET: return ir_convert(t->graph, IR_TYPE_VEC3, facet_of(leaf));
     default: return 0;
     }
 }
@@ -278,6 +307,8 @@ static ir_ref argument(const struct leaf *leaf, const struct argument *argument)
     switch (argument->kind) {
     case ARGUMENT_X: return component(g, value, 0, MAX_DEPTH);
     case ARGUMENT_Y: return component(g, value, 1, MAX_DEPTH);
+    case ARGUMENT_FACET_X: return facet_part(leaf, value, 0);
+    case ARGUMENT_FACET_Y: return facet_part(leaf, value, 1);
     case ARGUMENT_FACING: return facing(leaf, value);
     case ARGUMENT_REFLECTED: return scattered(leaf, value, REFLECTED);
     case ARGUMENT_TRANSMITTED: return scattered(leaf, value, TRANSMITTED);
@@ -454,7 +485,8 @@ ir_ref osl_leaf(struct osl_tree *t, ir_ref ref)
     } else if (row) {
         struct leaf leaf = {.tree = t, .ref = ref};
         find_inputs(&leaf);
-        result = row_call(&leaf, row);
+        result = osl_scaled(t, row_call(&leaf, row),
+                            closure_call(t->shader, t->host, ref, LEAF_TINT, NULL));
     } else if (node.type == IR_TYPE_EDF || functions[LEAF_EMISSION] != LANG_NONE) {
         result = emission(t, ref);
     } else if (node.type == IR_TYPE_VDF) {

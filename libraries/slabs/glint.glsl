@@ -74,3 +74,24 @@ float mx_glints(vec2 slope, float density, vec2 uv, vec4 footprint)
     return (1.0 - most) * mx_glint_level(low, slope, density, uv) + (most - least) * mx_glint_level(low + side, slope, density, uv)
          + least * mx_glint_level(low + 1.0, slope, density, uv);
 }
+
+// ---- one facet after the other ---------------------------------------------------------------------------------------
+// Closures of a renderer do not know the light, so facets cannot be counted for it. The renderer takes many points in a pixel instead, and
+// each has the facet where it lies.
+
+// A pixel with more facets has the lobe of countless ones: a direction has more than 100 of them (MX_GLINT_STEP), which look even.
+const float MX_GLINT_COUNTLESS = 1e5;
+
+bool mx_glint_has_facets(float density, vec4 footprint)
+{
+    float area = abs(footprint.x * footprint.w - footprint.y * footprint.z);
+    return density > 0.0 && dot(footprint, footprint) > 0.0 && area * exp(density) < MX_GLINT_COUNTLESS;
+}
+
+// The normal of the facet at `uv`, above the plane z = 0: of GGX, as often as its share of the plane (Walter et al. 2007, equations 35 and 36).
+vec3 mx_glint_facet(vec2 alpha, float density, vec2 uv)
+{
+    vec3 xi = mx_glint_random(uvec3(ivec3(ivec2(floor(uv * exp(0.5 * density))), 0)));
+    float turn = 2.0 * 3.14159265 * xi.y;
+    return normalize(vec3(sqrt(xi.x / (1.0 - xi.x)) * alpha * vec2(cos(turn), sin(turn)), 1.0));
+}

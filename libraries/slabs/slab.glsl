@@ -336,6 +336,85 @@ vec3 mx_slab_reflection_bsdf_eval(vec3 f0, vec3 f90, vec2 roughness, float glint
          * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
 
+// Axes of an interface.
+mat3 mx_slab_frame(vec3 N, vec3 X, vec3 V)
+{
+    vec3 Nf = mx_facing(N, V);
+    vec3 x = mx_tangent(Nf, X);
+    return mat3(x, cross(Nf, x), Nf);
+}
+
+// A closure of a renderer does not know the light. It has the normal of the facet at the point, and a share of the roughness.
+vec4 mx_slab_facet(vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, vec3 N, vec3 X, vec3 V)
+{
+    if (!mx_glint_has_facets(glint_density, glint_footprint))
+        return vec4(N, 1.0);
+    return vec4(mx_slab_frame(N, X, V) * mx_glint_facet(mx_ggx_alpha(roughness), glint_density, glint_uv), 0.5 * MX_GLINT_STEP);
+}
+
+// This and the tint call others for the parts that a slab may lack, so that the compiler leaves these out.
+vec4 mx_slab_reflection_bsdf_facet(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
+                                   float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
+{
+    if (glint_density <= 0.0)
+        return vec4(N, 1.0);
+    return mx_slab_facet(roughness, glint_density, glint_uv, glint_footprint, N, X, V);
+}
+
+// The mean tint of even light: of eight directions of the lobe.
+vec3 mx_slab_mean_tint(vec3 f0, vec3 f90, vec2 roughness, sampler2D specular_lut, float specular_lut_weight, float specular_lut_index,
+                       vec3 N, vec3 X, vec3 V)
+{
+    vec3 light = vec3(0.0);
+    vec3 tinted = vec3(0.0);
+    for (int i = 0; i < 8; i++)
+    {
+        vec3 xi = vec3((float(i) + 0.5) * 0.125, fract(float(i) * 0.625) + 0.0625, 0.0); // a lattice
+        vec3 L, weight;
+        float pdf;
+        mx_ggx_scatter(roughness, N, X, V, xi, 1.5, MX_REFLECTS, "schlick", f0, vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
+        light += weight;
+        tinted += weight * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), abs(dot(N, L)));
+    }
+    return tinted / max(light, MX_EPSILON);
+}
+
+// What a facet sends of the light of the direction that it mirrors, over Fresnel's factor: as much as the viewer sees of its area, over what
+// is there. So the mean over facets is the lobe (Walter et al. 2007, equation 41). Last the direction's cosine; below 0 there is no facet.
+vec4 mx_slab_facet_light(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, vec3 N, vec3 X, vec3 V)
+{
+    if (!mx_glint_has_facets(glint_density, glint_footprint))
+        return vec4(1.0, 1.0, 1.0, -1.0);
+    vec2 alpha = mx_ggx_alpha(roughness);
+    vec3 m = mx_glint_facet(alpha, glint_density, glint_uv);
+    vec3 v = mx_ggx_local(mx_slab_frame(N, X, V), V);
+    vec3 l = reflect(-v, m);
+    if (l.z <= 0.0 || dot(m, v) <= 0.0)
+        return vec4(0.0);
+    return vec4(4.0 * mx_ggx_smith_visibility(v, l, alpha) * dot(m, v) / m.z
+                    * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), "schlick", f0, vec3(0.0), f90, 0.0, 1.5), l.z);
+}
+
+vec3 mx_slab_tinted(vec4 facet, vec3 f0, vec3 f90, vec2 roughness, sampler2D specular_lut, float specular_lut_weight, float specular_lut_index,
+                    vec3 N, vec3 X, vec3 V)
+{
+    if (facet.w < 0.0)
+        return mx_slab_mean_tint(f0, f90, roughness, specular_lut, specular_lut_weight, specular_lut_index, N, X, V);
+    return facet.xyz * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), facet.w);
+}
+
+// What the closure reflects is multiplied by the tint.
+vec3 mx_slab_reflection_bsdf_tint(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
+                                  float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
+{
+    vec4 facet = vec4(1.0, 1.0, 1.0, -1.0);
+    if (glint_density > 0.0)
+        facet = mx_slab_facet_light(max(f0, 0.0), f90, roughness, glint_density, glint_uv, glint_footprint, N, X, V);
+    if (specular_lut_weight <= 0.0)
+        return facet.xyz;
+    return mx_slab_tinted(facet, max(f0, 0.0), f90, roughness, specular_lut, specular_lut_weight, specular_lut_index, N, X, V);
+}
+
 // A raster tints all of its environment as at the mirror of the view.
 vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                          float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, int sample_index, vec2 sample_turn)

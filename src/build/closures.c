@@ -5,7 +5,7 @@
 static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 {
     _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR
-                       && (int)LEAF_WAY == FAMILY_WAY,
+                       && (int)LEAF_FACET == FAMILY_FACET,
                    "leaf functions are the first members of a family");
     return build_leaf_family(user_data, callee)->functions;
 }

@@ -28,6 +28,8 @@ enum leaf_function {
     LEAF_PDF,
     LEAF_TRANSMITTANCE,
     LEAF_WAY,
+    LEAF_TINT,
+    LEAF_FACET,
     NUM_LEAF_FUNCTIONS
 };
 

@@ -81,6 +81,8 @@ static const char *const family_suffixes[NUM_FAMILY_MEMBERS] = {
     [FAMILY_PDF] = "_pdf",
     [FAMILY_TRANSMITTANCE] = "_transmittance",
     [FAMILY_WAY] = "_way",
+    [FAMILY_TINT] = "_tint",
+    [FAMILY_FACET] = "_facet",
     [FAMILY_SCATTERING] = "_scattering",
     [FAMILY_ANISOTROPY] = "_anisotropy",
 };

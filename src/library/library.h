@@ -86,6 +86,8 @@ enum family_member {
     FAMILY_PDF,
     FAMILY_TRANSMITTANCE,
     FAMILY_WAY,
+    FAMILY_TINT,
+    FAMILY_FACET,
     NUM_FAMILY_MEMBERS
 };
 
