@@ -64,12 +64,11 @@ void main(
         } else {
             float3 d = u_lightData[i].position - P;
             float3 to_light = normalize(d);
+            L = to_light;
             float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                L = to_light;
                 intensity = ratio;
             } else {
-                L = to_light;
                 float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
@@ -92,13 +91,12 @@ void main(
         } else {
             float3 spot_light_difference = u_lightData[i].position - P;
             float3 spot_light_direction = normalize(spot_light_difference);
+            L = spot_light_direction;
             float spot_light_ratio = u_lightData[i].intensity
                 / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                L = spot_light_direction;
                 intensity = spot_light_ratio;
             } else {
-                L = spot_light_direction;
                 float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3 ? spot_light_ratio
                     * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,

@@ -118,12 +118,11 @@ void scatter()
             intensity = u_lightData[i].intensity;
         } else {
             vec3 to_light = normalize(d);
+            L_4 = to_light;
             float ratio_3 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                L_4 = to_light;
                 intensity = ratio_3;
             } else {
-                L_4 = to_light;
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,

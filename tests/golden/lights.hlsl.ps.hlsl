@@ -39,14 +39,12 @@ void main(
         float3 intensity;
         float3 difference = u_lightData[i].position - vd.positionWorld;
         float magnitude = length(difference);
-        float3 ratio = difference / magnitude;
+        L = difference / magnitude;
         if (u_lightData[i].type == 2) {
-            L = ratio;
             float3 conical_edf_emission = smoothstep(0.8660254, 0.9848077,
-                dot(normalize(u_lightData[i].direction), -ratio)) * float3(1.0, 0.5, 0.2);
+                dot(normalize(u_lightData[i].direction), -(difference / magnitude))) * float3(1.0, 0.5, 0.2);
             intensity = conical_edf_emission * (60.0 / (magnitude * magnitude));
         } else {
-            L = ratio;
             float bulb_ratio = u_lightData[i].power / (magnitude * magnitude);
             intensity = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
         }
