@@ -158,7 +158,6 @@ struct closure_part {
     ir_ref scalar;  /* if 0, the leaf is skipped */
     ir_ref value;
     bool is_guarded; /* needs a branch around the leaf */
-    bool has_loop;   /* calls a function with a loop, which no other part calls */
 };
 
 /* The places of contributions: per light, once, and per environment sample. */
@@ -267,8 +266,7 @@ enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
 /* closure_mul with the loop-invariant factors first. */
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
-/* guard.c: finds the parts that have a loop, or need a branch. in_loop: considers only code inside
- * the loop. */
+/* guard.c: finds the parts that need a branch. in_loop: considers only code inside the loop. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);
 /* Mixes two closures of one type; 0 is an absent closure. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);

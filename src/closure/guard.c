@@ -17,14 +17,6 @@ static bool is_dear(enum ir_op op)
            || (op >= IR_TEX && op <= IR_TEX_FETCH && op != IR_TEX_SIZE);
 }
 
-static bool has_loop(const struct shader *shader, ir_ref ref)
-{
-    if (ir_get(shader->graph, ref)->op != IR_CALL)
-        return false;
-    const struct lang_function *fn = lang_function(shader->unit, shader_callee(shader, ref), NULL);
-    return !(fn->flags & LANG_FN_STRAIGHT);
-}
-
 /* Returns true if no other part has claimed the node. */
 static bool claim(uint16_t *owner, uint16_t by)
 {
@@ -58,10 +50,8 @@ static void guard_dear(struct shader *shader, struct closure_part *parts, uint32
         const struct ir_node *node = ir_get(g, ref);
         if ((node->flags & wanted) != wanted)
             continue;
-        if (owners[ref] != SHARED && is_dear((enum ir_op)node->op)) {
+        if (owners[ref] != SHARED && is_dear((enum ir_op)node->op))
             parts[owners[ref] - 1].is_guarded = true;
-            parts[owners[ref] - 1].has_loop |= has_loop(shader, ref);
-        }
         const ir_ref *args = ir_args(g, ref);
         for (uint32_t i = 0; i < node->num_args; i++)
             num_open += claim(&owners[args[i]], owners[ref]);

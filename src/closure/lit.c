@@ -133,8 +133,8 @@ static void accumulate_parts(struct emitter *e, const struct closure_part *parts
 }
 
 /*
- * color += factor · Σ parts. Leaves without branch and loop share one line, which comes first:
- * their weights need no registers in the loops. Neighbours with the same guard share a branch.
+ * color += factor · Σ parts. Leaves without a branch share one line, which comes first: their
+ * weights need no registers in the others. Neighbours with the same guard share a branch.
  */
 static void accumulate_all(struct emitter *e, struct closure_parts *list, bool in_loop,
                            ir_ref factor)
@@ -144,17 +144,16 @@ static void accumulate_all(struct emitter *e, struct closure_parts *list, bool i
     for (uint32_t i = 0; i < list->parts.len; i++) {
         struct closure_part *part = &list->parts.items[i];
         part->is_guarded &= !ir_is_const(e->graph, part->scalar);
-        bool is_plain = !part->is_guarded && !part->has_loop;
-        vec_push(e->shader->arena, is_plain ? &plain.parts : &dear.parts, *part);
+        vec_push(e->shader->arena, part->is_guarded ? &dear.parts : &plain.parts, *part);
     }
     if (plain.parts.len)
         accumulate_parts(e, plain.parts.items, plain.parts.len, 0, factor);
     for (uint32_t i = 0, end; i < dear.parts.len; i = end) {
         const struct closure_part *first = &dear.parts.items[i];
-        for (end = i + 1; end < dear.parts.len && first->is_guarded; end++)
+        for (end = i + 1; end < dear.parts.len; end++)
             if (dear.parts.items[end].scalar != first->scalar)
                 break;
-        accumulate_parts(e, first, end - i, first->is_guarded ? first->scalar : 0, factor);
+        accumulate_parts(e, first, end - i, first->scalar, factor);
     }
 }
 

@@ -95,9 +95,8 @@ void main()
     }
     // environment
     // diffuse
-    vec3 diffuse_response = textureLod(u_envIrradiance,
-        mx_map_point(normalize((u_envMatrix * vec4(diffuse_N, 0.0)).xyz)), 0.0).xyz * u_envLightIntensity
-        * base_constant;
+    vec3 diffuse_response = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * diffuse_N)), 0.0).xyz
+        * u_envLightIntensity * base_constant;
     color += diffuse_response;
     vec3 color_2 = vec3(0.0);
     // lights

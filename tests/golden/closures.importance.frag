@@ -171,7 +171,7 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
 // it lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -240,8 +240,8 @@ void main()
     }
     // environment
     // paint
-    vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)),
-        0.0).xyz * vec3(0.6, 0.1, 0.05);
+    vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
+        * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
     color += paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
     // coat

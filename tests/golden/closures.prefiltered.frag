@@ -99,12 +99,6 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-vec3 mx_environment_radiance(const vec3 direction, const float lod)
-{
-    return textureLod(u_envRadiance, mx_map_point(normalize((u_envMatrix * vec4(direction, 0.0)).xyz)), lod).xyz
-        * u_envLightIntensity;
-}
-
 // What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y).
 vec2 mx_ggx_albedo(const float c)
 {
@@ -116,7 +110,8 @@ vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
     return mix(vec3(0.03373595), vec3(1.0), albedo.y) * albedo.x
-        * mx_environment_radiance(reflect(-V, faceforward(N, -V, N)), 0.2 * float(u_envRadianceMips - 1));
+        * (textureLod(u_envRadiance, mx_map_point(normalize(mat3(u_envMatrix) * reflect(-V, faceforward(N, -V, N)))),
+        0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }
 
 void main()
@@ -163,12 +158,11 @@ void main()
         color += u_lightData[i].color * (intensity * (coat_product * mx_ggx_light(coat_vector, V, L) + paint_response));
     }
     // environment
-    // paint
-    vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)),
-        0.0).xyz * vec3(0.6, 0.1, 0.05);
+    // coat, paint
+    vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * h)), 0.0).xyz
+        * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    color += paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
-    // coat
-    color += scale * mx_ggx_prefiltered(N, V);
+    vec3 paint_response = paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
+    color += scale * mx_ggx_prefiltered(N, V) + paint_response;
     out1 = vec4(color, 1.0);
 }

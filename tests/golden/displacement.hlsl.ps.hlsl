@@ -65,7 +65,7 @@ void main(
     float3 facet_direction_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
     float3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
     color += u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(float4(faceforward(N, -normalize(u_viewPosition - P_sum), N), 0.0),
-        u_envMatrix).xyz)), 0.0).xyz * (u_envLightIntensity * 0.18);
+        mx_map_point(normalize(mul(faceforward(N, -normalize(u_viewPosition - P_sum), N), (float3x3)u_envMatrix))),
+        0.0).xyz * (u_envLightIntensity * 0.18);
     out1 = float4(color, 1.0);
 }

@@ -60,7 +60,7 @@ void main()
     vec3 facet_direction_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
     vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
     color += textureLod(u_envIrradiance,
-        mx_map_point(normalize((u_envMatrix * vec4(faceforward(N, -normalize(u_viewPosition - P_sum), N), 0.0)).xyz)),
-        0.0).xyz * (u_envLightIntensity * 0.18);
+        mx_map_point(normalize(mat3(u_envMatrix) * faceforward(N, -normalize(u_viewPosition - P_sum), N))), 0.0).xyz
+        * (u_envLightIntensity * 0.18);
     out1 = vec4(color, 1.0);
 }

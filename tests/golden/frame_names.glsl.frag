@@ -107,11 +107,11 @@ void main()
     // environment
     // diffuse
     if (LightData_2 > 0.0) {
-        vec3 diffuse_part = textureLod(u_envIrradiance,
-            mx_map_point(normalize((u_envMatrix * vec4(diffuse_N, 0.0)).xyz)), 0.0).xyz;
         vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
             * vec2(1.4385, 2.0315)) + vec2(1.0);
-        color += diffuse_part * (u_envLightIntensity * (clamp(fit.x / fit.y, 0.0, 1.0) * (LightData_2 * 0.18)));
+        float diffuse_product_3 = u_envLightIntensity * (clamp(fit.x / fit.y, 0.0, 1.0) * (LightData_2 * 0.18));
+        color += textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * diffuse_N)), 0.0).xyz
+            * diffuse_product_3;
     }
     // opacity
     if (surface_opacity < u_alphaThreshold)

@@ -95,18 +95,15 @@ void main()
     float ggx_masking = sqrt(cos_v * cos_v * 0.9975 + 0.0025);
     mx_GgxLobe metal_vector = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.05), ggx_masking);
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
-        // red, blue
+        // metal, red, blue
         float light_intensity = u_lightData[i].intensity;
-        float choice = u_lightData[i].type == 1 ? light_intensity : 0.0;
         vec3 L = -u_lightData[i].direction;
         float cos_l = max(dot(L, facing), 1e-8);
-        color += u_lightData[i].color * (choice
-            * (cos_l * vec3(0.066845074, 0.011140846, 0.005570423) + cos_l
-            * vec3(0.007957747, 0.015915494, 0.09549297)));
-        // metal
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        color += u_lightData[i].color * (choice
-            * (scaled_ggx_compensation * (fresnel * mx_ggx_light(metal_vector, V, L))));
+        vec3 metal_response = scaled_ggx_compensation * (fresnel * mx_ggx_light(metal_vector, V, L));
+        vec3 sum = cos_l * vec3(0.007957747, 0.015915494, 0.09549297)
+            + (metal_response + cos_l * vec3(0.066845074, 0.011140846, 0.005570423));
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
     }
     out1 = vec4(color, 1.0);
 }

@@ -222,7 +222,7 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
 // it lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -370,7 +370,7 @@ void main()
     // diffuse
     if (diffuse_weight_2 > 0.0) {
         vec3 diffuse_product_2 = SR_UsdPreviewSurface_diffuseColor
-            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)), 0.0).xyz;
+            * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz;
         color += diffuse_product_2 * (body_weight * diffuse_weight_2 * u_envLightIntensity);
     }
     // coating

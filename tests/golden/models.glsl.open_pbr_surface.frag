@@ -442,7 +442,7 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
 // it lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -677,7 +677,7 @@ void main()
     }
     // environment
     // fuzz, sheet_front, scatter
-    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     vec2 fit = SR_open_pbr_surface_base_diffuse_roughness
         * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + SR_open_pbr_surface_base_diffuse_roughness
         * vec2(1.4385, 2.0315)) + vec2(1.0);
@@ -687,7 +687,7 @@ void main()
     // sheet_back
     if (scaled_sheet_weight > 0.0)
         color += u_envLightIntensity * (sheet_back_product
-            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(-Nf, 0.0)).xyz)), 0.0).xyz);
+            * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
     // diffuse
     if (diffuse_weight > 0.0)
         color += u_envLightIntensity * (mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)

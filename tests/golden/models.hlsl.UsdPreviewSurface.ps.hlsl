@@ -284,7 +284,7 @@ float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 // it lies below the top of the cap, v.z + reach at most.
 float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 {
-    return float3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -439,7 +439,7 @@ void main(
     if (diffuse_weight_2 > 0.0) {
         float3 diffuse_product_2 = diffuseColor
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-            mx_map_point(normalize(mul(float4(N, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+            mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
         color += diffuse_product_2 * (body_weight * diffuse_weight_2 * u_envLightIntensity);
     }
     // coating

@@ -381,7 +381,7 @@ float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 // it lies below the top of the cap, v.z + reach at most.
 float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 {
-    return float3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -569,7 +569,7 @@ void main(
     // environment
     // fuzz
     float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+        mx_map_point(normalize(mul(Nf, (float3x3)u_envMatrix))), 0.0).xyz;
     if (sheen_weight > 0.0) {
         float fuzz_product_3 = u_envLightIntensity * (sheen_albedo * (sheen_weight * coating_difference));
         color += SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product_3;

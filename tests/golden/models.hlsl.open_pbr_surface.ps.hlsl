@@ -505,7 +505,7 @@ float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 // it lies below the top of the cap, v.z + reach at most.
 float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 {
-    return float3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -744,7 +744,7 @@ void main(
     // fuzz, sheet_front, scatter
     float envLightIntensity = u_envLightIntensity;
     float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+        mx_map_point(normalize(mul(Nf, (float3x3)u_envMatrix))), 0.0).xyz;
     float2 fit = base_diffuse_roughness * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076)
         + base_diffuse_roughness * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
     float3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
@@ -754,7 +754,7 @@ void main(
     if (scaled_sheet_weight > 0.0)
         color += envLightIntensity * (sheet_back_product
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-            mx_map_point(normalize(mul(float4(-Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz);
+            mx_map_point(normalize(mul(-Nf, (float3x3)u_envMatrix))), 0.0).xyz);
     // diffuse
     if (diffuse_weight > 0.0)
         color += envLightIntensity * (lerp(mx_fujii_multiple(base_positive, mean), float3(1.0, 1.0, 1.0),

@@ -453,7 +453,7 @@ float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 // it lies below the top of the cap, v.z + reach at most.
 float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 {
-    return float3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -633,7 +633,7 @@ void main(
     // environment
     // fuzz, scatter, diffuse
     float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(float4(Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz;
+        mx_map_point(normalize(mul(Nf, (float3x3)u_envMatrix))), 0.0).xyz;
     float2 fit = SR_standard_surface_diffuse_roughness
         * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
         * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
@@ -644,7 +644,7 @@ void main(
     if (translucent_weight > 0.0)
         color += u_envLightIntensity * (translucent_product
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-            mx_map_point(normalize(mul(float4(-Nf, 0.0), u_envMatrix).xyz)), 0.0).xyz);
+            mx_map_point(normalize(mul(-Nf, (float3x3)u_envMatrix))), 0.0).xyz);
     // coating
     if (coat > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);

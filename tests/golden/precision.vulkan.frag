@@ -343,7 +343,7 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
 // it lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -536,7 +536,7 @@ void main()
     }
     // environment
     // fuzz
-    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+    vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     if (sheen_weight > 0.0) {
         float fuzz_product_3 = u_envLightIntensity * (sheen_albedo * (sheen_weight * coating_difference));
         color += SR_coloured_sheen_color / sheen_weight * part * fuzz_product_3;

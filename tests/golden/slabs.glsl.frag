@@ -207,7 +207,7 @@ float mx_ggx_visibility(const float cos_v, const float masking, const float area
 // it lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
@@ -337,7 +337,7 @@ void main()
     // environment
     // milk_medium
     vec3 milk_medium_product = mx_medium_reflected(way)
-        * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(Nf, 0.0)).xyz)), 0.0).xyz;
+        * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
         * milk_medium_product);
     // metal_reflection

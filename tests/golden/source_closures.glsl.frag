@@ -127,8 +127,8 @@ void main()
     BSDF soft = BSDF(vec3(0.0), vec3(1.0));
     soft_bsdf(soft_closure_data, 0.8, vec3(0.5), N, 1, soft);
     vec3 diffuse_response = u_envLightIntensity * 0.18
-        * (soft.throughput * textureLod(u_envIrradiance,
-        mx_map_point(normalize((u_envMatrix * vec4(diffuse_N, 0.0)).xyz)), 0.0).xyz);
+        * (soft.throughput * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * diffuse_N)),
+        0.0).xyz);
     ClosureData soft_closure_data_2 = ClosureData(2, vec3(0.0), V, N, vd.positionWorld, 1.0);
     BSDF soft_2 = BSDF(vec3(0.0), vec3(1.0));
     soft_bsdf(soft_closure_data_2, 0.8, vec3(0.5), N, 1, soft_2);

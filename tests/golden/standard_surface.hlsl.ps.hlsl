@@ -96,7 +96,7 @@ void main(
     float2 fit = (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + float2(0.8631, 1.2189)) * 0.6
         + float2(1.0, 1.0);
     float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(float4(N, 0.0), u_envMatrix).xyz)), 0.0).xyz * u_envLightIntensity;
+        mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz * u_envLightIntensity;
     color += clamp(fit.x / fit.y, 0.0, 1.0) * float3(0.5, 0.25, 0.15) * environment_irradiance;
     out1 = float4(color, 1.0);
 }

@@ -87,8 +87,8 @@ void main()
     // environment
     // diffuse
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.8631, 1.2189)) * 0.6 + vec2(1.0);
-    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(N, 0.0)).xyz)),
-        0.0).xyz * u_envLightIntensity;
+    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
+        * u_envLightIntensity;
     color += clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15) * environment_irradiance;
     out1 = vec4(color, 1.0);
 }

@@ -92,10 +92,10 @@ void main()
     // environment
     // smoke
     if (one_minus_st_outx > 0.0) {
-        vec3 environment_irradiance = textureLod(u_envIrradiance,
-            mx_map_point(normalize((u_envMatrix * vec4(-V, 0.0)).xyz)), 0.0).xyz * u_envLightIntensity;
+        vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -V)),
+            0.0).xyz * u_envLightIntensity;
         vec3 smoke_blend = mix(environment_irradiance, u_envLightIntensity
-            * textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(V, 0.0)).xyz)), 0.0).xyz, 0.2);
+            * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * V)), 0.0).xyz, 0.2);
         color += path_blend * (one_minus_st_outx * depth_product) * smoke_blend * 1.2;
     }
     out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));

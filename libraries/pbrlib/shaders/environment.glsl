@@ -47,7 +47,7 @@ vec2 mx_map_point(vec3 d)
 // Where the light from a direction of the world lies in the environment's picture.
 vec2 mx_latlong(vec3 direction)
 {
-    return mx_map_point(normalize((u_envMatrix * vec4(direction, 0.0)).xyz));
+    return mx_map_point(normalize(mat3(u_envMatrix) * direction));
 }
 
 vec3 mx_environment_radiance(vec3 direction, float lod)

@@ -74,6 +74,8 @@ float mx_fresnel_conductor(float cosine, float re, float im)
 // One channel after the other, which needs a third of the registers.
 vec3 mx_fresnel_conductor(float cosine, vec3 re, vec3 im)
 {
+    if (mx_known(re.x == re.y) && mx_known(re.y == re.z) && mx_known(im.x == im.y) && mx_known(im.y == im.z))
+        return vec3(mx_fresnel_conductor(cosine, re.x, im.x));
     vec3 color = vec3(0.0);
     for (int i = 0; i < 3; ++i)
         color[i] = mx_fresnel_conductor(cosine, re[i], im[i]);

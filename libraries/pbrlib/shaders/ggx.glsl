@@ -224,7 +224,7 @@ vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, strin
 // v.z + reach at most. Times the roughness it is one of the rough surface.
 vec3 mx_ggx_cap(vec2 around, float depth, vec3 v, float reach)
 {
-    return vec3(v.xy + sqrt(depth * (2.0 * reach - depth)) * around, v.z + (reach - depth));
+    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
 // The lobe as samples of the environment see it. Lobes that agree in it share their samples.
