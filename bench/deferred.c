@@ -38,7 +38,8 @@ struct bench {
 
 /* ---- Materials ---- */
 
-/* M1 to M8: so many slabs beside each other; Half: M1 on one side of the ball, M8 on the other. */
+/* M1 to M8: so many slabs beside each other; Half: M1 on the right of the picture, M8 on the left.
+ */
 static void parse_mixes(struct bench *b)
 {
     static char text[8192];
@@ -61,14 +62,17 @@ static void parse_mixes(struct bench *b)
                                 i, i > 1 ? "m" : "s", i);
     }
     snprintf(text + len, sizeof text - len,
-             "<position name='p' type='vector3' space='world'/><extract name='x' type='float'>"
-             "<input name='in' type='vector3' nodename='p'/></extract><ifgreater name='side' "
+             "<position name='p' type='vector3'><input name='space' type='string' value='world'/>"
+             "</position><dotproduct name='x' type='float'><input name='in1' type='vector3' "
+             "nodename='p'/><input name='in2' type='vector3' value='%.9g, %.9g, %.9g'/>"
+             "</dotproduct><ifgreater name='side' "
              "type='float'><input name='value1' type='float' nodename='x'/><input name='in1' "
              "type='float' value='1'/></ifgreater><slab_mix name='half' type='BSDF'>"
              "<input name='fg' type='BSDF' nodename='s1'/><input name='bg' type='BSDF' "
              "nodename='m8'/><input name='mix' type='float' nodename='side'/></slab_mix>"
              "<slab_surface name='Half' type='surfaceshader'><input name='bsdf' type='BSDF' "
-             "nodename='half'/></slab_surface></materialx>");
+             "nodename='half'/></slab_surface></materialx>",
+             b->scene.view.m[0][0], b->scene.view.m[1][0], b->scene.view.m[2][0]);
     if (mxg_document_parse(b->context, mxg_library_builtin(b->context), "mixes.mtlx", text,
                            strlen(text), &b->mixes)
         != MXG_OK)

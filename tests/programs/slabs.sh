@@ -19,7 +19,7 @@ check 'steps' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -Wbudget-st
 check 'the mix is first' eval 'grep -F budget-step err | head -1 | grep -qE "the mix .paint.: closures 3 to 2, bytes 40 to 28, estimated error 0\.[0-9]+ "'
 check 'then the layer' eval 'grep -F budget-step err | tail -1 | grep -qE "the layer .coated.: closures 2 to 1, bytes 28 to 16"'
 check 'the first step' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 --max-steps 1 -Wbudget-step -o made
-check 'alone, whatever the budget' eval 'is "$(grep -cF budget-step err)" 1 && says "the mix" && ! says "the layer"'
+check 'alone, whatever the budget' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "the mix" && ! says "the layer"'
 check 'a budget' exits 0 "$mxgen" inspect "$slabs" -e CarPaint --slabs --max-bytes 12
 check 'is the one that inspect shows' eval 'grep -q "^to the budget" out && grep -q "no second lobe: closures 1 to 1, bytes 16 to 12" out'
 check 'features go for bytes' exits 0 "$mxgen" "$slabs" -e CarPaint --max-bytes 12 -Wbudget-step -o made
