@@ -36,13 +36,12 @@ static ir_ref light(struct osl_tree *t, ir_ref edf, ir_ref intensity, ir_ref exp
 }
 
 /*
- * True for the parts of slabs that are no tops of OSL's layers: media, light of matter itself, and
- * tinted interfaces, because what a tint takes does not reach the base.
+ * True for the parts of slabs. Light of matter itself is no layer of OSL, either; nor is an
+ * interface with a tint, because what the tint takes does not reach the base.
  */
 static bool is_of_slab(const struct osl_tree *t, ir_ref ref)
 {
-    ir_ref tint = closure_call(t->shader, t->host, ref, LEAF_TINT, NULL);
-    return (tint && !ir_const_is(t->graph, tint, 1.0f))
+    return closure_has(t->shader, t->host, ref, LEAF_TINT)
            || closure_has(t->shader, t->host, ref, LEAF_TRANSMITTANCE)
            || (ir_type_of(t->graph, ref) == IR_TYPE_BSDF
                && closure_has(t->shader, t->host, ref, LEAF_EMISSION));
@@ -58,12 +57,12 @@ static bool has_slab(const struct osl_tree *t, ir_ref ref)
 }
 
 /*
- * OSL's layer knows reflection alone. Below slabs the base has the weight of the walk, with the way
- * of the mirrored view, because a closure does not know the light.
+ * OSL's layer knows reflection alone. In slabs the base has the weight of the walk, with the way of
+ * the mirrored view, because a closure does not know the light.
  */
 static ir_ref layered(struct osl_tree *t, ir_ref top, ir_ref base)
 {
-    if (!top || !base || !t->slabs[top])
+    if (!top || !base || !(t->slabs[top] || t->slabs[base]))
         return osl_layered(t, t->of[top], t->of[base]);
     ir_ref view = closure_view(t->shader, t->host), way = closure_way(t->shader, t->host, view);
     ir_ref through = closure_throughput(t->shader, t->host, top, way);

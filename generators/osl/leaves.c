@@ -485,8 +485,8 @@ ir_ref osl_leaf(struct osl_tree *t, ir_ref ref)
     } else if (row) {
         struct leaf leaf = {.tree = t, .ref = ref};
         find_inputs(&leaf);
-        ir_ref tint = closure_call(t->shader, t->host, ref, LEAF_TINT, NULL);
-        result = osl_scaled(t, row_call(&leaf, row), tint);
+        result = row_call(&leaf, row);
+        result = osl_scaled(t, result, closure_call(t->shader, t->host, ref, LEAF_TINT, NULL));
     } else if (node.type == IR_TYPE_EDF || functions[LEAF_EMISSION] != LANG_NONE) {
         result = emission(t, ref);
     } else if (node.type == IR_TYPE_VDF) {

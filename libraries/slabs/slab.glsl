@@ -207,6 +207,16 @@ vec3 mx_slab_medium_bsdf_albedo(vec3 color, float roughness, vec3 mean_free_path
                                        : mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V));
 }
 
+// The closure of a renderer is Oren and Nayar's with the colour c of the albedo. With the light that bounces between facets its mean albedo is
+// c e / (1 - c (1 - e)), where e is that of one bounce (Portsmouth, Kutz and Hill 2024, "EON: A Practical Energy-Preserving Rough Diffuse BRDF").
+vec3 mx_slab_medium_bsdf_tint(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
+                              vec3 N, vec3 V)
+{
+    float e = mx_fujii_mean(roughness);
+    vec3 albedo = mx_slab_medium_bsdf_albedo(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V);
+    return (1.0 - albedo * (1.0 - e)) / e;
+}
+
 void mx_slab_medium_bsdf_sample(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                 vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {

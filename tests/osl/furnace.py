@@ -66,9 +66,16 @@ def scene(layers):
 """
 
 
+def write_tint(folder):
+    """Colours by the cosines of view (to the right) and light (upwards; files begin at the top)."""
+    steps = [i / 7 for i in range(8)]
+    radiance.write(folder / "tint.hdr", [[(light, 1 - light, view) for view in steps] for light in reversed(steps)])
+
+
 def by_osl(document, options, folder):
     fault = run(MXGEN, document, "--target", "osl", "-q", "-o", folder, *options)
     groups = [path for path in folder.glob("*.oslgroup") if ".displacement." not in path.name]
+    write_tint(folder)
     (folder / "sky.osl").write_text(f"surface sky()\n{{\n    Ci = background() * {SKY};\n}}\n")
     for path in sorted(folder.glob("*.osl")):
         fault = fault or run("oslc", "-q", path.name, folder=folder)
@@ -87,6 +94,9 @@ def by_osl(document, options, folder):
 
 def traced(document, options, folder):
     radiance.write_constant(folder / "sky.hdr", SKY)
+    if document.parent == HERE: # a texture lies beside its document
+        document = pathlib.Path(shutil.copy(document, folder))
+        write_tint(folder)
     fault = run(MXGEN, "render", document, "-q", "-m", "sphere", "--camera", f"0,0,{DISTANCE:g},30", "--lights", "none", "--environment",
                 folder / "sky.hdr", "--path-trace", "--paths", "64", "--size", SIZE, "-o", folder / "traced.hdr", *options)
     return fault or ball_mean(folder / "traced.hdr")

@@ -4,11 +4,18 @@ import math
 import re
 
 
+def encoded(pixel):
+    _, exponent = math.frexp(max(pixel))
+    return bytes([int(c * 2.0 ** (8 - exponent)) for c in pixel] + [exponent + 128])
+
+
+def write(path, rows):
+    head = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {len(rows)} +X {len(rows[0])}\n"
+    path.write_bytes(head.encode() + b"".join(encoded(pixel) for row in rows for pixel in row))
+
+
 def write_constant(path, value, width=8, height=4):
-    mantissa, exponent = math.frexp(value)
-    pixel = bytes([int(mantissa * 256)] * 3 + [exponent + 128])
-    head = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n"
-    path.write_bytes(head.encode() + pixel * (width * height))
+    write(path, [[(value, value, value)] * width] * height)
 
 
 def read_runs(data, at, width):
