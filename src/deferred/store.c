@@ -170,7 +170,7 @@ static struct closure_list marks_of(const struct shader *shader, ir_ref bsdf,
 
 enum {
     NUM_TARGET_WORDS = 3, /* that are render targets */
-    WHOLE_WORDS = 46      /* of a closure in whole floats: as many as mx_put_whole writes */
+    WHOLE_WORDS = 47      /* of a closure in whole floats: as many as mx_put_whole writes */
 };
 
 static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
