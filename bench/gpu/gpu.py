@@ -121,6 +121,8 @@ def main():
         print(f"skip: no example documents in '{EXAMPLES}'")
         return
     documents = sorted({document for document, _, _ in theirs if not PARTS or any(part in document for part in PARTS)})
+    if not documents:
+        sys.exit(f"no example document has one of these parts in its name: {' '.join(PARTS)}")
     jobs = [(document, interface) for interface in INTERFACES for document in documents]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         rows = [row for rows in pool.map(lambda job: list(measure(job)), jobs) for row in rows]
