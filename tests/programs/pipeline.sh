@@ -54,6 +54,8 @@ other_layout() { [ "$(number float/show.json layout)" != "$(number passes/show.j
 check "another storage has another layout" other_layout
 "$mxgen" pipeline spread --sss diffusion >/dev/null
 "$mxgen" pipeline blurred --rough-refraction blur >/dev/null
+check "a material for it" "$mxgen" "$examples/frosted.mtlx" --target vulkan --pipeline deferred --rough-refraction blur --reflect -o frosted
+check "of its layout" eval '[ "$(number frosted/Frosted.json layout)" = "$(number blurred/show.json layout)" ]'
 check "blur, too" eval '[ "$(number blurred/show.json layout)" != "$(number passes/show.json layout)" ]'
 check "diffusion, too" eval '[ "$(number spread/show.json layout)" != "$(number passes/show.json layout)" ]'
 check "and has an image" eval 'grep -q "\"scattered\"" spread/light_single.json && ! grep -q "\"scattered\"" passes/light_single.json'
