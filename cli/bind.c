@@ -72,13 +72,19 @@ static void explain(struct bind *bind, const mxg_scene *scene, const mxg_binding
         report_status(&bind->cli.report, mxg_bindings_explain(bindings, primitive, put, stdout));
 }
 
-static void write_bindings(struct bind *bind, const mxg_document *document, const mxg_scene *scene,
-                           const mxg_bindings *bindings)
+/* The files for programs. */
+static void write_bindings(struct bind *bind, const mxg_bindings *bindings)
 {
     if (bind->json)
         write_file(bind, bindings, bind->json, MXG_BINDINGS_JSON);
     if (bind->usda)
         write_file(bind, bindings, bind->usda, MXG_BINDINGS_USDA);
+}
+
+/* What people look at. */
+static void show_bindings(struct bind *bind, const mxg_document *document, const mxg_scene *scene,
+                          const mxg_bindings *bindings)
+{
     if (bind->html)
         write_page(bind, document, scene, bindings);
     if (bind->geom)
@@ -103,8 +109,12 @@ static void bind_document(struct bind *bind, const mxg_document *document, mxg_s
     mxg_status status = mxg_bind(bind->cli.context, document, scene, &desc, &bindings);
     if (bindings)
         report_list(&bind->cli.report, mxg_bindings_diagnostics(bindings));
-    if (report_status(&bind->cli.report, status))
-        write_bindings(bind, document, scene, bindings);
+    bool is_good = report_status(&bind->cli.report, status);
+    if (is_good)
+        write_bindings(bind, bindings);
+    /* beside errors, the layers that are left help to find their cause */
+    if (is_good || (bindings && mxg_bindings_num_resolved(bindings) > 0))
+        show_bindings(bind, document, scene, bindings);
     mxg_bindings_destroy(bindings);
 }
 

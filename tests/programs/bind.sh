@@ -96,6 +96,11 @@ check 'an unknown primitive' fails unknown-primitive look.mtlx --stage stage.txt
 check 'is compared, too' grep -qF "did you mean '/set/cup'" err
 check 'an unknown look' fails unknown-look look.mtlx --stage stage.txt --look dya
 check 'a document without a look' fails look-missing materials.mtlx --stage stage.txt
+sed 's|</look>|<materialassign material="Lost" geom="/set" slot="070"/></look>|' look.mtlx >faulty.mtlx
+check 'an assignment of nothing known' fails unknown-assigned faulty.mtlx --stage stage.txt --look day
+check 'stands beside the layers that are left' eval 'grep -qF "000 Clay" out && ! grep -qF 070 out'
+check 'in an explanation, too' eval 'fails unknown-assigned faulty.mtlx --stage stage.txt --look day --geom /set/cup && grep -qF "000" out'
+check 'but not in a file for programs' eval 'fails unknown-assigned faulty.mtlx --stage stage.txt --look day --json faulty.json && [ ! -e faulty.json ]'
 check 'several looks' eval 'sed "s|</materialx>|<look name=\"night\"/></materialx>|" look.mtlx >two.mtlx; fails look-needed two.mtlx --stage stage.txt'
 check 'are listed' grep -qF 'day, night' err
 printf '/set/a\nset/b\n/set//c\n' >bad.txt
