@@ -51,14 +51,14 @@ static const struct {
     const char *const *text;
     uint32_t reads; /* bits of resources */
 } passes[NUM_PASSES] = {
-    [PASS_CLASSIFY] = {"classify", CLASS_EMPTY, false, deferred_classify, 0x182},
+    [PASS_CLASSIFY] = {"classify", CLASS_EMPTY, false, deferred_classify, 0x1982},
     [PASS_COMPOSE] = {"compose", CLASS_EMPTY, true, deferred_compose, 0x1e2},
     [PASS_SIMPLE] = {"light_simple", CLASS_SIMPLE, true, deferred_light, 0x1ff},
-    [PASS_SINGLE] = {"light_single", CLASS_SINGLE, true, deferred_light, 0x1ff},
-    [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, true, deferred_light, 0x1ff},
-    [PASS_SPECIAL] = {"light_special", CLASS_SPECIAL, true, deferred_light, 0x1ff},
-    [PASS_DIFFUSE] = {"diffuse", CLASS_EMPTY, false, deferred_diffuse, 0x15e | 1},
-    [PASS_BLUR] = {"blur", CLASS_EMPTY, false, deferred_blur, 0x150},
+    [PASS_SINGLE] = {"light_single", CLASS_SINGLE, true, deferred_light, 0x9ff},
+    [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, true, deferred_light, 0x19ff},
+    [PASS_SPECIAL] = {"light_special", CLASS_SPECIAL, true, deferred_light, 0x19ff},
+    [PASS_DIFFUSE] = {"diffuse", CLASS_EMPTY, false, deferred_diffuse, 0x195f},
+    [PASS_BLUR] = {"blur", CLASS_EMPTY, false, deferred_blur, 0x1150},
     [PASS_SHOW] = {"show", CLASS_EMPTY, false, deferred_show, 0x14f},
     [PASS_LIGHT_RAYS] = {"light_rays", CLASS_COMPLEX, false, deferred_light_rays, 0x740},
 };
@@ -70,30 +70,23 @@ bool deferred_resource(uint32_t index, struct deferred_resource *out)
     return index < NUM_RESOURCES;
 }
 
-/* Which pixels show bodies is known before their light: each class but SIMPLE may have them. */
-static bool knows_bodies(enum deferred_pass pass)
+/* Options turn these on. */
+static bool has_resource(const struct deferred_layout *layout, uint32_t resource)
 {
-    return pass == PASS_CLASSIFY || pass == PASS_SINGLE || pass == PASS_COMPLEX
-           || pass == PASS_SPECIAL || pass == PASS_DIFFUSE;
+    return resource == SCATTERED ? layout->diffuses : resource == BELOW ? layout->blurs : true;
 }
 
-/* Only pixels with several closures have light from below an interface. */
-static bool knows_blur(enum deferred_pass pass, const struct deferred_layout *layout)
+static bool has_pass(const struct deferred_layout *layout, enum deferred_pass pass)
 {
-    return pass == PASS_CLASSIFY || pass == PASS_COMPLEX || pass == PASS_SPECIAL
-           || pass == PASS_BLUR || (pass == PASS_DIFFUSE && layout->diffuses);
+    return pass == PASS_DIFFUSE ? layout->diffuses : pass == PASS_BLUR ? layout->blurs : true;
 }
 
 bool deferred_reads(enum deferred_pass pass, const struct deferred_layout *layout,
                     uint32_t resource)
 {
     assert(pass < NUM_PASSES && resource < NUM_RESOURCES);
-    if (resource == SCATTERED)
-        return layout->diffuses && knows_bodies(pass);
-    if (resource == BELOW)
-        return layout->blurs && knows_blur(pass, layout);
-    return passes[pass].reads >> resource & 1 && (layout->diffuses || pass != PASS_DIFFUSE)
-           && (layout->blurs || pass != PASS_BLUR);
+    return passes[pass].reads >> resource & 1 && has_resource(layout, resource)
+           && has_pass(layout, pass);
 }
 
 bool deferred_is_indirect(enum deferred_pass pass)
@@ -213,7 +206,7 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
     deferred_write_storage(layout, out);
     deferred_write_lines(pass == PASS_LIGHT_RAYS ? deferred_unpack : deferred_read, out);
     deferred_write_lines(deferred_frame, out);
-    if ((pass == PASS_DIFFUSE && layout->diffuses) || (pass == PASS_BLUR && layout->blurs))
+    if ((pass == PASS_DIFFUSE || pass == PASS_BLUR) && has_pass(layout, pass))
         deferred_write_lines(deferred_plane, out);
     if (surface)
         write_fill(surface, out);
