@@ -71,7 +71,7 @@ static bool has_slabs(const struct walk *w, ir_ref ref)
 
 static uint32_t hash_of(ir_ref node, const struct where *where)
 {
-    return hash_bytes(where, sizeof *where) ^ node * UINT32_C(0x9e3779b9);
+    return hash_pair(node, hash_bytes(where, sizeof *where));
 }
 
 static bool is_visit(const struct visit *visit, ir_ref node, const struct where *where)
