@@ -13,7 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { SIZE = 384, NUM_FRAMES = 3, NUM_ROUNDS = 11, NUM_LIGHTS = 8 };
 
@@ -217,23 +216,16 @@ static void close_frame(struct frame *f)
 
 /* ---- Time ---- */
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The least time of a few frames. program: may be NULL. */
 static double least_seconds(struct bench *b, struct draw_canvas *canvas,
                             struct draw_program *program)
 {
     double best = 1e9;
     for (int i = 0; i < NUM_FRAMES; ++i) {
-        double begin = now();
+        double begin = bench_seconds();
         if (!draw_frame(canvas, &program, program ? 1 : 0, b->pixels))
             bench_fail("a frame fails: %s", b->gpu.reason);
-        best = fmin(best, now() - begin);
+        best = fmin(best, bench_seconds() - begin);
     }
     return best;
 }
@@ -247,16 +239,9 @@ static double seconds(struct bench *b, const struct frame *f)
     return least_seconds(b, f->canvas, f->program) - least_seconds(b, f->empty, NULL);
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 static double median(double *numbers)
 {
-    qsort(numbers, NUM_ROUNDS, sizeof *numbers, compare_numbers);
-    return numbers[NUM_ROUNDS / 2];
+    return bench_quartiles(numbers, NUM_ROUNDS).median;
 }
 
 /* ---- Rows ---- */
@@ -281,10 +266,9 @@ static void print_head(void)
 
 static void print_row(const char *what, struct pair *pair)
 {
-    double middle = median(pair->ratio);
+    struct bench_quartiles ratio = bench_quartiles(pair->ratio, NUM_ROUNDS);
     printf("| %s | %.1f | %.1f | %.2f | %.2f to %.2f |\n", what, 1e3 * median(pair->time),
-           1e3 * median(pair->other), middle, pair->ratio[NUM_ROUNDS / 4],
-           pair->ratio[NUM_ROUNDS - 1 - NUM_ROUNDS / 4]);
+           1e3 * median(pair->other), ratio.median, ratio.lower, ratio.upper);
     fflush(stdout);
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /* What the benchmarks that draw share. */
+#define _POSIX_C_SOURCE 200809L
 #include "bench/drawn.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 void bench_fail(const char *format, ...)
 {
@@ -14,6 +16,26 @@ void bench_fail(const char *format, ...)
     va_end(args);
     fputc('\n', stderr);
     exit(1);
+}
+
+double bench_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+struct bench_quartiles bench_quartiles(double *numbers, size_t count)
+{
+    qsort(numbers, count, sizeof *numbers, compare_numbers);
+    return (struct bench_quartiles){numbers[count / 4], numbers[count / 2],
+                                    numbers[count - 1 - count / 4]};
 }
 
 void bench_place_copies(const struct scene *scene, struct scene_object copies[BENCH_COPIES])

@@ -10,6 +10,15 @@ enum { BENCH_COPIES = 4 };
 /* Prints a line to stderr, and ends the program with 1. */
 _Noreturn void bench_fail(const char *format, ...);
 
+/* Processor time of this program, in seconds: other programs do not count. */
+double bench_seconds(void);
+
+struct bench_quartiles {
+    double lower, median, upper;
+};
+/* Sorts the numbers. */
+struct bench_quartiles bench_quartiles(double *numbers, size_t count);
+
 /* Copies of the ball, one around the other, the innermost first: the whole picture is overdrawn. */
 void bench_place_copies(const struct scene *scene, struct scene_object copies[BENCH_COPIES]);
 

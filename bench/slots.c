@@ -20,7 +20,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { SIZE = 192, NUM_ROUNDS = 21, MAX_LOOKS = 8 };
 #define NUM_FLOATS ((size_t)SIZE * SIZE * 4)
@@ -116,31 +115,18 @@ static void print_head(const char *unit)
 
 /* ---- Time ---- */
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double seconds_empty(struct bench *b)
 {
-    double begin = now();
+    double begin = bench_seconds();
     draw(b, NULL, 0);
-    return now() - begin;
+    return bench_seconds() - begin;
 }
 
 static double seconds_of(struct bench *b, uint32_t look, enum mode mode, int round)
 {
-    double begin = now();
+    double begin = bench_seconds();
     draw_mode(b, look, mode, round);
-    return now() - begin;
+    return bench_seconds() - begin;
 }
 
 static void measure_pixels(struct bench *b)
@@ -158,16 +144,13 @@ static void measure_pixels(struct bench *b)
     for (uint32_t look = 0; look < b->num_looks; ++look) {
         printf("| %s |", b->looks[look]);
         for (int mode = 0; mode < NUM_MODES; ++mode) {
-            double *of = ratios[look][mode];
-            qsort(of, NUM_ROUNDS, sizeof *of, compare);
-            printf(" %.2f (%.2f to %.2f) |", of[NUM_ROUNDS / 2], of[NUM_ROUNDS / 4],
-                   of[NUM_ROUNDS * 3 / 4]);
+            struct bench_quartiles of = bench_quartiles(ratios[look][mode], NUM_ROUNDS);
+            printf(" %.2f (%.2f to %.2f) |", of.median, of.lower, of.upper);
         }
         putchar('\n');
     }
-    qsort(ones, NUM_ROUNDS, sizeof *ones, compare);
     printf("The first, blended: %.0f nanoseconds for a pixel.\n",
-           1e9 * ones[NUM_ROUNDS / 2] / (SIZE * SIZE));
+           1e9 * bench_quartiles(ones, NUM_ROUNDS).median / (SIZE * SIZE));
 }
 
 /* ---- Operations ---- */
