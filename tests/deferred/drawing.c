@@ -5,6 +5,29 @@
 
 #include <stdlib.h>
 
+bool bench_open(struct bench *b)
+{
+    if (!gpu_open(&b->gpu) || !b->gpu.can_store) {
+        printf("skip: no device that can store: %s\n", b->gpu.reason);
+        return false;
+    }
+    compile_begin();
+    REQUIRE_EQ(mxg_context_create(NULL, &b->context), MXG_OK);
+    REQUIRE_EQ(mxg_options_create(b->context, &b->options), MXG_OK);
+    mxg_options_set(b->options, "interface", "reduced");
+    return true;
+}
+
+void bench_close(struct bench *b)
+{
+    mxg_document_destroy(b->document);
+    mxg_options_destroy(b->options);
+    mxg_context_destroy(b->context);
+    scene_finish(&b->scene);
+    gpu_close(&b->gpu);
+    compile_end();
+}
+
 bool drawing_generate(struct bench *b, const char *element, const char *pipeline,
                       const char *storage, mxg_result **out)
 {

@@ -20,6 +20,11 @@ struct bench {
     mxg_bindings *bindings; /* NULL, or the stack 0 of these takes the place of elements */
 };
 
+/* Shaders have the reduced interface; the scene is the caller's. False: nothing can store, told. */
+bool bench_open(struct bench *b);
+/* With the scene and the document. */
+void bench_close(struct bench *b);
+
 /* A material on the sphere. */
 struct drawing {
     struct draw_canvas *canvas;

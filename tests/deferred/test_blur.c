@@ -114,26 +114,15 @@ static void test_sharp(struct bench *b)
 int main(void)
 {
     struct bench b = {0};
-    if (!gpu_open(&b.gpu) || !b.gpu.can_store) {
-        printf("skip: no device that can store: %s\n", b.gpu.reason);
+    if (!bench_open(&b))
         return 77;
-    }
-    compile_begin();
     REQUIRE(scene_init_plane(&b.scene));
-    REQUIRE_EQ(mxg_context_create(NULL, &b.context), MXG_OK);
-    REQUIRE_EQ(mxg_options_create(b.context, &b.options), MXG_OK);
     b.scene.num_lights = 1;
-    mxg_options_set(b.options, "interface", "reduced");
     mxg_options_set(b.options, "environment", "none");
     mxg_options_set(b.options, "rough-refraction", "blur");
     test_edge(&b, "float", 0.05);
     test_edge(&b, "dither", 0.07);
     test_sharp(&b);
-    mxg_document_destroy(b.document);
-    mxg_options_destroy(b.options);
-    mxg_context_destroy(b.context);
-    scene_finish(&b.scene);
-    gpu_close(&b.gpu);
-    compile_end();
+    bench_close(&b);
     return test_report("blur");
 }

@@ -488,15 +488,9 @@ int main(int argc, char **argv)
     struct bench b = {0};
     if (argc != 3)
         return 2;
-    if (!gpu_open(&b.gpu) || !b.gpu.can_store) {
-        printf("skip: no device that can store: %s\n", b.gpu.reason);
+    if (!bench_open(&b))
         return 77;
-    }
-    compile_begin();
     REQUIRE(scene_init_sphere(&b.scene, 1));
-    REQUIRE_EQ(mxg_context_create(NULL, &b.context), MXG_OK);
-    REQUIRE_EQ(mxg_options_create(b.context, &b.options), MXG_OK);
-    mxg_options_set(b.options, "interface", "reduced");
     mxg_options_set(b.options, "texture-modes", "shared");
     if (open_document(&b, argv[1], "deferred.mtlx")) {
         test_sizes(&b);
@@ -526,11 +520,6 @@ int main(int argc, char **argv)
     if (b.document)
         test_bands(&b);
     test_stack(&b);
-    mxg_document_destroy(b.document);
-    mxg_options_destroy(b.options);
-    mxg_context_destroy(b.context);
-    scene_finish(&b.scene);
-    gpu_close(&b.gpu);
-    compile_end();
+    bench_close(&b);
     return test_report("deferred");
 }
