@@ -248,7 +248,7 @@ function listen() {
         element = $("element").value;
         compile();
     });
-    $("shape").addEventListener("change", () => { view.shape = $("shape").value; });
+    $("shape").addEventListener("change", showShape);
     $("target").addEventListener("change", inspect);
     $("open").addEventListener("change", () => take($("open").files));
     for (const button of document.querySelectorAll("[data-tab]"))
@@ -278,9 +278,15 @@ function listen() {
     });
 }
 
+function showShape() {
+    if (view)
+        view.shape = $("shape").value;
+}
+
 function openView() {
     try {
         view = new View($("canvas"));
+        showShape(); // which may have been chosen before
         view.onChange = () => { document.body.dataset.whole = "false"; };
         view.onPicture = isWhole => {
             document.body.dataset.picture ??= String(Math.round(performance.now()));
