@@ -40,7 +40,7 @@ vec2 mx_map_point(vec3 d)
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
     float around = mx_half_turn(d.x * stretch, abs(d.z) * stretch);
-    float side = d.z > 0.0 ? -0.5 : 0.5;
+    float side = d.z > 0.0 ? -0.5 : 0.5; // in front the point is -around / 2, behind 1/2 + around / 2
     return vec2(fract(side * (around + 0.5) + 0.25), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
