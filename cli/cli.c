@@ -5,6 +5,7 @@
 #include "cli/help.h"
 #include "cli/memory.h"
 #include "cli/profile.h"
+#include "cli/texels.h"
 #include "cli/warnings.h"
 
 #include <errno.h>
@@ -112,6 +113,7 @@ static bool create_context(struct cli *cli)
     desc.num_source_paths = cli->source_paths.len;
     desc.node_codes = cli->plugins.codes;
     desc.num_node_codes = cli->plugins.num_codes;
+    desc.read_texels = cli_read_texels;
     char *warnings = warnings_join(&cli->warnings);
     desc.warnings = warnings;
     mxg_status status = mxg_context_create(&desc, &cli->context);

@@ -4,9 +4,11 @@
 #include "cli/files.h"
 #include "cli/parent.h"
 #include "cli/stage.h"
+#include "cli/texels.h"
 #include "render/applies.h"
 #include "render/bake.h"
 #include "render/job.h"
+#include "render/means.h"
 #include "render/stage_picture.h"
 
 #include <stdlib.h>
@@ -146,6 +148,8 @@ int main(int argc, char **argv)
     size_t num_args = render_args(&job.options, args);
     int code;
     parent_follow();
+    if (argc == 5 && strcmp(argv[1], CLI_TEXELS) == 0)
+        return means_print(argv[2], argv[3], (uint32_t)strtoul(argv[4], NULL, 10));
     if (cli_start(&job.cli, &command, args, num_args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
         job.painter.files = &job.files;

@@ -114,6 +114,9 @@ struct mxg_context {
     mxg_resolver resolver;
     bool (*cancel)(void *user_data);
     void *cancel_user_data;
+    bool (*read_texels)(void *user_data, const char *from, const char *file, const char *layer,
+                        uint32_t size, float *out_texels);
+    void *texels_user_data;
     struct xml_limits xml_limits;
     uint32_t max_nodes, max_output_mib, max_errors;
     struct diag_policy policy;

@@ -109,6 +109,8 @@ static void set_build_options(struct generation *g)
         .list_user_data = context->resolver.user_data,
         .texture_fault = stdio_texture_fault,
         .texture_user_data = g->result->object.context,
+        .read_texels = context->read_texels,
+        .texels_user_data = context->texels_user_data,
         .integrator = o[OPTION_integrator].number != 0 || generation_packs(g),
         .keeps_absent = o[OPTION_layering].number == LAYERING_OCCLUDING,
         .stored = g->stored != CLASS_EMPTY,

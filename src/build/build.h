@@ -61,6 +61,10 @@ struct build_options {
     /* The reason why a document may not refer to a texture; NULL: it may. NULL: all are allowed. */
     const char *(*texture_fault)(void *user_data, const char *from, const char *file);
     void *texture_user_data;
+    /* mxg_context_desc.read_texels; NULL: no texture can be read */
+    bool (*read_texels)(void *user_data, const char *from, const char *file, const char *layer,
+                        uint32_t size, float *out_texels);
+    void *texels_user_data;
     int integrator;
     bool keeps_absent; /* closures of weight 0 hide what lies below them */
     int stored;        /* closures come from storage: the lighting of the deferred pipeline */

@@ -115,7 +115,8 @@ struct builder {
     VEC(elem_id) aov_graphs;     /* the nodegraphs of the layer's overrides; a later one wins */
     struct aov_nodes *aov_nodes; /* of the document; NULL: not yet collected */
     unsigned num_occlusions;     /* streams occlusion_0… of path tracers */
-    str_id slot; /* the name of the layer that is built, for names of variables; 0 */
+    str_id slot;           /* the name of the layer that is built, for names of variables; 0 */
+    struct texels *texels; /* texels.c: textures that were read, the last one first */
     /* code.h */
     VEC(struct code_value) code_values;
     struct table code_names; /* by name: indices of options->codes + 1 */
@@ -256,6 +257,8 @@ str_id build_colorspace(struct builder *b, elem_id element);
 ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
                              const struct port *port);
 
+/* Why a sandbox does not let the document refer to a texture; NULL: it may. */
+const char *build_texture_fault(const struct builder *b, str_id file, elem_id element);
 /* texture.c: a variable for the file of `variable`. */
 ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id element);
 /*

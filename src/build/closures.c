@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* What the rooms of closures and slabs ask about the library. */
-#include "build/build_priv.h"
+#include "build/texels.h"
 
 static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 {
@@ -44,6 +44,11 @@ static ir_ref slab_like(void *user_data, ir_ref leaf, ir_ref albedo)
     return build_slab_like(user_data, leaf, albedo);
 }
 
+static const float *texels(void *user_data, uint32_t variable)
+{
+    return build_texels(user_data, variable);
+}
+
 static struct slabs_host slabs_host(struct builder *b, const struct closure_host *closures)
 {
     return (struct slabs_host){
@@ -51,6 +56,7 @@ static struct slabs_host slabs_host(struct builder *b, const struct closure_host
         .lobes = slab_lobes,
         .slab_of = slab_of,
         .slab_like = slab_like,
+        .texels = texels,
         .closures = closures,
         .tracks_roughness = !(b->options->slab_features_off & 1u << SLAB_ROUGHNESS),
         .blurs = b->options->blurs && !(b->options->slab_features_off & 1u << SLAB_REFRACTION)};

@@ -13,23 +13,23 @@
 
 #include <stddef.h>
 
-/* Reports a texture of the document that a sandbox does not allow. */
-static void check_file(struct builder *b, str_id file, elem_id element)
+const char *build_texture_fault(const struct builder *b, str_id file, elem_id element)
 {
     const struct document *doc = build_doc(b);
     if (!b->options->texture_fault || !file || element < doc->first_element)
-        return;
-    const char *from = doc_place(doc, element).file,
-               *fault = b->options->texture_fault(b->options->texture_user_data, from ? from : "",
-                                                  build_text(b, file));
-    if (fault)
-        diag_add(b->diags, DIAG_ID_texture_refused, doc_attr_place(doc, element, STR_value),
-                 build_text(b, file), fault);
+        return NULL;
+    const char *from = doc_place(doc, element).file;
+    return b->options->texture_fault(b->options->texture_user_data, from ? from : "",
+                                     build_text(b, file));
 }
 
 ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id element)
 {
-    check_file(b, variable.file, element);
+    const char *fault = build_texture_fault(b, variable.file, element);
+    if (fault)
+        diag_add(b->diags, DIAG_ID_texture_refused,
+                 doc_attr_place(build_doc(b), element, STR_value), build_text(b, variable.file),
+                 fault);
     variable.block = BLOCK_TEXTURES;
     variable.update = UPDATE_UNIFORM;
     if (build_find_tiles(b, element, &variable))

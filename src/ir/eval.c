@@ -109,6 +109,14 @@ static bool eval_call(const struct evaluator *e, ir_ref call, uint32_t result, i
            && e->env->call(e->env->user_data, e->graph, call, args, result, out);
 }
 
+static bool eval_texture(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+{
+    struct ir_value place;
+    bool is_known = value_of(e, &vec_last(&e->frames), ir_arg(e->graph, ref, 1), &place);
+    return e->env && e->env->texture
+           && e->env->texture(e->env->user_data, e->graph, ref, is_known ? &place : NULL, out);
+}
+
 /* SELECT, LAND and LOR can have a value although an operand is unknown. */
 static bool eval_choice(const struct evaluator *e, ir_ref ref, struct ir_value *out)
 {
@@ -136,14 +144,14 @@ static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *ou
     case IR_LOCAL:
     case IR_CONTEXT:
     case IR_SAMPLE:
-    case IR_TEX:
-    case IR_TEX_LOD:
-    case IR_TEX_GRAD:
-    case IR_TEX_FETCH:
-    case IR_TEX_SIZE:
     case IR_DFDX:
     case IR_DFDY:
     case IR_FWIDTH: return eval_source(e, ref, out);
+    case IR_TEX:
+    case IR_TEX_LOD:
+    case IR_TEX_GRAD:
+    case IR_TEX_FETCH: return eval_texture(e, ref, out);
+    case IR_TEX_SIZE: return false;
     case IR_CALL: return eval_call(e, ref, 0, node->type, out);
     case IR_RESULT: return eval_call(e, ir_arg(e->graph, ref, 0), node->attr, node->type, out);
     case IR_SELECT:

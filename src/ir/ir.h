@@ -510,12 +510,18 @@ void ir_assert_valid(const struct ir_graph *graph, const char *step);
 struct ir_eval_env {
     void *user_data;
     /*
-     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT), of a texture, of a screen
-     * derivative, or of a CALL's result; false if it is unknown.
+     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT), of a screen derivative, or of
+     * a CALL's result; false if it is unknown.
      */
     bool (*source)(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
     bool (*call)(void *user_data, const struct ir_graph *graph, ir_ref call,
                  const struct ir_value *args, uint32_t result, struct ir_value *out);
+    /*
+     * The value of a texture; place: its coordinates, NULL if they are unknown. NULL: textures are
+     * unknown.
+     */
+    bool (*texture)(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                    const struct ir_value *place, struct ir_value *out);
 };
 bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env,
              struct arena *scratch, struct ir_value *out);

@@ -12,7 +12,7 @@
  * and across the plane of the view, and one from the side. In the mirror itself all colours are
  * white.
  */
-enum { NUM_VIEWS = 6, NUM_LIGHTS = 3, NUM_POINTS = 4 };
+enum { NUM_VIEWS = 6, NUM_LIGHTS = 3, NUM_POINTS = 4, NUM_TEXEL_POINTS = 12 };
 /* How much of a picture such light is; fitted to the drawn errors of the examples. */
 static const float light_weights[NUM_LIGHTS] = {0.1f, 0.1f, 0.3f};
 #define GOLDEN_ANGLE 2.3999632f
@@ -26,7 +26,7 @@ struct eye {
     struct shader *shader;
     const struct slabs_host *host;
     ir_ref view, light; /* vec3: stand for directions */
-    unsigned at;        /* of NUM_POINTS */
+    unsigned at;        /* of slab_look.num_points */
     struct ir_value view_value, light_value;
 };
 
@@ -40,10 +40,12 @@ static struct ir_value value_of_three(float x, float y, float z)
 /* What the pixel stage knows of a point of the ball. */
 static void stream_value(const struct eye *eye, str_id name, struct ir_value *out)
 {
-    static const float places[NUM_POINTS][3] = {{0.31f, 0.17f, 0.52f},
-                                                {0.78f, -0.42f, 0.11f},
-                                                {-0.23f, 0.66f, -0.35f},
-                                                {0.05f, 0.91f, 0.74f}};
+    /* all of them fall into different parts of a texture that repeats */
+    static const float places[NUM_TEXEL_POINTS][3] = {
+        {0.31f, 0.17f, 0.52f},   {0.78f, -0.42f, 0.11f}, {-0.23f, 0.66f, -0.35f},
+        {0.05f, 0.91f, 0.74f},   {0.56f, 0.84f, -0.61f}, {0.93f, 0.24f, 0.33f},
+        {0.18f, 0.43f, -0.87f},  {0.62f, 0.06f, 0.95f},  {0.44f, 0.75f, 0.02f},
+        {-0.12f, 0.34f, -0.14f}, {0.68f, 0.49f, 0.43f},  {0.38f, 0.98f, -0.72f}};
     static const struct {
         str_id name;
         float value[3];
@@ -59,15 +61,41 @@ static void stream_value(const struct eye *eye, str_id name, struct ir_value *ou
         out->w[i].f = i < 3 ? value[i] : i == 3 ? 1.0f : 0.0f;
 }
 
-/* A colour, a number and a bump at once: no file is read. */
-static void texel(const struct eye *eye, struct ir_value *out)
+/* A colour, a number and a bump at once, for a texture that cannot be read. */
+static const float fixed_texels[NUM_POINTS][4] = {{0.5f, 0.5f, 0.9f, 1},
+                                                  {0.3f, 0.45f, 0.8f, 1},
+                                                  {0.7f, 0.55f, 0.9f, 1},
+                                                  {0.45f, 0.35f, 0.85f, 1}};
+
+static const float *texels_of(const struct slabs_host *host, const struct ir_node *node)
 {
-    static const float texels[NUM_POINTS][4] = {{0.5f, 0.5f, 0.9f, 1},
-                                                {0.3f, 0.45f, 0.8f, 1},
-                                                {0.7f, 0.55f, 0.9f, 1},
-                                                {0.45f, 0.35f, 0.85f, 1}};
+    return node->op == IR_TEXTURE && host->texels ? host->texels(host->user_data, node->attr)
+                                                  : NULL;
+}
+
+/* The number of a texel, as if the texture repeated. The top row is at v = 1. */
+static size_t texel_at(const union ir_word *place)
+{
+    unsigned at[2];
+    for (unsigned i = 0; i < 2; i++) {
+        float part = place[i].f - floorf(place[i].f);
+        at[i] = part >= 0.0f && part < 1.0f ? (unsigned)(part * SLABS_TEXELS) : 0;
+    }
+    return (size_t)(SLABS_TEXELS - 1 - at[1]) * SLABS_TEXELS + at[0];
+}
+
+static bool texture(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                    const struct ir_value *place, struct ir_value *out)
+{
+    const struct eye *eye = user_data;
+    const float *texels = texels_of(eye->host, ir_get(graph, ir_arg(graph, ref, 0))),
+                *texel = fixed_texels[eye->at % NUM_POINTS];
+    *out = (struct ir_value){.type = ir_type_of(graph, ref)};
+    if (texels && place && ir_type_is_float(place->type))
+        texel = texels + texel_at(place->w) * 4;
     for (unsigned i = 0; i < 4; i++)
-        out->w[i].f = texels[eye->at][i];
+        out->w[i].f = texel[i];
+    return true;
 }
 
 static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
@@ -86,10 +114,6 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     case IR_STREAM:
         stream_value(eye, eye->shader->variables.items[node->attr].name, out);
         return ir_type_is_float(node->type);
-    case IR_TEX:
-    case IR_TEX_LOD:
-    case IR_TEX_GRAD:
-    case IR_TEX_FETCH: texel(eye, out); return true;
     case IR_DFDX:
     case IR_DFDY:
     case IR_FWIDTH: return true;
@@ -214,7 +238,8 @@ static struct ir_value light_for(const struct ir_value *view, unsigned point, un
 
 static bool evaluate(struct eye *eye, ir_ref color, struct ir_value *out)
 {
-    const struct ir_eval_env env = {.user_data = eye, .source = source, .call = call};
+    const struct ir_eval_env env = {
+        .user_data = eye, .source = source, .call = call, .texture = texture};
     bool good = ir_eval(eye->shader->graph, color, &env, eye->host->scratch, out);
     arena_finish(eye->host->scratch);
     return good;
@@ -234,19 +259,23 @@ static bool look_at(struct eye *eye, ir_ref color, struct slab_look *out)
     return true;
 }
 
-/* True if the surface differs from point to point. */
-static bool varies(const struct shader *shader, const uint8_t *needed, ir_ref root)
+/* One where the surface is even, and more where its texels can be read. */
+static unsigned count_points(const struct eye *eye, const uint8_t *needed, ir_ref root)
 {
+    const struct shader *shader = eye->shader;
     const struct ir_graph *g = shader->graph;
+    unsigned count = 1;
     for (ir_ref ref = 1; ref <= root; ref++) {
         const struct ir_node *node = ir_get(g, ref);
         str_id name = node->op == IR_STREAM ? shader->variables.items[node->attr].name : 0;
-        if (needed[ref]
-            && (node->op == IR_TEXTURE
-                || (node->op == IR_STREAM && name != STR_normalWorld && name != STR_tangentWorld)))
-            return true;
+        bool varies =
+            node->op == IR_TEXTURE || (name && name != STR_normalWorld && name != STR_tangentWorld);
+        if (needed[ref] && texels_of(eye->host, node))
+            return NUM_TEXEL_POINTS;
+        if (needed[ref] && varies)
+            count = NUM_POINTS;
     }
-    return false;
+    return count;
 }
 
 static ir_ref direction(const struct eye *eye, uint32_t number)
@@ -270,7 +299,7 @@ void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref roo
     struct eye eye = open_eye(shader, host);
     *out = (struct slab_look){.is_known = true};
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    out->num_points = like ? like->num_points : varies(shader, needed, root) ? NUM_POINTS : 1;
+    out->num_points = like ? like->num_points : count_points(&eye, needed, root);
     for (ir_ref ref = 1; ref <= root && out->is_known; ref++) {
         uint8_t op = ir_get(g, ref)->op;
         bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER,

@@ -2,7 +2,7 @@
 /*
  * estimate.c: what a tree of slabs looks like, without a picture: the colours of fixed points of a
  * ball in a white environment of 0.5, with one light. The graph's evaluator computes them with the
- * document's values; a texture counts as a few fixed colours.
+ * document's values and texels; a texture that cannot be read counts as a few fixed colours.
  */
 #ifndef MXG_SLABS_ESTIMATE_H
 #define MXG_SLABS_ESTIMATE_H

@@ -262,11 +262,16 @@ static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
     note_shared_masks(f);
 }
 
-static void note_textures(struct slab_sheet *sheet, const uint8_t *needed, ir_ref root)
+/* The textures that estimates cannot read. */
+static void note_textures(struct slab_sheet *sheet, const struct slabs_host *host,
+                          const uint8_t *needed, ir_ref root)
 {
-    for (ir_ref ref = 1; ref <= root; ref++)
-        if (needed[ref] && ir_get(sheet->shader->graph, ref)->op == IR_TEXTURE)
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        const struct ir_node *node = ir_get(sheet->shader->graph, ref);
+        if (needed[ref] && node->op == IR_TEXTURE
+            && !(host->texels && host->texels(host->user_data, node->attr)))
             vec_push(sheet->shader->arena, &sheet->textures, ref);
+    }
 }
 
 float slab_drawn_error(const struct slab_sheet *sheet, const struct slab_step *step)
@@ -294,7 +299,7 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
     struct filler f = {.sheet = out, .shader = shader, .graph = g, .host = host};
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     f.is_written = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
-    note_textures(out, needed, root);
+    note_textures(out, host, needed, root);
     for (ir_ref ref = 1; ref <= root; ref++) {
         uint8_t op = ir_get(g, ref)->op;
         bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER;

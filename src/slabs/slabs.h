@@ -46,12 +46,18 @@ struct slabs_host {
     ir_ref (*slab_of)(void *user_data, ir_ref leaf, bool is_top, bool loosely);
     /* An opaque SLAB without an interface, with the mean roughness of a leaf. */
     ir_ref (*slab_like)(void *user_data, ir_ref leaf, ir_ref albedo);
+    /*
+     * Means of a texture by its variable: SLABS_TEXELS rows from the top, as many RGBA each. NULL:
+     * it cannot be read.
+     */
+    const float *(*texels)(void *user_data, uint32_t variable);
     const struct closure_host *closures;
     bool tracks_roughness; /* matter below a rough interface looks rougher */
     bool blurs;            /* and is blurred: slab_place.blur */
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };
 
+#define SLABS_TEXELS 16
 #define SLABS_LAYER_THICKNESS 0.01f /* centimetres, of a layer without an input for it */
 #define SLABS_CLEAR_PATH 1e6f       /* centimetres, of matter that is only an interface */
 

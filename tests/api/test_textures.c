@@ -39,7 +39,26 @@ static const struct memory_file files[] = {
     {NULL, NULL},
 };
 
+/* What the compiler asked for texels of. */
+struct asked {
+    unsigned count;
+    bool is_right; /* each time */
+};
+
+static bool read_texels(void *user_data, const char *from, const char *file, const char *layer,
+                        uint32_t size, float *out_texels)
+{
+    struct asked *asked = user_data;
+    asked->count++;
+    asked->is_right &= strcmp(from, "test.mtlx") == 0 && strcmp(file, "maps/mask.exr") == 0
+                       && strcmp(layer, "rust") == 0 && size > 0;
+    for (size_t i = 0; i < (size_t)size * size * 4; i++)
+        out_texels[i] = 1.0f;
+    return true;
+}
+
 struct shot {
+    struct asked asked;
     struct memory_files files;
     mxg_context *context;
     mxg_library *library;
@@ -55,11 +74,13 @@ static void shoot(struct shot *shot, const char *body, bool lists, const char *o
                       tail[] = "</materialx>";
     static char text[4096];
     snprintf(text, sizeof text, "%s%s%s", head, body, tail);
-    *shot = (struct shot){.files = {.files = files}};
+    *shot = (struct shot){.asked.is_right = true, .files = {.files = files}};
     mxg_resolver resolver = memory_resolver(&shot->files);
     resolver.list_folder = lists ? list_maps : NULL;
     mxg_context_desc context = MXG_CONTEXT_DESC_INIT;
     context.resolver = &resolver;
+    context.read_texels = read_texels;
+    context.texels_user_data = &shot->asked;
     REQUIRE_EQ(mxg_context_create(&context, &shot->context), MXG_OK);
     shot->library = mxg_library_builtin(shot->context);
     REQUIRE_EQ(mxg_document_parse(shot->context, shot->library, "test.mtlx", text, strlen(text),
@@ -395,6 +416,32 @@ static void test_bad_profiles(void)
     }
 }
 
+static void test_texels_of_budgets(void)
+{
+    static const char body[] =
+        "<image name=\"mask\" type=\"float\">"
+        "<input name=\"file\" type=\"filename\" value=\"mask.exr\"/>"
+        "<input name=\"layer\" type=\"string\" value=\"rust\"/></image>"
+        "<slab name=\"a\" type=\"BSDF\"/>"
+        "<slab name=\"b\" type=\"BSDF\"><input name=\"roughness\" type=\"float\" "
+        "value=\"0.2\"/></slab>"
+        "<slab_mix name=\"m\" type=\"BSDF\"><input name=\"fg\" type=\"BSDF\" nodename=\"a\"/>"
+        "<input name=\"bg\" type=\"BSDF\" nodename=\"b\"/>"
+        "<input name=\"mix\" type=\"float\" nodename=\"mask\"/></slab_mix>"
+        "<slab_surface name=\"s\" type=\"surfaceshader\">"
+        "<input name=\"bsdf\" type=\"BSDF\" nodename=\"m\"/></slab_surface>"
+        "<surfacematerial name=\"M\" type=\"material\">"
+        "<input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"s\"/></surfacematerial>";
+    struct shot shot;
+    shoot(&shot, body, false, NULL, NULL, MXG_OK);
+    REQUIRE_EQ(shot.asked.count, 0);
+    finish(&shot);
+    shoot(&shot, body, false, "max-closures", "1", MXG_OK);
+    REQUIRE_EQ(shot.asked.count, 1);
+    REQUIRE(shot.asked.is_right);
+    finish(&shot);
+}
+
 int main(void)
 {
     test_profile();
@@ -406,6 +453,7 @@ int main(void)
     test_blurred_tiles();
     test_frames();
     test_frame_names();
+    test_texels_of_budgets();
     test_two_ways();
     return test_report("api-textures");
 }

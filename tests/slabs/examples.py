@@ -24,6 +24,7 @@ EXAMPLES = {"slabs": {"CoatedMetal": 48, "DustyFibre": 72, "WrappedSilk": 72, "C
             "slab_blends": {"CarbonAndMetal": 72, "SkinIntoGold": 48, "CoatedSkin": 48, "MetalToPlastic": 48, "Opal": 76},
             "slab_helpers": {"HazyMetal": 20, "DustyLacquer": 48, "FlipFlop": 48, "AmberOnOak": 48, "ScreenInVelvet": 48},
             "slab_glints": {"FlakePaint": 44, "PearlPaint": 48}}
+UNREAD = re.compile(r"  the estimate does not read .*\n")
 NUMBER = re.compile(r"\d+\.\d+(?:e-?\d+)?")
 SIZE, SWEEP = 48, 64
 # How far a drawn error may be from the page, as another device rounds otherwise.
@@ -52,7 +53,9 @@ def check_report(material, most_bytes):
     if UPDATE:
         path.write_text(result.stdout)
     kept = path.read_text() if path.exists() else ""
-    check(result.returncode == 0 and agree(kept, result.stdout), f"{path.name} is not the report:\n{result.stdout}{result.stderr}")
+    # a build without a renderer reads no texture
+    now = result.stdout if RENDER else UNREAD.sub("", result.stdout)
+    check(result.returncode == 0 and agree(kept, now), f"{path.name} is not the report:\n{result.stdout}{result.stderr}")
     costs = [(int(a), int(b)) for a, b in re.findall(r"(\d+) closures, (\d+) bytes", result.stdout)]
     steps = [tuple(map(int, step)) for step in re.findall(r"closures (\d+) to (\d+), bytes (\d+) to (\d+)", result.stdout)]
     check(len(costs) == 1 and costs[0][1] <= most_bytes, f"{material} takes more than {most_bytes} bytes: {costs}")
