@@ -226,7 +226,7 @@ static struct cache_hash stamp_image(const char *path)
 /*
  * True if an entry is valid. "files" has the hash of each file that the check read besides the
  * document, and of the names in each folder of textures; "images" has the stamp of each image in a
- * picture; "record" is the record.
+ * picture or budget; "record" is the record.
  */
 static bool is_current(struct cache *cache, json_t *entry)
 {

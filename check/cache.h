@@ -2,9 +2,10 @@
 /*
  * Records of earlier checks. The name of an entry is a hash of everything that the record depends
  * on: the document's bytes and name, the workers' arguments, their program and the libraries. The
- * entry lists the other files with their hashes, and images in pictures with size and time. Each
- * entry appears as a whole, so several runs can share a cache, and a killed run leaves no broken
- * entry. An entry begins with its checksum; a damaged one counts as absent and is made anew.
+ * entry lists the other files with their hashes, and images of pictures and budgets with size and
+ * time. Each entry appears as a whole, so several runs can share a cache, and a killed run leaves
+ * no broken entry. An entry begins with its checksum; a damaged one counts as absent and is made
+ * anew.
  */
 #ifndef MXG_CHECK_CACHE_H
 #define MXG_CHECK_CACHE_H

@@ -270,6 +270,8 @@ static void generate(struct examiner *examiner, const mxg_document *document,
                      struct check_element *element, struct check_shader *shader)
 {
     double begin = examine_clock();
+    /* pictures show them, and estimates of budgets read them */
+    bool reads_images = examiner->render || cli_has_budget(examiner->cli);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = shader->target;
     desc.element = element->path;
@@ -277,7 +279,7 @@ static void generate(struct examiner *examiner, const mxg_document *document,
     /* no report needs the source */
     desc.without_source =
         examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size;
-    desc.only_diagnostics = desc.without_source && !examiner->render;
+    desc.only_diagnostics = desc.without_source && !reads_images;
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_GENERATE, element->path, shader->target);
     mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);
@@ -290,7 +292,7 @@ static void generate(struct examiner *examiner, const mxg_document *document,
         examine_shader(examiner, result, shader, element->path);
         examine_settings(examiner, result, element);
     }
-    if (status == MXG_OK && examiner->render)
+    if (status == MXG_OK && reads_images)
         examine_images(examiner, result);
     check_fail(&examiner->document->failed, shader->failed);
     mxg_result_destroy(result);

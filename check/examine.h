@@ -37,7 +37,7 @@ void examine_shader(struct examiner *examiner, const mxg_result *result,
 void examine_settings(struct examiner *examiner, const mxg_result *result,
                       struct check_element *element);
 
-/* examine_picture.c: lists the images in an element's picture; draws the picture. */
+/* examine_picture.c: lists the images of an element; draws its picture. */
 void examine_images(struct examiner *examiner, const mxg_result *result);
 void examine_picture(struct examiner *examiner, const mxg_document *document,
                      struct check_element *element);

@@ -177,7 +177,7 @@ struct check_document {
      */
     const char **folders;
     size_t num_folders;
-    /* images in the pictures, existing or not: the record depends on their content */
+    /* images of pictures and budgets, existing or not: the record depends on their content */
     const char **images;
     size_t num_images;
     struct check_element *elements;

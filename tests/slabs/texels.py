@@ -4,6 +4,7 @@
 
 Arguments: mxgen, mxgen-render ('': no texture can be read)."""
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -73,6 +74,16 @@ with tempfile.TemporaryDirectory() as folder:
             document.write_text(DOCUMENT.replace("mask.ppm", name))
             done = run(MXGEN, document, "--target", "vulkan", "--max-error", fixed / 2, "-Wbudget-step", "-o", f"{folder}/out")
             check(("one slab for the mix" in done.stderr) == is_one, f"{name}: half of the fixed error: {done.stderr}")
+        # the cache of checks knows which texels a budget depends on
+        document.write_text(DOCUMENT)
+        seen = []
+        for color in (b"\xff", b"\xff", b"\x80"):
+            mask.write_bytes(b"P6 64 64 255\n" + color * 3 * 64 * 64)
+            os.utime(mask, (10**9, 10**9 - color[0]))
+            os.utime(document, (10**9, 10**9))
+            done = run(MXGEN, "check", document, "--no-compile", "-q", "--max-error", fixed / 2, "-Wbudget-step", "--json", "-", "--cache", f"{folder}/cache")
+            seen.append([line["message"] for line in json.loads(done.stdout)["documents"][0]["messages"]])
+        check(seen[0] == seen[1] != seen[2], f"steps before and after a texture changed: {seen}")
         mask.write_bytes(b"no picture")
         document.write_text(DOCUMENT)
         check(report(document)["texturesNotRead"] == ["mask"], "a file that is no picture counts as read")
