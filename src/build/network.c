@@ -67,19 +67,10 @@ static bool is_settled(const struct builder *b, const struct implementation *imp
     return type == IR_TYPE_STRING || is_read_by_code || is_uniform;
 }
 
-/*
- * The part of a file name that is compiled in: the whole name for dynamic implementations; "<UDIM>"
- * for tiled images, because targets that find tiles themselves read them in another way; nothing
- * for other files.
- */
+/* The part of a file name that is compiled in: the whole name for dynamic implementations. */
 static str_id settled_file(struct builder *b, const struct implementation *impl, str_id file)
 {
-    const char *name = build_text(b, file);
-    if (impl->kind == IMPL_DYNAMIC)
-        return file;
-    return strstr(name, "<UDIM>") || strstr(name, "<UVTILE>")
-               ? str_intern_z(b->shader->strings, "<UDIM>")
-               : 0;
+    return impl->kind == IMPL_DYNAMIC ? file : recorder_tiles(b, file);
 }
 
 /* The value that is compiled in; type VOID: none. */

@@ -26,14 +26,6 @@ static void make_parameter(struct builder *b, uint32_t variable)
     shader_make_parameter(b->shader, variable, name, library_type_name(b->lib, port->type));
 }
 
-void build_network_parameters(struct builder *b)
-{
-    for (uint32_t i = 0; i < b->recorded->num_layers_of && i < b->shader->variables.len; i++)
-        if (recorder_layer_of(b->recorded, i)
-            && build_is_number(b->shader->variables.items[i].type))
-            make_parameter(b, i);
-}
-
 /* The value of a parameter in the document, or the layer that gives it. */
 static struct network_input parameter_input(const struct builder *b, uint32_t variable)
 {
@@ -56,6 +48,30 @@ static struct network_input parameter_input(const struct builder *b, uint32_t va
 static bool is_parameter(const struct shader_variable *v)
 {
     return v->block == BLOCK_PUBLIC_UNIFORMS || v->block == BLOCK_TEXTURES;
+}
+
+/* The list of layers has the values, so that the shader does not depend on them. */
+static void take_value(struct builder *b, struct shader_variable *v)
+{
+    if (v->type != IR_TYPE_SAMPLER)
+        v->has_default = false;
+    else if (v->path)
+        v->file = recorder_tiles(b, v->file);
+}
+
+void build_network_parameters(struct builder *b)
+{
+    struct recorder *r = b->recorded;
+    r->num_values = b->shader->variables.len;
+    r->values = ARENA_ARRAY(b->arena, struct network_input, r->num_values);
+    for (uint32_t i = 0; i < r->num_values; i++) {
+        struct shader_variable *v = &b->shader->variables.items[i];
+        if (recorder_layer_of(r, i) && build_is_number(v->type))
+            make_parameter(b, i);
+        r->values[i] = parameter_input(b, i);
+        if (is_parameter(v))
+            take_value(b, v);
+    }
 }
 
 /* The AOV that an output of the shader has; NULL: it is the closure of the surface. */
@@ -106,7 +122,8 @@ void build_network_whole(struct builder *b, enum shader_stage_id stage,
         if (!(v->stages >> stage & 1))
             continue;
         if (is_parameter(v)) {
-            vec_push(b->arena, &network->inputs, parameter_input(b, variable));
+            assert(variable < b->recorded->num_values); /* only streams and results are younger */
+            vec_push(b->arena, &network->inputs, b->recorded->values[variable]);
             names[node.num_inputs++] = v->name;
         } else if (v->block == BLOCK_OUTPUTS) {
             add_output(b, variable, &node, outputs);

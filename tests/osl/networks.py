@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """OSL networks: rows of tests/conformance have the same values as shader groups and as whole shaders, and the shaders and groups of materials
-compile. Arguments: mxgen, the folder of the rows, deviations.tsv, a folder of materials ('' or absent: none), and optionally
+compile, among them the example materials of slabs. Arguments: mxgen, the folder of the rows, deviations.tsv, a folder of materials ('' or absent: none), and optionally
 document names, or --all for every document and material. Skipped (77) without oslc and testshade."""
 import json
 import pathlib
@@ -123,10 +123,17 @@ def run_materials():
             run_material(document, pathlib.Path(work))
 
 
+def run_slabs():
+    with tempfile.TemporaryDirectory() as work:
+        for document in sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples").glob("slab*.mtlx")):
+            run_material(document, pathlib.Path(work))
+
+
 if not shutil.which("oslc") or not shutil.which("testshade"):
     print("skip: oslc or testshade is not installed\nosl-networks: 0 passed, 0 failed, 1 skipped")
     sys.exit(77)
 run_values()
+run_slabs()
 if MATERIALS and pathlib.Path(MATERIALS).is_dir():
     run_materials()
 else:
