@@ -115,17 +115,19 @@ def run_material(document, cache):
             check(f"{document.name} {group.name}", testshade(group, "-g", "1", "1")[1])
 
 
-def run_materials():
+def find_materials():
     root = pathlib.Path(MATERIALS)
-    documents = sorted((root if "--all" in FLAGS else root / "Materials" / "Examples").rglob("*.mtlx"))
-    with tempfile.TemporaryDirectory() as work:
-        for document in documents:
-            run_material(document, pathlib.Path(work))
+    slabs = sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples").glob("slab*.mtlx"))
+    if MATERIALS and root.is_dir():
+        return slabs + sorted((root if "--all" in FLAGS else root / "Materials" / "Examples").rglob("*.mtlx"))
+    print(f"skip: there is no folder {MATERIALS}")
+    counts["skipped"] += 1
+    return slabs
 
 
-def run_slabs():
+def run_materials():
     with tempfile.TemporaryDirectory() as work:
-        for document in sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples").glob("slab*.mtlx")):
+        for document in find_materials():
             run_material(document, pathlib.Path(work))
 
 
@@ -133,11 +135,6 @@ if not shutil.which("oslc") or not shutil.which("testshade"):
     print("skip: oslc or testshade is not installed\nosl-networks: 0 passed, 0 failed, 1 skipped")
     sys.exit(77)
 run_values()
-run_slabs()
-if MATERIALS and pathlib.Path(MATERIALS).is_dir():
-    run_materials()
-else:
-    print(f"skip: there is no folder {MATERIALS}")
-    counts["skipped"] += 1
+run_materials()
 print(f"osl-networks: {counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped")
 sys.exit(1 if counts["failed"] else 0 if counts["passed"] else 77)
