@@ -419,8 +419,6 @@ static const char *find_stage_misuse(const struct generate *gen)
         return "--stage takes its materials from a look, so --element does not apply";
     if (gen->to_stdout || gen->is_file)
         return "--stage writes several files; name a folder with -o";
-    if (gen->is_network)
-        return "--stage does not write OSL networks";
     return gen->cli.parser.inputs.len > 1 || files_is_folder(gen->cli.parser.inputs.items[0])
                ? "--stage takes one document"
                : NULL;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * mxgen LOOK.mtlx --stage FILE: a shader for each distinct stack, and bindings.json. Stacks of
- * equal topology share a program: that of the first one, with other values.
+ * equal topology share a program: that of the first one, with other values. A network has its
+ * values in it, so each stack has its own.
  */
 #include "check/json.h"
 #include "cli/files.h"
@@ -45,7 +46,7 @@ static char *stack_name(const struct stacks *s, uint32_t stack)
 
 static struct program *find_program(const struct stacks *s, uint64_t topology)
 {
-    uint32_t at = s->buckets[topology % NUM_BUCKETS];
+    uint32_t at = s->gen->is_network ? 0 : s->buckets[topology % NUM_BUCKETS];
     while (at && s->programs[at - 1].topology != topology)
         at = s->programs[at - 1].next;
     return at ? &s->programs[at - 1] : NULL;

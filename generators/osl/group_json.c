@@ -58,7 +58,7 @@ static void put_end(struct reflect *r, const struct network *network, const stru
 {
     json_item(&r->json);
     json_open(&r->json, '{');
-    json_put_text(&r->json, "name", OSL_END_LAYER);
+    json_put_text(&r->json, "name", network->end_layer);
     json_put_text(&r->json, "shader", end->name);
     json_key(&r->json, "inputs");
     json_open(&r->json, '[');
@@ -98,7 +98,7 @@ static void put_group(struct reflect *r, const struct network *network,
     for (uint32_t i = 0; i < network->layers.len; i++)
         if (group->needed[i])
             put_layer(r, network, &network->layers.items[i]);
-    if (group->end->name)
+    if (osl_has_end(group))
         put_end(r, network, group->end);
     json_close(&r->json, ']');
     if (!group->end->name)
@@ -148,7 +148,7 @@ void osl_reflect_network(const struct network *network, struct reflect *r)
     json_key(&r->json, "shaders");
     json_open(&r->json, '[');
     for (uint32_t i = 0; i < network->nodes.len; i++)
-        if (network->nodes.items[i].is_needed)
+        if (network->nodes.items[i].is_needed && !network->nodes.items[i].whole.source)
             put_node(r, &network->nodes.items[i]);
     json_close(&r->json, ']');
 }

@@ -81,7 +81,9 @@ static void add_group(struct network *network, unsigned end)
     struct osl_program *program = network->program;
     assert(program->num_groups < OSL_MAX_ENDS);
     program->groups[program->num_groups++] =
-        (struct osl_group){.end = &ends[end], .needed = find_needed(network, &ends[end])};
+        (struct osl_group){.end = &ends[end],
+                           .is_whole = network->is_whole,
+                           .needed = find_needed(network, &ends[end])};
 }
 
 static bool gives(const struct network *network, enum network_result result)
@@ -108,7 +110,7 @@ void osl_add_network_parts(struct network *network)
     for (unsigned i = 0; i < program->num_groups; i++) {
         const struct osl_end *end = program->groups[i].end;
         struct network_part part = {.name = end->name, .source = end->source, .nodedef = ""};
-        if (!end->name)
+        if (!osl_has_end(&program->groups[i]))
             continue;
         part.size = strlen(end->source);
         vec_push(network->arena, &network->parts, part);

@@ -8,8 +8,7 @@
 
 #include "spell/target.h"
 
-#define OSL_END_LAYER "root" /* name of the last layer */
-enum { OSL_MAX_ENDS = 2 };   /* results that one group can take */
+enum { OSL_MAX_ENDS = 2 }; /* results that one group can take */
 
 /* A kind of group, and its last shader. */
 struct osl_end {
@@ -25,6 +24,7 @@ struct osl_end {
 
 struct osl_group {
     const struct osl_end *end;
+    bool is_whole;      /* the last layer is the shader of the result: there is no other end */
     const bool *needed; /* per layer: the group contains it */
 };
 
@@ -36,6 +36,12 @@ struct osl_program { /* network->program */
 static inline const struct osl_program *osl_program_of(const struct network *network)
 {
     return (const struct osl_program *)network->program;
+}
+
+/* True if a shader of its own takes the result of the group. */
+static inline bool osl_has_end(const struct osl_group *group)
+{
+    return group->end->name && !group->is_whole;
 }
 
 /* groups.c */

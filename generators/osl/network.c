@@ -114,9 +114,9 @@ static void write_layer(const struct network *network, const struct network_laye
 
 static void write_end(const struct network *network, const struct osl_end *end, struct text *out)
 {
-    text_fmt(out, "shader %s %s ;\n", end->name, OSL_END_LAYER);
+    text_fmt(out, "shader %s %s ;\n", end->name, network->end_layer);
     for (unsigned i = 0; i < OSL_MAX_ENDS && end->inputs[i].parameter; i++)
-        write_connection(network, &network->results[end->inputs[i].result], OSL_END_LAYER,
+        write_connection(network, &network->results[end->inputs[i].result], network->end_layer,
                          end->inputs[i].parameter, out);
 }
 
@@ -131,12 +131,13 @@ static void write_network(const struct network *network, enum shader_stage_id st
         for (uint32_t i = 0; i < network->layers.len; i++)
             if (group->needed[i])
                 write_layer(network, &network->layers.items[i], out);
-        if (group->end->name)
+        if (osl_has_end(group))
             write_end(network, group->end, out);
     }
 }
 
 const struct target_network osl_network = {
+    .end_layer = "root",
     .plan = osl_plan_network,
     .emit_node = osl_emit_node,
     .add_parts = osl_add_network_parts,

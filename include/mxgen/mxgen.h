@@ -345,6 +345,12 @@ MXG_API mxg_status mxg_library_image(mxg_library *library, const void **out_data
 /* The library as a plain MaterialX document with all templates expanded. */
 MXG_API mxg_status mxg_library_expand(mxg_library *library, const char **out_text,
                                       size_t *out_size);
+/*
+ * What this document lacks: a warning `expand-loss` for each input that mxgen's code for a node
+ * reads, and the node's graph for other tools does not. They live as long as the library. NULL: out
+ * of memory.
+ */
+MXG_API const mxg_diagnostics *mxg_library_losses(mxg_library *library);
 
 typedef struct mxg_nodedef {
     size_t size;                                            /* in */

@@ -76,6 +76,14 @@ export class Library extends Owner {
         return new TextDecoder().decode(this.#made(this._native.lib.mxg_library_expand));
     }
 
+    /** What `expand` cannot say in graphs for other tools: a warning for each input. */
+    get losses() {
+        const losses = this._native.lib.mxg_library_losses(this._pointer);
+        if (!losses)
+            throw this._native.errorOf(3);
+        return new Diagnostics(this, losses);
+    }
+
     #made(make) {
         const native = this._native;
         return native.using(() => {

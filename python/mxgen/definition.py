@@ -146,6 +146,14 @@ class Library(Native):
         self._read(lib.mxg_library_expand, text, size)
         return py_text(text[0])
 
+    @property
+    def losses(self) -> Diagnostics:
+        """What `expand` cannot say in graphs for other tools: a warning for each input."""
+        losses = lib.mxg_library_losses(self._handle.pointer)
+        if losses == ffi.NULL:
+            raise error_of(lib.MXG_ERROR_MEMORY)
+        return Diagnostics(losses, self)
+
     def _read(self, function: Callable[..., int], data: Any, size: Any) -> None:
         status = function(self._handle.pointer, data, size)
         if status != lib.MXG_OK:

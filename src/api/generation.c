@@ -295,7 +295,8 @@ bool generation_build(struct generation *g)
         build_list_aovs(g->builder, g->options[OPTION_aovs].list.items,
                         g->options[OPTION_aovs].list.len);
     if (g->options[OPTION_network].number)
-        build_record_network(g->builder, &g->result->network);
+        build_record_network(g->builder, &g->result->network,
+                             g->result->target->network->end_layer);
     g->root = g->desc.bindings ? build_stack(g->builder, &g->desc.bindings->bindings, g->desc.stack)
                                : build_element(g->builder, g->element, g->output);
     assert(g->root < g->result->graph.nodes.len);
@@ -568,7 +569,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
  * True if the stage has code. A path tracer calls a function instead of a vertex stage, and a
  * target without a vertex stage has only the displacement in it.
  */
-static bool has_stage(const mxg_result *result, int stage)
+bool generation_has_stage(const mxg_result *result, int stage)
 {
     const struct shader *shader = &result->shader;
     bool is_idle = stage == STAGE_VERTEX
@@ -602,7 +603,8 @@ bool generation_spell(struct generation *g)
     result->origin_paths =
         ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
     for (int stage = 0; stage < NUM_STAGES; stage++)
-        if (has_stage(result, stage) && !spell_one(g, &options, (enum shader_stage_id)stage))
+        if (generation_has_stage(result, stage)
+            && !spell_one(g, &options, (enum shader_stage_id)stage))
             return false;
     return is_good(g);
 }

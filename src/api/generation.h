@@ -141,6 +141,7 @@ bool generation_can_store(struct generation *g);
 /* generation.c: shared with network.c. */
 struct shader_layout_rules generation_layout_rules(const struct generation *g);
 struct spell_options generation_spell_options(const struct generation *g);
+bool generation_has_stage(const mxg_result *result, int stage);
 void generation_report_not_renderable(struct generation *g, const char *why);
 
 /* frames.c: the frames of an image sequence, as in documents: "10-99", "clamp". */

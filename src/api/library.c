@@ -230,7 +230,8 @@ const char *mxg_library_file(const mxg_library *library, uint32_t index)
 
 /* ---- As image and as text ---- */
 
-enum { TEXT_IMAGE, TEXT_EXPANDED };
+enum { TEXT_IMAGE, TEXT_EXPANDED, TEXT_LOSSES, NUM_LIBRARY_TEXTS };
+_Static_assert((int)NUM_LIBRARY_TEXTS <= OBJECT_MAX_TEXTS, "an object has room for them");
 
 /* The syntax in which images hold functions; NULL: no target has one. */
 static const struct lang_syntax *image_syntax(void)
@@ -250,6 +251,19 @@ static void write_image(const struct object *object, struct text *out)
 static void write_expanded(const struct object *object, struct text *out)
 {
     library_write(&((const mxg_library *)object)->layer, out);
+}
+
+/* The data are a pointer to the diagnostics, which are complete, and live in the same block. */
+static void write_losses(const struct object *object, struct text *out)
+{
+    const mxg_library *library = (const mxg_library *)object;
+    struct mxg_diagnostics *losses = ARENA_NEW(out->arena, struct mxg_diagnostics);
+    losses->owner = (struct object *)(uintptr_t)object; /* it is never const */
+    diag_list_init(&losses->list, out->arena);
+    losses->list.max_errors = object->context->max_errors;
+    losses->list.policy = &object->context->policy;
+    library_report_losses(&library->layer, &losses->list);
+    text_mem(out, (const char *)&losses, sizeof losses);
 }
 
 mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size)
@@ -282,6 +296,16 @@ mxg_status mxg_library_expand(mxg_library *library, const char **out_text, size_
     *out_text = made->data;
     *out_size = made->size;
     return MXG_OK;
+}
+
+const mxg_diagnostics *mxg_library_losses(mxg_library *library)
+{
+    const struct made_text *made =
+        library ? object_text(&library->object, TEXT_LOSSES, write_losses) : NULL;
+    const mxg_diagnostics *losses = NULL;
+    if (made)
+        memcpy(&losses, made->data, sizeof losses);
+    return losses;
 }
 
 /* ---- Definitions ---- */

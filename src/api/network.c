@@ -5,6 +5,8 @@
  */
 #include "api/generation.h"
 
+#include "base/hash.h"
+
 #include <assert.h>
 
 /* ---- Shaders of nodes ---- */
@@ -108,6 +110,77 @@ static bool make_node(struct generation *g, struct spell_options *options,
     return true;
 }
 
+/* ---- One shader for the closures of the element ---- */
+
+static struct text spell_whole(struct generation *g, struct spell_options *options,
+                               const char *name, enum shader_stage_id stage)
+{
+    struct text source;
+    struct spell_mark *marks;
+    uint32_t num_marks;
+    options->shader_name = name;
+    text_init(&source, &g->result->object.arena);
+    spell_shader_stage(g->result->target, options, &g->result->shader, stage, &g->scratch, &source,
+                       &marks, &num_marks);
+    return source;
+}
+
+/* The name of the element, and a hash of the source: two parts of one name are equal. */
+static const char *whole_name(struct generation *g, struct text source)
+{
+    const struct shader *shader = &g->result->shader;
+    struct text name;
+    size_t len;
+    text_init(&name, &g->result->object.arena);
+    text_fmt(&name, "%s_%08x",
+             shader->rules.neutral_names ? "neutral" : str_text(shader->strings, shader->path),
+             (unsigned)hash_stable(0, text_cstr(&source), source.len));
+    return identifier_from(text_cstr(&name), name.len, &g->result->object.arena, &len);
+}
+
+static void make_whole_stage(struct generation *g, enum shader_stage_id stage)
+{
+    struct spell_options options = generation_spell_options(g);
+    options.path = NULL; /* as in the shaders of nodes */
+    struct network_part part = {
+        .name =
+            whole_name(g, spell_whole(g, &options, g->result->target->network->end_layer, stage)),
+        .nodedef = ""};
+    struct text source = spell_whole(g, &options, part.name, stage);
+    part.source = text_cstr(&source);
+    part.size = source.len;
+    build_network_whole(g->builder, stage, &part);
+}
+
+/* The shader of the element without a network, over the outputs of layers. */
+static bool make_whole(struct generation *g)
+{
+    mxg_result *result = g->result;
+    if (!generation_emit(g))
+        return false;
+    build_network_parameters(g->builder);
+    if (!generation_finish(g))
+        return false;
+    for (int stage = 0; stage < NUM_STAGES; stage++)
+        if (generation_has_stage(result, stage))
+            make_whole_stage(g, (enum shader_stage_id)stage);
+    /* the description of the network has its variables */
+    result->shader.interface.len = 0;
+    memset(result->shader.first_of_block, 0, sizeof result->shader.first_of_block);
+    return true;
+}
+
+/* ---- The network ---- */
+
+static bool make_part(struct generation *g, struct spell_options *options,
+                      struct network_node *node)
+{
+    if (!node->whole.source)
+        return make_node(g, options, node);
+    vec_push(&g->result->object.arena, &g->result->network.parts, node->whole);
+    return true;
+}
+
 static bool make_parts(struct generation *g)
 {
     struct network *network = &g->result->network;
@@ -115,7 +188,7 @@ static bool make_parts(struct generation *g)
     options.path = NULL;      /* shaders of nodes belong to no element and have equal options */
     options.interface = NULL; /* the interface option does not matter: all inputs are parameters */
     for (uint32_t i = 0; i < network->nodes.len; i++)
-        if (network->nodes.items[i].is_needed && !make_node(g, &options, &network->nodes.items[i]))
+        if (network->nodes.items[i].is_needed && !make_part(g, &options, &network->nodes.items[i]))
             return false;
     g->result->target->network->add_parts(network);
     return true;
@@ -134,7 +207,8 @@ static void write_stage(mxg_result *result, enum shader_stage_id stage)
 bool generation_make_network(struct generation *g)
 {
     mxg_result *result = g->result;
-    bool good = build_network_results(g->builder, g->root, result->shader.value_type);
+    bool good = build_network_results(g->builder, g->root, result->shader.value_type)
+                && (!result->network.is_whole || make_whole(g));
     if (good)
         result->target->network->plan(&result->network);
     if (!good || !make_parts(g)) {

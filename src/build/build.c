@@ -210,9 +210,5 @@ ir_ref build_element(struct builder *b, elem_id element, unsigned output)
         is_node ? build_node_element(b, element, output) : build_output_element(b, element);
     root = build_element_aovs(b, root);
     bool is_substance = root && ir_get(b->graph, root)->op == IR_SUBSTANCE;
-    if (is_substance && b->recorder) {
-        diag_add(b->diags, DIAG_ID_network_slots, doc_place(build_doc(b), element));
-        return 0;
-    }
     return is_substance && !b->slot ? build_lone_substance(b, root) : root;
 }

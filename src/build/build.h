@@ -101,15 +101,27 @@ struct bindings;
 ir_ref build_stack(struct builder *builder, const struct bindings *bindings, uint32_t stack);
 
 /*
- * network.c: makes the builder record layers in `network`. The value of build_element then depends
- * on sources that stand for the layers.
+ * network.c: makes the builder record layers in `network`. The value of build_element or
+ * build_stack then depends on sources that stand for the layers.
  */
-void build_record_network(struct builder *builder, struct network *network);
+void build_record_network(struct builder *builder, struct network *network, const char *end_layer);
 /*
- * Fills network->results for the root that build_element returned. `type` is the type of a plain
- * value; false: the library has no node for a constant of this type.
+ * Fills network->results for the root that was built, or sets network->is_whole. `type` is the type
+ * of a plain value; false: the library has no node for a constant of this type. The builder records
+ * no more.
  */
 bool build_network_results(struct builder *builder, ir_ref root, str_id type);
+/*
+ * network_whole.c. For a whole shader, after its effects and before shader_finish: the sources
+ * become parameters.
+ */
+void build_network_parameters(struct builder *builder);
+/*
+ * Adds the whole shader of a stage, which is finished, as the layer of its result, with the layers
+ * of its parameters.
+ */
+void build_network_whole(struct builder *builder, enum shader_stage_id stage,
+                         const struct network_part *part);
 /*
  * Builds one node of a network over parameters, with a separate builder. Returns the results, the
  * names of the parameters, and the names of the outputs.

@@ -111,6 +111,7 @@ struct builder {
     elem_id called;              /* the node whose implementation is lowered; 0: none */
     ir_ref missing_texel;        /* the current node's texel outside all tiles of its image */
     struct recorder *recorder;   /* network.c; NULL: one shader is built */
+    struct recorder *recorded;   /* that of a network whose layers are complete */
     VEC(struct aov_use) aovs;    /* of the scopes that are in work, and of the layer */
     VEC(elem_id) aov_graphs;     /* the nodegraphs of the layer's overrides; a later one wins */
     struct aov_nodes *aov_nodes; /* of the document; NULL: not yet collected */
@@ -387,9 +388,11 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
 
 /*
  * network.c, for builders that record a network. build_node: records a layer for results that are
- * no plain values. The results become sources that stand for the layer.
+ * no plain values. The results become sources that stand for the layer; closures stay.
  */
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results);
+/* The closure of the node at hand changes other closures, which no layer of a network can. */
+void build_leave_layer(struct builder *b);
 /* True after a report: the network has too many layers, and the work ends. */
 bool build_network_is_full(const struct builder *b);
 /* The default of an input in the network's layers; type VOID or 0: it has no number. */

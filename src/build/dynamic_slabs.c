@@ -5,17 +5,6 @@
 
 #include <math.h>
 
-/* A layer of an OSL network is complete before anyone knows where its slabs lie. */
-static bool is_in_network(const mxg_build *build)
-{
-    struct builder *b = build->b;
-    if (b->recorder)
-        diag_add(b->diags, DIAG_ID_slab_in_network,
-                 doc_place(&b->lib->doc, build->frame->node.element),
-                 build_text(b, build->def->node));
-    return b->recorder != NULL;
-}
-
 /* True if an input has its default of 0, false or no file, or the definition lacks it. */
 static bool is_off(const mxg_build *build, str_id input)
 {
@@ -169,6 +158,7 @@ void dynamic_check_thickness(const mxg_build *build, ir_ref top)
 static bool finish(mxg_build *build, enum ir_op op, uint32_t attr, const ir_ref *args, unsigned n,
                    mxg_ref *results)
 {
+    build_leave_layer(build->b); /* nobody knows where the slabs lie before the tree is complete */
     results[0] = code_issue(build, ir_build(build->b->graph, op, build->type, attr, args, n));
     return true;
 }
@@ -189,8 +179,6 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     (void)user_data;
     if (build_slab_definition(build->b) == LIBRARY_NONE)
         return dynamic_misfit(build, "the library lacks the definition 'ND_slab_lobes'");
-    if (is_in_network(build))
-        return false;
     ir_ref args[NUM_SLAB_OPERANDS];
     for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
         args[i] = dynamic_arg(build, names[i]);

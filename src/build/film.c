@@ -108,9 +108,7 @@ static ir_ref filmed(struct film *f, ir_ref ref)
 
 static ir_ref left_out(struct builder *b, ir_ref base, elem_id node)
 {
-    diag_add(b->diags, DIAG_ID_film_left_out, doc_place(&b->lib->doc, node),
-             b->recorder ? "a layer of an OSL network cannot change the closures of other layers"
-                         : "its base has no microfacet closure");
+    diag_add(b->diags, DIAG_ID_film_left_out, doc_place(&b->lib->doc, node));
     return base;
 }
 
@@ -126,6 +124,7 @@ ir_ref build_film(struct builder *b, ir_ref thickness, ir_ref ior, ir_ref base, 
     find_slots(&f, base);
     if (!f.has_slot[base])
         return left_out(b, base, node);
+    build_leave_layer(b);
     spread(&f, base);
     for (ir_ref ref = 1; ref <= base; ref++)
         if (f.takes[ref])

@@ -7,27 +7,32 @@
  *     multiply(in1, 1)       →  in1
  *     mix of two constants   →  a constant
  *     layer(top, nothing)    →  top
+ *
+ * Closures and shaders stay as they are, so that the tree of an element is complete. The builder
+ * notes the layer of each, and uses the layers if all of the tree has them. Slabs have none, nor
+ * have the slots of a stack, films over other closures, and nodes over surfaces with AOVs. Then the
+ * tree becomes one shader, as without a network, and the sources in it become its parameters.
  */
-#include "build/build_priv.h"
+#include "build/recorder.h"
 
 #include "base/hash.h"
 
-struct recorder {
-    struct network *network;
-    uint32_t *layer_of; /* by variable of the shader: the layer with this output, + 1 */
-    uint32_t num_layers_of;
-    VEC(uint8_t) output_of; /* by variable of the shader: the output of the layer */
-    ir_ref *source_of;      /* by discarded node: the layer's output that stands for it */
-    uint32_t num_sources;
-    bool is_full;            /* reported: it has too many layers */
-    VEC(uint32_t) lost_aovs; /* reported: numbers of AOVs that no layer takes */
-};
-
-void build_record_network(struct builder *b, struct network *network)
+void build_record_network(struct builder *b, struct network *network, const char *end_layer)
 {
-    *network = (struct network){.arena = b->arena, .strings = b->shader->strings};
-    b->recorder = ARENA_NEW(b->arena, struct recorder);
-    b->recorder->network = network;
+    struct recorder *r = ARENA_NEW(b->arena, struct recorder);
+    *network =
+        (struct network){.arena = b->arena, .strings = b->shader->strings, .end_layer = end_layer};
+    r->network = network;
+    names_init(&r->names, b->arena, b->shader->style->syntax);
+    names_take_frame(&r->names, b->shader);
+    names_take(&r->names, end_layer, strlen(end_layer));
+    b->recorder = r;
+}
+
+void build_leave_layer(struct builder *b)
+{
+    if (b->recorder)
+        b->recorder->is_changed = true;
 }
 
 /* Element `index` of an array that grows on demand. */
@@ -43,11 +48,6 @@ static uint32_t *at(struct arena *arena, uint32_t **items, uint32_t *len, uint32
         assert(index < *len);
     }
     return &(*items)[index];
-}
-
-static uint32_t layer_of(const struct recorder *r, uint32_t variable)
-{
-    return variable < r->num_layers_of ? r->layer_of[variable] : 0;
 }
 
 /* ---- Inputs that are compiled into the layer's shader ---- */
@@ -67,19 +67,10 @@ static bool is_settled(const struct builder *b, const struct implementation *imp
     return type == IR_TYPE_STRING || is_read_by_code || is_uniform;
 }
 
-/*
- * The part of a file name that is compiled in: the whole name for dynamic implementations; "<UDIM>"
- * for tiled images, because targets that find tiles themselves read them in another way; nothing
- * for other files.
- */
+/* The part of a file name that is compiled in: the whole name for dynamic implementations. */
 static str_id settled_file(struct builder *b, const struct implementation *impl, str_id file)
 {
-    const char *name = build_text(b, file);
-    if (impl->kind == IMPL_DYNAMIC)
-        return file;
-    return strstr(name, "<UDIM>") || strstr(name, "<UVTILE>")
-               ? str_intern_z(b->shader->strings, "<UDIM>")
-               : 0;
+    return impl->kind == IMPL_DYNAMIC ? file : recorder_tiles(b, file);
 }
 
 /* The value that is compiled in; type VOID: none. */
@@ -207,20 +198,27 @@ static bool uniform_value(void *user_data, const struct ir_graph *graph, ir_ref 
     return build_initial(user_data, ref, out);
 }
 
+static ir_ref known_source(const struct recorder *r, ir_ref value)
+{
+    return value < r->num_sources ? r->source_of[value] : 0;
+}
+
 static struct network_input input_of(struct builder *b, ir_ref arg)
 {
     struct recorder *r = b->recorder;
     struct network_input input = {.kind = NETWORK_DEFAULT};
     if (!arg)
         return input;
+    if (known_source(r, arg))
+        arg = known_source(r, arg);
     const struct ir_node *node = ir_get(b->graph, arg);
     const struct shader_variable *variable = NULL;
     input.type = node->type;
     if (node->op == IR_UNIFORM || node->op == IR_STREAM || node->op == IR_TEXTURE)
         variable = &b->shader->variables.items[node->attr];
-    if (variable && layer_of(r, node->attr)) {
+    if (variable && recorder_layer_of(r, node->attr)) {
         input.kind = NETWORK_LAYER;
-        input.layer = layer_of(r, node->attr) - 1;
+        input.layer = recorder_layer_of(r, node->attr) - 1;
         input.output = r->output_of.items[node->attr];
     } else if (node->op == IR_TEXTURE) {
         input.kind = NETWORK_FILE;
@@ -238,27 +236,26 @@ static struct network_input input_of(struct builder *b, ir_ref arg)
     return input;
 }
 
-static void leave_out_aov(struct builder *b, uint32_t number, const char *why)
+/* A surface without the AOVs that are no outputs. */
+static ir_ref without_unasked(const struct builder *b, ir_ref surface)
 {
-    const struct shader_aov *aov = &b->shader->aovs.items[number];
-    const struct aov_use use = {.node = aov->element, .name = aov->name};
-    struct recorder *r = b->recorder;
-    for (uint32_t i = 0; i < r->lost_aovs.len; i++)
-        if (r->lost_aovs.items[i] == number)
-            return;
-    vec_push(b->arena, &r->lost_aovs, number);
-    build_leave_out_aov(b, &use, why);
+    while (surface && b->shader->lists_aovs && ir_get(b->graph, surface)->op == IR_AOV
+           && ir_get(b->graph, surface)->attr >= b->shader->num_listed_aovs)
+        surface = ir_arg(b->graph, surface, 0);
+    return surface;
 }
 
-/* A surface without its AOVs, which a layer that takes the surface cannot blend. */
-static ir_ref without_aovs(struct builder *b, ir_ref surface)
+static bool is_shading(const struct builder *b, ir_ref value)
 {
-    for (; surface && ir_get(b->graph, surface)->op == IR_AOV;
-         surface = ir_arg(b->graph, surface, 0))
-        leave_out_aov(b, ir_get(b->graph, surface)->attr,
-                      "its surface is the input of a node, and OSL networks blend no AOVs; "
-                      "generate one shader, without --osl-network");
-    return surface;
+    ir_type_id type = ir_type_of(b->graph, value);
+    return ir_type_is_closure(type) || ir_type_is_shader(type);
+}
+
+/* False for a closure or shader that no layer gives. */
+static bool has_layer(const struct builder *b, ir_ref value)
+{
+    return !value || !is_shading(b, value) || ir_get(b->graph, value)->op == IR_POISON
+           || known_source(b->recorder, value);
 }
 
 static void add_input(struct builder *b, const struct frame *frame, const struct port *port,
@@ -266,7 +263,7 @@ static void add_input(struct builder *b, const struct frame *frame, const struct
 {
     struct network_input input = {.kind = NETWORK_DEFAULT};
     if (!is_settled(b, frame->impl, port))
-        input = input_of(b, without_aovs(b, arg));
+        input = input_of(b, without_unasked(b, arg));
     input.doc_type = library_type_name(b->lib, port->type);
     struct ir_value usual = build_network_default(b, port);
     bool is_usual = input.kind == NETWORK_VALUE && !input.path && !port->geomprop
@@ -300,6 +297,8 @@ static str_id path_of(struct builder *b, const struct frame *frame, char between
 {
     struct text path;
     text_init(&path, b->arena);
+    if (b->slot && between == '_') /* layers of a stack may share nodes */
+        text_fmt(&path, "%s_", build_text(b, b->slot));
     write_path(b, b->graph->origin, between, &path);
     if (!frame->scope && b->graph->origins.items[b->graph->origin].element)
         text_fmt(&path, "%c%s", between,
@@ -307,17 +306,16 @@ static str_id path_of(struct builder *b, const struct frame *frame, char between
     return str_intern(b->shader->strings, path.data, path.len);
 }
 
-/*
- * Adds a source of unknown value. Its variable gives the layer of the first output a unique name.
- */
-static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32_t layer,
-                         unsigned output)
+/* Adds a source of unknown value. */
+static ir_ref add_source(struct builder *b, ir_type_id type, uint32_t layer, unsigned output)
 {
     assert(output < LIBRARY_MAX_OUTPUTS && layer <= b->recorder->network->layers.len);
     struct recorder *r = b->recorder;
     uint32_t variable = shader_add_variable(
         b->shader,
-        &(struct shader_variable){.name = name, .block = BLOCK_VERTEX_DATA, .type = type});
+        &(struct shader_variable){.name = str_intern_z(b->shader->strings, "layer_output"),
+                                  .block = BLOCK_VERTEX_DATA,
+                                  .type = type});
     *at(b->arena, &r->layer_of, &r->num_layers_of, variable) = layer + 1;
     while (r->output_of.len <= variable)
         vec_push(b->arena, &r->output_of, 0);
@@ -341,14 +339,9 @@ static bool is_argument(const struct builder *b, const struct frame *frame, ir_r
 static bool is_plain(const struct builder *b, const struct frame *frame, ir_ref value)
 {
     const struct ir_node *node = ir_get(b->graph, value);
-    bool is_source = node->op == IR_STREAM && layer_of(b->recorder, node->attr);
+    bool is_source = node->op == IR_STREAM && recorder_layer_of(b->recorder, node->attr);
     return !value || node->op == IR_CONST || node->op == IR_POISON || node->type == IR_TYPE_MATERIAL
            || is_source || is_argument(b, frame, value);
-}
-
-static ir_ref known_source(const struct recorder *r, ir_ref value)
-{
-    return value < r->num_sources ? r->source_of[value] : 0;
 }
 
 enum { MAX_LAYERS = 16384 };
@@ -373,41 +366,66 @@ bool build_network_is_full(const struct builder *b)
     return b->recorder && b->recorder->is_full;
 }
 
+static str_id layer_name(struct builder *b, str_id wanted)
+{
+    const char *text = build_text(b, wanted);
+    struct spell_name name =
+        names_unique(&b->recorder->names, text, str_len(b->shader->strings, wanted));
+    return str_intern(b->shader->strings, name.text, name.len);
+}
+
+static void add_layer(struct builder *b, const struct frame *frame)
+{
+    struct network *network = b->recorder->network;
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    unsigned num_inputs = library_nodedef(b->lib, frame->node.nodedef)->num_inputs;
+    struct network_layer made = {.name = layer_name(b, path_of(b, frame, '_')),
+                                 .path = path_of(b, frame, '/'),
+                                 .node = node_of(b, frame),
+                                 .first_input = network->inputs.len};
+    for (unsigned i = 0; i < num_inputs; i++)
+        add_input(b, frame, &ports[i], frame->args[i]);
+    assert(made.node < network->nodes.len);
+    assert(network->inputs.len == made.first_input + num_inputs);
+    vec_push(b->arena, &network->layers, made);
+}
+
+/* True if the closures that the node gives are no outputs of a layer. */
+static bool is_changed(struct builder *b, const struct frame *frame)
+{
+    unsigned num_inputs = library_nodedef(b->lib, frame->node.nodedef)->num_inputs;
+    bool is_changed = b->recorder->is_changed;
+    b->recorder->is_changed = false;
+    for (unsigned i = 0; i < num_inputs; i++)
+        is_changed |= !has_layer(b, without_unasked(b, frame->args[i]));
+    return is_changed;
+}
+
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     struct recorder *r = b->recorder;
-    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
-    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
-    bool is_new = false;
+    unsigned num_outputs = library_nodedef(b->lib, frame->node.nodedef)->num_outputs;
+    uint32_t layer = r->network->layers.len;
+    bool is_new = false, changed = is_changed(b, frame), gives[LIBRARY_MAX_OUTPUTS];
     if (!has_room(b, frame))
         return;
-    for (unsigned i = 0; i < def->num_outputs; i++)
-        is_new |= !is_plain(b, frame, results[i]) && !known_source(r, results[i]);
-    uint32_t layer = r->network->layers.len;
-    str_id name = is_new ? path_of(b, frame, '_') : 0;
-    if (is_new) {
-        struct network_layer made = {.path = path_of(b, frame, '/'),
-                                     .node = node_of(b, frame),
-                                     .first_input = r->network->inputs.len};
-        for (unsigned i = 0; i < def->num_inputs; i++)
-            add_input(b, frame, &ports[i], frame->args[i]);
-        assert(made.node < r->network->nodes.len);
-        assert(r->network->inputs.len == made.first_input + def->num_inputs);
-        vec_push(b->arena, &r->network->layers, made);
+    for (unsigned i = 0; i < num_outputs; i++) {
+        gives[i] = !is_plain(b, frame, results[i]) && !(changed && is_shading(b, results[i]));
+        is_new |= gives[i] && !known_source(r, results[i]);
     }
-    for (unsigned i = 0; i < def->num_outputs; i++) {
-        if (is_plain(b, frame, results[i]))
+    if (is_new)
+        add_layer(b, frame);
+    for (unsigned i = 0; i < num_outputs; i++) {
+        if (!gives[i])
             continue;
         ir_ref source = known_source(r, results[i]);
         if (!source) {
             assert(is_new && layer + 1 == r->network->layers.len);
-            source = add_source(b, name, ir_type_of(b->graph, results[i]), layer, i);
+            source = add_source(b, ir_type_of(b->graph, results[i]), layer, i);
             *at(b->arena, &r->source_of, &r->num_sources, results[i]) = source;
-            if (!r->network->layers.items[layer].name)
-                r->network->layers.items[layer].name =
-                    b->shader->variables.items[ir_get(b->graph, source)->attr].name;
         }
-        results[i] = source;
+        if (!is_shading(b, results[i]))
+            results[i] = source;
     }
 }
 
@@ -424,9 +442,7 @@ static uint32_t constant_layer(struct builder *b, ir_ref value, str_id type)
     struct network *network = b->recorder->network;
     struct network_layer layer = {.node = node_of(b, &frame), .first_input = network->inputs.len};
     add_input(b, &frame, library_ports(b->lib, frame.node.nodedef, NULL), value);
-    ir_ref source = add_source(b, str_intern_z(b->shader->strings, "constant"),
-                               ir_type_of(b->graph, value), network->layers.len, 0);
-    layer.name = layer.path = b->shader->variables.items[ir_get(b->graph, source)->attr].name;
+    layer.name = layer.path = layer_name(b, str_intern_z(b->shader->strings, "constant"));
     vec_push(b->arena, &network->layers, layer);
     return network->layers.len - 1;
 }
@@ -443,9 +459,16 @@ static bool give_layer(struct builder *b, ir_ref value, str_id type, struct netw
     return input->layer < b->recorder->network->layers.len;
 }
 
+/* The number of AOVs that may be outputs. */
+static uint32_t num_aovs(const struct shader *shader)
+{
+    return shader->lists_aovs ? shader->num_listed_aovs : shader->aovs.len;
+}
+
 /* Takes the AOVs off a surface: the values, by number, of those that have none yet. */
 static ir_ref take_aovs(struct builder *b, ir_ref surface, ir_ref *values)
 {
+    struct network *network = b->recorder->network;
     ir_ref *own = ARENA_ARRAY(b->arena, ir_ref, b->shader->aovs.len);
     for (; surface && ir_get(b->graph, surface)->op == IR_AOV;
          surface = ir_arg(b->graph, surface, 0)) {
@@ -453,23 +476,22 @@ static ir_ref take_aovs(struct builder *b, ir_ref surface, ir_ref *values)
         if (!own[number]) /* the outer one replaces it */
             own[number] = ir_arg(b->graph, surface, 1);
     }
-    for (uint32_t i = 0; i < b->shader->aovs.len; i++) {
-        if (own[i] && values[i] && own[i] != values[i])
-            leave_out_aov(b, i,
-                          "the front and the back have two values of it, and an OSL network has "
-                          "one; generate one shader, without --osl-network");
+    for (uint32_t i = 0; i < num_aovs(b->shader); i++) {
+        /* a layer cannot tell the front from the back */
+        bool is_second = own[i] && values[i] && own[i] != values[i];
+        network->is_whole |= is_second || !has_layer(b, own[i]);
         if (own[i] && !values[i])
             values[i] = own[i];
     }
+    network->is_whole |= !has_layer(b, surface);
     return surface;
 }
 
 static void add_aovs(struct builder *b, const ir_ref *values)
 {
-    const struct shader *shader = b->shader;
-    uint32_t num = shader->lists_aovs ? shader->num_listed_aovs : shader->aovs.len;
-    for (uint32_t i = 0; i < num; i++) {
-        const struct shader_aov *from = &shader->aovs.items[i];
+    for (uint32_t i = 0; i < num_aovs(b->shader); i++) {
+        const struct shader_aov *from = &b->shader->aovs.items[i];
+        const struct aov_use use = {.node = from->element, .name = from->name};
         struct network_aov aov = {.name = from->name, .doc_type = from->doc_type};
         if (!values[i])
             continue;
@@ -477,7 +499,7 @@ static void add_aovs(struct builder *b, const ir_ref *values)
         if (give_layer(b, values[i], from->doc_type, &aov.value))
             vec_push(b->arena, &b->recorder->network->aovs, aov);
         else
-            leave_out_aov(b, i, "no layer gives its value");
+            build_leave_out_aov(b, &use, "no layer gives its value");
     }
 }
 
@@ -491,22 +513,43 @@ static enum network_result result_of(ir_type_id type)
                                                                : NETWORK_PLAIN_VALUE;
 }
 
-bool build_network_results(struct builder *b, ir_ref root, str_id type)
+static void find_material(struct builder *b, ir_ref material)
+{
+    struct network *network = b->recorder->network;
+    ir_ref *aovs = ARENA_ARRAY(b->arena, ir_ref, b->shader->aovs.len), parts[NETWORK_PLAIN_VALUE];
+    for (unsigned i = 0; i < NETWORK_PLAIN_VALUE; i++)
+        parts[i] = take_aovs(b, ir_arg(b->graph, material, i), aovs);
+    if (network->is_whole)
+        return;
+    for (unsigned i = 0; i < NETWORK_PLAIN_VALUE; i++)
+        network->results[i] = input_of(b, parts[i]);
+    add_aovs(b, aovs);
+    if (!parts[NETWORK_SURFACE] && !parts[NETWORK_BACK_SURFACE] && !parts[NETWORK_VOLUME])
+        network->results[NETWORK_SURFACE].type = IR_TYPE_SURFACE; /* a black surface */
+}
+
+static bool find_element(struct builder *b, ir_ref root, str_id type)
 {
     struct network *network = b->recorder->network;
     ir_ref *aovs = ARENA_ARRAY(b->arena, ir_ref, b->shader->aovs.len);
-    if (ir_get(b->graph, root)->op == IR_MATERIAL) {
-        for (unsigned i = 0; i < NETWORK_PLAIN_VALUE; i++)
-            network->results[i] = input_of(b, take_aovs(b, ir_arg(b->graph, root, i), aovs));
-        add_aovs(b, aovs);
-        if (!ir_arg(b->graph, root, 0) && !ir_arg(b->graph, root, 1) && !ir_arg(b->graph, root, 3))
-            network->results[NETWORK_SURFACE].type = IR_TYPE_SURFACE; /* a black surface */
-        return true;
-    }
     enum network_result result = result_of(ir_type_of(b->graph, root));
     struct network_input *input = &network->results[result];
     root = take_aovs(b, root, aovs);
+    if (network->is_whole)
+        return true;
     *input = input_of(b, root);
     add_aovs(b, aovs);
     return result != NETWORK_PLAIN_VALUE || give_layer(b, root, type, input);
+}
+
+bool build_network_results(struct builder *b, ir_ref root, str_id type)
+{
+    bool good = true;
+    if (ir_get(b->graph, root)->op == IR_MATERIAL)
+        find_material(b, root);
+    else
+        good = find_element(b, root, type);
+    b->recorded = b->recorder;
+    b->recorder = NULL; /* what a whole shader adds is in it */
+    return good;
 }

@@ -181,7 +181,7 @@ ir_type_id closure_aov_type(const struct shader *shader, uint32_t index)
 uint32_t closure_aov_output(struct shader *shader, uint32_t index, enum aov_output which,
                             ir_type_id type)
 {
-    const struct shader_aov *aov = &shader->aovs.items[index];
+    struct shader_aov *aov = &shader->aovs.items[index];
     struct text semantic;
     text_init(&semantic, shader->arena);
     text_str(&semantic, "aov");
@@ -195,7 +195,10 @@ uint32_t closure_aov_output(struct shader *shader, uint32_t index, enum aov_outp
         .doc_type = aov->doc_type,
         .element = aov->element,
         .semantic = str_intern(shader->strings, text_cstr(&semantic), semantic.len)};
-    return shader_add_variable(shader, &variable);
+    uint32_t added = shader_add_variable(shader, &variable);
+    if (which == AOV_VALUE)
+        aov->variable = added;
+    return added;
 }
 
 ir_ref closure_aov_value(struct shader *shader, uint32_t index, ir_ref value)

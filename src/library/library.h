@@ -464,6 +464,8 @@ void library_report_loose(const struct library *lib, elem_id element, doc_type t
  * does not use, keeps the graph alone, behind a comment with the inputs that it does not read.
  */
 void library_write(const struct library *lib, struct text *out);
+/* Warns of each of these inputs. */
+void library_report_losses(const struct library *lib, struct diag_list *diags);
 
 /* image.c */
 

@@ -131,6 +131,17 @@ uint32_t shader_add_variable(struct shader *shader, const struct shader_variable
     return index;
 }
 
+void shader_make_parameter(struct shader *shader, uint32_t variable, str_id name, str_id doc_type)
+{
+    uint32_t scope = name_scope(shader, BLOCK_PUBLIC_UNIFORMS);
+    struct shader_variable *v = &shader->variables.items[variable];
+    assert(v->block == BLOCK_VERTEX_DATA);
+    v->block = BLOCK_PUBLIC_UNIFORMS;
+    v->name = unique_name(shader, scope, name);
+    v->doc_type = doc_type;
+    table_add(&shader->names, shader->arena, hash_pair(v->name, scope), variable + 1);
+}
+
 uint32_t shader_output(struct shader *shader, str_id name, ir_type_id type)
 {
     assert(type != IR_TYPE_BOOL);

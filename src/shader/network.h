@@ -5,6 +5,9 @@
  *     document ─build→ layers: one per node, with values and connections
  *                      nodes: the kinds of layers, one shader each; varying inputs are parameters
  *
+ * Closures that no layer of its own gives, such as slabs, are one shader for the whole element: the
+ * last layer of its group, whose parameters are outputs of the other layers.
+ *
  * build records the network, and the target makes a program of it (spell/target.h).
  */
 #ifndef MXG_SHADER_NETWORK_H
@@ -12,9 +15,18 @@
 
 #include "shader/shader.h"
 
+/* The shader of a kind of layer. */
+struct network_part {
+    const char *name, *source;
+    size_t size;
+    const char *nodedef; /* "": not from a node */
+};
+
 /* A definition, and the values of the inputs that are compiled into its shader. */
 struct network_node {
     str_id name; /* of the shader: "ND_dielectric_bsdf_scatter_mode_T" */
+    /* its shader, if that is made of the closures of the whole element; source NULL: it is not */
+    struct network_part whole;
     uint32_t definition;
     str_id definition_name;
     uint32_t num_inputs, num_outputs;
@@ -52,13 +64,6 @@ struct network_output {
     str_id name, doc_type;
 };
 
-/* The shader of a kind of layer. */
-struct network_part {
-    const char *name, *source;
-    size_t size;
-    const char *nodedef; /* "": not from a node */
-};
-
 /* An AOV of the surface (docs/slots.md): a value that the host may read. */
 struct network_aov {
     str_id name, doc_type;
@@ -78,6 +83,8 @@ enum network_result {
 struct network {
     struct arena *arena;
     struct strpool *strings;
+    const char *end_layer; /* name of the last layer of a group: no other layer has it */
+    bool is_whole;         /* one shader has all closures, because a layer cannot give them */
     VEC(struct network_node) nodes;
     VEC(struct network_layer) layers; /* in topological order */
     VEC(struct network_input) inputs;

@@ -58,6 +58,7 @@ struct shader_aov {
     ir_type_id type;       /* of its values */
     uint32_t element;      /* of the document: the first node that has it; 0: none yet */
     bool is_output;        /* closure_find_aovs */
+    uint32_t variable;     /* closure_aov_output: of its value */
 };
 
 /* A tile: one of several files of an image, which covers a unit square of texture coordinates. */
@@ -339,6 +340,8 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
  * Returns its index.
  */
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable);
+/* Makes a stream a public uniform, which no input of the document has: an output of other code. */
+void shader_make_parameter(struct shader *shader, uint32_t variable, str_id name, str_id doc_type);
 /* At file scope, apart from the underscore for reserved words. */
 bool shader_name_is_free(struct shader *shader, str_id name);
 /*

@@ -69,6 +69,8 @@ struct reflect; /* shader/reflect.h */
 
 /* For a language whose hosts combine one shader per node: option `network`. */
 struct target_network {
+    const char
+        *end_layer; /* name of the last layer of a group, unless the group ends with a value */
     /* Decides the kind of program and the required nodes, from network->results. */
     void (*plan)(struct network *network);
     /*

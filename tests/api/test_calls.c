@@ -208,6 +208,7 @@ static void test_null_objects(void)
     REFUSED(mxg_result_info(NULL, &info));
     REFUSED(mxg_library_image(NULL, NULL, NULL));
     REFUSED(mxg_library_expand(NULL, NULL, NULL));
+    REQUIRE(!mxg_library_losses(NULL));
 }
 
 /* ---- What they give ---- */
@@ -241,6 +242,8 @@ static void test_library(const struct objects *o)
     REQUIRE(data && size);
     REQUIRE_EQ(mxg_library_expand(alone, &text, &size), MXG_OK);
     REQUIRE(strlen(text) == size && strstr(text, "ND_tint"));
+    REQUIRE(mxg_library_losses(alone) && mxg_diagnostics_count(mxg_library_losses(alone)) == 0);
+    REQUIRE(has_diagnostic(mxg_library_losses(o->library), "expand-loss"));
     REQUIRE(mxg_library_ref(alone) == alone);
     mxg_library_unref(alone);
     static const char *const missing[] = {"none.mxlib"};

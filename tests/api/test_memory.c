@@ -48,6 +48,8 @@ static mxg_status cycle(const mxg_context_desc *desc)
             mxg_library_load(context, builtin = mxg_library_builtin(context), paths, 1, &library);
     if (status == MXG_OK)
         status = mxg_library_expand(library, &text, &size);
+    if (status == MXG_OK && !mxg_library_losses(library))
+        status = MXG_ERROR_MEMORY;
     if (status == MXG_OK)
         status = mxg_options_create(context, &options);
     if (status == MXG_OK)

@@ -276,6 +276,7 @@ test("libraries", () => {
     assert.deepEqual([alone.files, alone.nodedefNames], [["own.mtlx"], ["ND_twice"]]);
     files["own.mxlib"] = alone.image();
     assert(alone.expand().includes("ND_twice"));
+    assert(alone.losses.length === 0);
     assert.deepEqual(own.loadLibrary(["own.mxlib"], { standalone: true }).nodedefNames, ["ND_twice"]);
     const both = own.loadLibrary(["own.mtlx"]);
     assert.throws(() => both.image(), ArgumentError);

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders OSL closures on balls under a uniform sky with OSL's testrender and with mxgen's path tracer; the means agree within 3 percent.
 Rows of furnace.tsv: a material of furnace.mtlx or a document of the examples; the ratio of the means if the models differ; settings that
-make them agree (then the ratio is 1, which proves the reason); the reason. Some are also rendered as shader groups. Arguments: mxgen, the
-folder of examples ('' or absent: none), and optionally names. Skipped (77) without oslc and testrender, or a Vulkan device."""
+make them agree (then the ratio is 1, which proves the reason); the reason. Some are also rendered as shader groups. The example materials
+of slabs are the same as whole shaders and as shader groups. Arguments: mxgen, the folder of MaterialX's examples ('' or absent: none), and
+optionally names. Skipped (77) without oslc and testrender, or a Vulkan device."""
 import math
 import pathlib
 import re
@@ -16,9 +17,9 @@ import radiance
 
 MXGEN, EXAMPLES, *NAMES = sys.argv[1:]
 HERE = pathlib.Path(__file__).resolve().parent
-SKY, SIZE, TOLERANCE = 0.5, 32, 0.03
+SKY, SIZE, TOLERANCE, SAME = 0.5, 32, 0.03, 0.005
 DISTANCE, FIELD = 4.0, math.radians(30)
-NETWORKS = {"varnished", "StandardSurface/standard_surface_gold.mtlx", "OpenPbr/open_pbr_default.mtlx"}
+NETWORKS = {"varnished", "slabs_lacquered", "slab_tinted", "slab_glints", "StandardSurface/standard_surface_gold.mtlx", "OpenPbr/open_pbr_default.mtlx"}
 counts = {"passed": 0, "failed": 0, "skipped": 0}
 
 
@@ -76,6 +77,8 @@ def by_osl(document, options, folder):
     fault = run(MXGEN, document, "--target", "osl", "-q", "-o", folder, *options)
     groups = [path for path in folder.glob("*.oslgroup") if ".displacement." not in path.name]
     write_tint(folder)
+    for path in document.parent.glob("*.png"): # a texture lies beside its document
+        shutil.copy(path, folder)
     (folder / "sky.osl").write_text(f"surface sky()\n{{\n    Ci = background() * {SKY};\n}}\n")
     for path in sorted(folder.glob("*.osl")):
         fault = fault or run("oslc", "-q", path.name, folder=folder)
@@ -107,12 +110,12 @@ def in_folder(render, document, options):
         return render(document, options, pathlib.Path(folder))
 
 
-def agree(what, mean, reference, expected):
+def agree(what, mean, reference, expected, by="traced", tolerance=TOLERANCE):
     if isinstance(mean, str) or isinstance(reference, str):
         return check(what, mean if isinstance(mean, str) else reference)
     ratio = max((a / b for a, b in zip(mean, reference)), key=lambda one: abs(math.log(one)))
-    print(f"{what}: by OSL {' '.join(f'{c:.3f}' for c in mean)}, traced {' '.join(f'{c:.3f}' for c in reference)}: {ratio:.3f}", flush=True)
-    return check(what, None if abs(ratio / expected - 1) < TOLERANCE else f"the ratio is {ratio:.3f}, not {expected}")
+    print(f"{what}: by OSL {' '.join(f'{c:.3f}' for c in mean)}, {by} {' '.join(f'{c:.3f}' for c in reference)}: {ratio:.3f}", flush=True)
+    return check(what, None if abs(ratio / expected - 1) < tolerance else f"the ratio is {ratio:.3f}, not {expected}")
 
 
 def compare(what, document, options, expected):
@@ -128,6 +131,17 @@ def compare(what, document, options, expected):
 if not shutil.which("oslc") or not shutil.which("testrender"):
     skip("oslc or testrender is not installed")
     finish()
+def materials_of(document):
+    with tempfile.TemporaryDirectory() as folder:
+        run(MXGEN, document, "--target", "osl", "-q", "-o", folder)
+        return sorted(path.stem for path in pathlib.Path(folder).glob("*.osl"))
+
+
+for document in sorted((HERE.parent.parent / "examples").glob("slab*.mtlx")):
+    for name in materials_of(document):
+        if not NAMES or name in NAMES:
+            whole, network = (in_folder(by_osl, document, ["--element", name, *more]) for more in ([], ["--osl-network"]))
+            agree(f"{name}, as a network", network, whole, 1, "as one shader", SAME)
 for line in (HERE / "furnace.tsv").read_text(encoding="utf-8").splitlines()[1:]:
     name, ratio, alike, _ = (line.split("\t") + ["", "", ""])[:4]
     if NAMES and name not in NAMES:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """OSL networks: rows of tests/conformance have the same values as shader groups and as whole shaders, and the shaders and groups of materials
-compile. Arguments: mxgen, the folder of the rows, deviations.tsv, a folder of materials ('' or absent: none), and optionally
+compile, among them the example materials of slabs. Arguments: mxgen, the folder of the rows, deviations.tsv, a folder of materials ('' or absent: none), and optionally
 document names, or --all for every document and material. Skipped (77) without oslc and testshade."""
 import json
 import pathlib
@@ -115,11 +115,19 @@ def run_material(document, cache):
             check(f"{document.name} {group.name}", testshade(group, "-g", "1", "1")[1])
 
 
-def run_materials():
+def find_materials():
     root = pathlib.Path(MATERIALS)
-    documents = sorted((root if "--all" in FLAGS else root / "Materials" / "Examples").rglob("*.mtlx"))
+    slabs = sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples").glob("slab*.mtlx"))
+    if MATERIALS and root.is_dir():
+        return slabs + sorted((root if "--all" in FLAGS else root / "Materials" / "Examples").rglob("*.mtlx"))
+    print(f"skip: there is no folder {MATERIALS}")
+    counts["skipped"] += 1
+    return slabs
+
+
+def run_materials():
     with tempfile.TemporaryDirectory() as work:
-        for document in documents:
+        for document in find_materials():
             run_material(document, pathlib.Path(work))
 
 
@@ -127,10 +135,6 @@ if not shutil.which("oslc") or not shutil.which("testshade"):
     print("skip: oslc or testshade is not installed\nosl-networks: 0 passed, 0 failed, 1 skipped")
     sys.exit(77)
 run_values()
-if MATERIALS and pathlib.Path(MATERIALS).is_dir():
-    run_materials()
-else:
-    print(f"skip: there is no folder {MATERIALS}")
-    counts["skipped"] += 1
+run_materials()
 print(f"osl-networks: {counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped")
 sys.exit(1 if counts["failed"] else 0 if counts["passed"] else 77)

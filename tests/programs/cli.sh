@@ -520,6 +520,27 @@ check 'a line for each definition, its name first' eval 'grep -q "^ND_mix_float 
 check 'and for each of the 816 of MaterialX' eval 'test "$(wc -l <out)" -ge 816'
 check 'library expand' exits 0 "$mxgen" library expand -o expanded.mtlx
 check 'expands templates' eval 'grep -q "ND_add_color3\"" expanded.mtlx && ! grep -q "<template" expanded.mtlx'
+cat >both.mtlx <<'X'
+<materialx version="1.39">
+  <nodedef name="ND_same" node="same"><input name="in" type="float" value="0.0"/><output name="out" type="float"/></nodedef>
+  <implementation name="IM_same" nodedef="ND_same" sourcecode="{{in}}"/>
+  <nodedef name="ND_grey" node="grey">
+    <input name="level" type="float" value="0.5"/>
+    <input name="glow" type="float" value="0.0"/>
+    <output name="out" type="float"/>
+  </nodedef>
+  <implementation name="IM_grey" nodedef="ND_grey" sourcecode="{{level}} + {{glow}}"/>
+  <nodegraph name="NG_grey" nodedef="ND_grey">
+    <same name="c" type="float"><input name="in" type="float" interfacename="level"/></same>
+    <output name="out" type="float" nodename="c"/>
+  </nodegraph>
+</materialx>
+X
+check 'a graph for other tools' exits 0 "$mxgen" library expand --no-builtin-library both.mtlx -o graphs.mtlx
+check 'lacks an input' eval '[ "$(grep -c "expand-loss" err)" = 1 ] && grep -q "^both.mtlx:6:.*warning: .*.glow. of <grey>.*\[expand-loss\]" err'
+check 'as its comment says' grep -q '<!-- Without a part in this graph: glow -->' graphs.mtlx
+check 'an error on demand' exits 1 "$mxgen" library expand --no-builtin-library both.mtlx -o graphs.mtlx -Werror=expand-loss
+check 'none without code' eval 'sed -i "/IM_grey/d" both.mtlx && exits 0 "$mxgen" library expand --no-builtin-library both.mtlx -o graphs.mtlx && test ! -s err'
 cat >extra.mtlx <<'X'
 <?xml version="1.0"?>
 <materialx version="1.39">

@@ -255,7 +255,6 @@ fi
 check 'a look without a scene' exits 2 "$mxgen" look.mtlx --look L
 check 'an element of a scene' exits 2 stacks --element red
 check 'a scene on standard output' exits 2 stacks --stdout
-check 'a network of a scene' exits 2 "$mxgen" look.mtlx --stage stage.txt --target osl --osl-network -o out.d
 # What a document says of primitives beside their layers.
 cat >look.mtlx <<'XML'
 <?xml version="1.0"?>
@@ -290,6 +289,32 @@ check 'visibility' fact /a/b/d visibility camera false
 check 'nothing elsewhere' json 'set(d["primitives"][-1]) == {"path", "stack"}'
 check 'a set that is missing' eval 'sed -i "s/propertyset=\"PS\"/propertyset=\"QS\"/" look.mtlx; exits 1 stacks --look L && grep -q "no propertyset .QS.*\[unknown-assigned\]" err'
 
+# OSL networks: each stack has its own, because its values stand in it. A stack of several layers ends with a shader that composes them.
+cat >stacks.mtlx <<'XML'
+<materialx version="1.39">
+  <noise3d name="grain" type="float"/>
+  <oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="roughness" type="float" nodename="grain"/></oren_nayar_diffuse_bsdf>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="d"/></surface>
+  <surfacematerial name="Base" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+  <nodegraph name="NG_rough"><constant name="c" type="float"><input name="value" type="float" value="0.25"/></constant>
+    <noise2d name="n" type="float"><input name="pivot" type="float" nodename="c"/></noise2d><output name="mask" type="float" nodename="n"/></nodegraph>
+  <substance name="Dirt" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></substance>
+  <look name="L"><materialassign material="Base" geom="/"/><materialassign slot="050" material="Dirt" geom="/b"/>
+    <materialassign slot="050::010" nodegraph="NG_rough" geom="/b"/></look>
+</materialx>
+XML
+printf '/a\n/b\n' >stage.txt
+check 'networks of a scene' exits 0 "$mxgen" stacks.mtlx --stage stage.txt --look L --target osl --osl-network --reflect -o scene.d
+check 'are one for each stack' python3 -c "
+import glob, json
+bound = json.load(open('scene.d/bindings.json'))
+stack = {p['path']: json.load(open('scene.d/' + p['stack'] + '.json'))['groups'][0]['layers'] for p in bound['primitives']}
+assert [s['name'] for s in bound['stacks']] == [p['name'] for p in bound['programs']] and len(stack) == 2, bound
+assert stack['/a'][-1]['shader'] == 'mx_surface_root', stack['/a']
+root = stack['/b'][-1]
+assert root['name'] == 'root' and glob.glob('scene.d/stack_*_*.osl') == ['scene.d/' + root['shader'] + '.osl'], root
+assert {i.get('layer') for i in root['inputs']} >= {'x050_NG_rough_n', 'x000_grain'}, root"
+
 # AOVs of an OSL network: the layers that have them, though nothing else may need these.
 cat >network.mtlx <<'XML'
 <materialx version="1.39">
@@ -321,7 +346,7 @@ import json
 group = json.load(open('net/$1.json'))['groups'][0]
 aovs = {a['name']: (a['documentType'], a['layer'], a['output']) for a in group.get('aovs', [])}
 layers = {l['name']: l for l in group['layers']}
-root = {i['name']: i['layer'] for i in layers['root']['inputs']}
+root = {i['name']: i.get('layer') for i in layers['root']['inputs']}
 assert all(layer in layers for _, layer, _ in aovs.values()), (aovs, list(layers))
 assert $2, (aovs, layers, root)"
 }
@@ -335,10 +360,11 @@ check 'the group has these layers' eval 'grep -qx "shader ND_noise3d_float P_n ;
 check 'no AOVs' network One 'not aovs and "P_n" not in layers and root == {"surfaceshader": "P_s"}' --aovs none
 check 'an order' network One 'list(aovs) == ["id", "grain"]' --aovs id=integer,other=float,grain=float
 check 'of a surface alone' network P 'list(aovs) == ["grain", "matt", "id"] and root == {"surfaceshader": "P_s"}'
-check 'both sides' network Sides 'aovs["matt"][1] == "P_d" and root == {"surfaceshader": "P_s", "backsurfaceshader": "Q_s"}'
-check 'of which one value counts' test "$(grep -c "'matt' is left out: the front and the back" err)" = 1
-check 'and equal ones are one' eval '! grep -q "grain" err'
-check 'a mix of surfaces' network Mixed 'list(aovs) == ["id"] and root == {"surfaceshader": "both"} and {i["name"]: i.get("layer") for i in layers["both"]["inputs"]} == {"fg": "P_s", "bg": "Q_s", "mix_": None}'
-check 'leaves theirs out' test "$(grep -c '^network.mtlx.*\[aov-left-out\]' err)" = 2
+check 'both sides, with two values' network Sides 'list(aovs) == ["grain", "matt", "id"] and aovs["matt"] == ("BSDF", "root", "aov_matt") and root["P_n"] == "P_n"'
+check 'are one shader' eval 'grep -q "backfacing()" net/Sides_*.osl && [ "$(grep -c "aov_matt = d_lobe" net/Sides_*.osl)" = 2 ]'
+check 'a mix of surfaces' network Mixed 'list(aovs) == ["grain", "matt", "id"] and aovs["grain"] == ("float", "root", "aov_grain") and root["mix_"] is None'
+check 'blends theirs' grep -q 'aov_grain = P_n \* (1.0 - mix_) + P_n \* mix_;' net/Mixed_*.osl
+check 'only where they are asked for' network Mixed 'root == {"surfaceshader": "both"} and layers["both"]["inputs"][0]["layer"] == "P_s"' --aovs none
+check 'without a message' test ! -s err
 
 finish stacks

@@ -229,6 +229,7 @@ class Libraries(unittest.TestCase):
             path.write_text(text[:text.index("<nodegraph")] + "</materialx>", encoding="utf-8")
             alone = self.context.load_library(path, standalone=True)
             self.assertIn("ND_twice", alone.expand())
+            self.assertEqual(len(alone.losses), 0)
             self.assertEqual(len(alone.nodedefs), 1)
             image = pathlib.Path(folder) / "twice.mxlib"
             image.write_bytes(alone.image())
