@@ -205,6 +205,7 @@ export class Library extends Owner {
     image(): Uint8Array;
     /** The library as a plain MaterialX document with all templates expanded. */
     expand(): string;
+    readonly losses: Diagnostics;
 }
 
 // ---- Documents ----

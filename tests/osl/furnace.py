@@ -3,7 +3,7 @@
 """Renders OSL closures on balls under a uniform sky with OSL's testrender and with mxgen's path tracer; the means agree within 3 percent.
 Rows of furnace.tsv: a material of furnace.mtlx or a document of the examples; the ratio of the means if the models differ; settings that
 make them agree (then the ratio is 1, which proves the reason); the reason. Some are also rendered as shader groups. The example materials
-of slabs are the same as whole shaders and as shader groups. Arguments: mxgen, the folder of MaterialX's examples ('' or absent: none), and
+of slabs, and a stack of layers, are the same as whole shaders and as shader groups. Arguments: mxgen, the folder of MaterialX's examples ('' or absent: none), and
 optionally names. Skipped (77) without oslc and testrender, or a Vulkan device."""
 import math
 import pathlib
@@ -137,11 +137,20 @@ def materials_of(document):
         return sorted(path.stem for path in pathlib.Path(folder).glob("*.osl"))
 
 
-for document in sorted((HERE.parent.parent / "examples").glob("slab*.mtlx")):
+def compare_network(name, document, *options):
+    if not NAMES or name in NAMES:
+        whole, network = (in_folder(by_osl, document, [*options, *more]) for more in ([], ["--osl-network"]))
+        agree(f"{name}, as a network", network, whole, 1, "as one shader", SAME)
+
+
+OURS = HERE.parent.parent / "examples"
+for document in sorted(OURS.glob("slab*.mtlx")):
     for name in materials_of(document):
-        if not NAMES or name in NAMES:
-            whole, network = (in_folder(by_osl, document, ["--element", name, *more]) for more in ([], ["--osl-network"]))
-            agree(f"{name}, as a network", network, whole, 1, "as one shader", SAME)
+        compare_network(name, document, "--element", name)
+with tempfile.TemporaryDirectory() as folder:
+    stage = pathlib.Path(folder) / "stage.txt"
+    stage.write_text("/receiver\n", encoding="utf-8")
+    compare_network("stack", OURS / "slots" / "looks.mtlx", "--stage", stage, "--look", "finished")
 for line in (HERE / "furnace.tsv").read_text(encoding="utf-8").splitlines()[1:]:
     name, ratio, alike, _ = (line.split("\t") + ["", "", ""])[:4]
     if NAMES and name not in NAMES:
