@@ -76,6 +76,12 @@ static str_id said(const struct builder *b, ir_ref arg)
                : value.w[0].u;
 }
 
+/* True for what a texture can give in place of a missing image: a number or a colour. */
+static bool is_texel(ir_type_id type)
+{
+    return ir_type_is_float(type) && !ir_type_is_matrix(type);
+}
+
 static void note_input(struct builder *b, const struct port *file, const struct port *port,
                        ir_ref arg, struct shader_variable *texture)
 {
@@ -86,9 +92,10 @@ static void note_input(struct builder *b, const struct port *file, const struct 
             *(str_id *)((char *)&texture->sampling + sampling_inputs[i].at) = said(b, arg);
     if (strcmp(name, "frameoffset") == 0 && arg && build_initial(b, arg, &value))
         texture->sampling.frameoffset = value.w[0].i;
-    if (port->name == STR_default && arg)
-        texture->has_default = build_initial(b, arg, &texture->value);
-    if (port->name == STR_default && arg && ir_get(b->graph, arg)->op == IR_UNIFORM) {
+    if (port->name != STR_default || !arg || !is_texel(ir_type_of(b->graph, arg)))
+        return;
+    texture->has_default = build_initial(b, arg, &texture->value);
+    if (ir_get(b->graph, arg)->op == IR_UNIFORM) {
         texture->default_from = ir_get(b->graph, arg)->attr + 1;
         texture->fallback = b->options->missing_colors ? texture->default_from : 0;
     }
@@ -174,8 +181,7 @@ static ir_ref as_texel(struct builder *b, ir_ref value)
 {
     ir_ref parts[4] = {value};
     ir_type_id type = value ? ir_type_of(b->graph, value) : IR_TYPE_VOID;
-    bool is_color = ir_type_is_float(type) && !ir_type_is_matrix(type);
-    unsigned have = is_color ? ir_type_info(type)->components : 0, n = have ? 1 : 0;
+    unsigned have = is_texel(type) ? ir_type_info(type)->components : 0, n = have ? 1 : 0;
     if (have == 4)
         return value;
     for (unsigned i = have; i < 4; i++)
