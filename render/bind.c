@@ -30,6 +30,30 @@ fail_as(struct bind *bind, const char *id, const char *format, ...)
 
 #define fail(bind, ...) fail_as(bind, "render-failed", __VA_ARGS__)
 
+static uint32_t num_variables(const struct bind *bind)
+{
+    return bind->program ? bind->program->num_variables : mxg_result_num_variables(bind->result);
+}
+
+static mxg_variable get_variable(const struct bind *bind, uint32_t index)
+{
+    mxg_variable variable = {sizeof variable};
+    if (bind->program)
+        return bind->program->variables[index];
+    mxg_result_variable(bind->result, index, &variable);
+    return variable;
+}
+
+static mxg_shader_info get_info(const struct bind *bind)
+{
+    mxg_shader_info info = {sizeof info};
+    if (bind->program)
+        info.num_lights = bind->program->num_lights;
+    else
+        mxg_result_info(bind->result, &info);
+    return info;
+}
+
 /* ---- Types by name ---- */
 
 struct shape {
@@ -252,17 +276,9 @@ static bool is_uniform(const mxg_variable *variable)
            || variable->block == MXG_BLOCK_LIGHT_DATA;
 }
 
-static mxg_variable get_variable(const struct bind *bind, uint32_t index)
-{
-    mxg_variable variable = {sizeof variable};
-    mxg_result_variable(bind->result, index, &variable);
-    return variable;
-}
-
 static bool make_blocks(struct bind *bind)
 {
-    uint32_t count = mxg_result_num_variables(bind->result);
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < num_variables(bind); ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (is_uniform(&variable) && !reserve(bind, &variable))
             return false;
@@ -278,7 +294,7 @@ static bool make_blocks(struct bind *bind)
 
 static bool fill_blocks(struct bind *bind, uint32_t object)
 {
-    for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
+    for (uint32_t i = 0; i < num_variables(bind); ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, object, &variable))
             return false;
@@ -350,9 +366,11 @@ static struct draw_texture document_texture(struct bind *bind, uint32_t index,
                                             const mxg_variable *variable)
 {
     struct image *image = &bind->images[bind->num_images];
+    const char *file = bind_user_value(bind, variable);
+    if (!file && bind->program)
+        file = variable->file;
     bool is_checker = false,
-         good = bind_read_texture(bind, index, variable, bind_user_value(bind, variable), image,
-                                  &is_checker);
+         good = bind_read_texture(bind, index, variable, file, image, &is_checker);
     bool is_closest = strcmp(variable->filtertype, "closest") == 0 || is_checker;
     bind->num_images += good;
     return (struct draw_texture){.image = good ? image : NULL,
@@ -385,7 +403,7 @@ static bool bind_texture(struct bind *bind, uint32_t index, const mxg_variable *
 
 static bool bind_textures(struct bind *bind)
 {
-    for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
+    for (uint32_t i = 0; i < num_variables(bind); ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (variable.block == MXG_BLOCK_TEXTURES && !bind_texture(bind, i, &variable))
             return false;
@@ -453,7 +471,7 @@ static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
 
 static bool bind_attributes(struct bind *bind)
 {
-    for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
+    for (uint32_t i = 0; i < num_variables(bind); ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (variable.block == MXG_BLOCK_APP_DATA && !bind_attribute(bind, &variable))
             return false;
@@ -465,8 +483,7 @@ static bool is_light_value(const struct bind *bind, const char *path)
 {
     uint32_t light;
     const char *name = light_member(path, &light);
-    for (uint32_t i = 0;
-         name && light < bind->max_lights && i < mxg_result_num_variables(bind->result); ++i) {
+    for (uint32_t i = 0; name && light < bind->max_lights && i < num_variables(bind); ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (variable.block == MXG_BLOCK_LIGHT_DATA && strcmp(variable.name, name) == 0)
             return true;
@@ -474,15 +491,23 @@ static bool is_light_value(const struct bind *bind, const char *path)
     return false;
 }
 
+static bool is_input(const struct bind *bind, const char *path)
+{
+    bool found = false;
+    for (uint32_t i = 0; !found && i < num_variables(bind); ++i) {
+        mxg_variable variable = get_variable(bind, i);
+        found = *path && strcmp(variable.path, path) == 0;
+    }
+    return found;
+}
+
 /* A value for an input that the shader does not have would be silently lost. */
 static bool check_values(struct bind *bind)
 {
     for (size_t i = 0; i < bind->num_values; ++i) {
-        uint32_t index;
-        if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index)
-            && !is_light_value(bind, bind->values[i].path))
-            return fail_as(bind, "no-uniform", "the shader has no uniform for '%s'",
-                           bind->values[i].path);
+        const char *path = bind->values[i].path;
+        if (!is_input(bind, path) && !is_light_value(bind, path))
+            return fail_as(bind, "no-uniform", "the shader has no uniform for '%s'", path);
     }
     return true;
 }
@@ -518,8 +543,7 @@ bool bind_has_semantic(const mxg_result *result, const char *semantic)
 
 bool bind_shader(struct bind *bind)
 {
-    mxg_shader_info info = {sizeof info};
-    mxg_result_info(bind->result, &info);
+    mxg_shader_info info = get_info(bind);
     bind->draw.blend = info.alpha == MXG_ALPHA_BLEND && !bind->is_opaque;
     bind->draw.blends_twice = bind->draw.blend && bind_has_semantic(bind->result, "transmittance");
     bind->draw.stores_layers = info.stored_words > STORED_TARGETS;

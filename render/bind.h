@@ -26,8 +26,20 @@ struct bind_fault {
     char reason[512];
 };
 
+/*
+ * A shader that mxgen did not write, for Vulkan. Of its variables are read: name, block, type, set,
+ * binding, location, offset, byte_size, matrix_stride, values, file and path.
+ */
+struct bind_program {
+    const char *sources[MXG_NUM_STAGES];
+    const mxg_variable *variables; /* no text of them is NULL */
+    uint32_t num_variables;
+    uint32_t num_lights; /* length of the array of lights */
+};
+
 struct bind {
     const mxg_result *result;
+    const struct bind_program *program; /* in place of the result; NULL: there is none */
     const struct scene *scene;
     const struct scene_object *objects; /* what is drawn */
     uint32_t num_objects;               /* 0: the scene's object */

@@ -5,16 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char *target_of(const struct bind *bind)
+{
+    mxg_shader_info info = {sizeof info};
+    if (bind->program || mxg_result_info(bind->result, &info) != MXG_OK)
+        return "vulkan";
+    return info.target;
+}
+
 /* Reports the first error of the shader compiler: generated shaders should have none. */
 static bool compile(struct bind *bind, struct compiled *compiled)
 {
     const char *sources[MXG_NUM_STAGES];
-    mxg_shader_info info = {sizeof info};
-    if (mxg_result_info(bind->result, &info) != MXG_OK)
-        return false;
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
-        sources[stage] = mxg_result_source(bind->result, (mxg_stage)stage, NULL);
-    if (compile_program(info.target, sources, compiled))
+        sources[stage] = bind->program ? bind->program->sources[stage]
+                                       : mxg_result_source(bind->result, (mxg_stage)stage, NULL);
+    if (compile_program(target_of(bind), sources, compiled))
         return true;
     for (size_t i = 0; i < compiled->num_messages; ++i) {
         const struct compile_message *message = &compiled->messages[i];
