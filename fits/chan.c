@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Fits the directional albedo and the mean direction of Chan's diffuse lobe (2018, "Material
- * Advances in Call of Duty: WWII") for mx_chan_albedo and mx_chan_axis in libraries/slabs/slab.glsl.
- * Prints the constants of the functions.
+ * Advances in Call of Duty: WWII") for mx_chan_albedo and mx_chan_axis in
+ * libraries/slabs/slab.glsl. Prints the constants of the functions.
  */
 #include "fit.h"
 
@@ -15,9 +15,9 @@ static const double pi = 3.14159265358979323846;
 
 struct cell {
     double cosine, gloss;
-    double rough;  /* the mean of Fd of a rough surface over cosine-weighted directions */
-    double bump;   /* of Fb */
-    double smooth; /* of Fd of a smooth surface, which has a closed form */
+    double rough;     /* the mean of Fd of a rough surface over cosine-weighted directions */
+    double bump;      /* of Fb */
+    double smooth;    /* of Fd of a smooth surface, which has a closed form */
     double along, up; /* the lobe times its direction: towards the viewer's side, and the normal */
 };
 
@@ -116,7 +116,8 @@ int main(void)
     printf("// within %.4f, relatively\n", fit_minimax(p, residuals, CELLS, cells));
     fit_print_form("FIT", p, 1.0);
     printf("// within %.4f radians\n", fit_minimax(axis, turns, CELLS, cells));
-    printf("float bend = (%.4f + c * (%.4f + %.4f * c)) * (1.0 - %.4f * g) * (1.0 - %.4f * s * s);\n",
-           axis[0], axis[1], axis[2], axis[3], axis[4]);
+    printf(
+        "float bend = (%.4f + c * (%.4f + %.4f * c)) * (1.0 - %.4f * g) * (1.0 - %.4f * s * s);\n",
+        axis[0], axis[1], axis[2], axis[3], axis[4]);
     return 0;
 }

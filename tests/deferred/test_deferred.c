@@ -297,10 +297,9 @@ static void test_sizes(struct bench *b)
         const char *element;
         uint32_t bytes, top, closures; /* top: the highest four bits of word 0 */
         uint32_t passes;               /* that light a class */
-    } rows[] = {{"Plain", 12, 1, 1, 1},     {"Wax", 16, 2, 1, 2},
-                {"Hazy", 20, 2, 1, 2},      {"Downy", 24, 2, 1, 2},
-                {"Satin", 28, 3, 1, 3},     {"Lacquered", 40, 3, 2, 3},
-                {"Pearly", 44, 5, 2, 4},    {"Glittering", 60, 7, 2, 4}};
+    } rows[] = {{"Plain", 12, 1, 1, 1},  {"Wax", 16, 2, 1, 2},       {"Hazy", 20, 2, 1, 2},
+                {"Downy", 24, 2, 1, 2},  {"Satin", 28, 3, 1, 3},     {"Lacquered", 40, 3, 2, 3},
+                {"Pearly", 44, 5, 2, 4}, {"Glittering", 60, 7, 2, 4}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         struct drawing d;
         uint32_t words[MAX_WORDS] = {0};
