@@ -167,6 +167,7 @@ static void open_stores(struct bench *b, struct frame *f, enum way way)
                                  .width = SIZE,
                                  .height = SIZE,
                                  .words = info.stored_words,
+                                 .classes = info.stored_classes,
                                  .shown = UINT32_MAX};
     bool good = way == WAY_STORED ? draw_store(f->canvas, info.stored_words) != NULL
                                   : passes_open(&setup, &f->passes);

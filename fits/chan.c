@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Fits the directional albedo of Chan's diffuse lobe (2018, "Material Advances in Call of Duty:
- * WWII") for mx_chan_albedo in libraries/slabs/slab.glsl. Prints the constants of the function.
+ * Fits the directional albedo and the mean direction of Chan's diffuse lobe (2018, "Material
+ * Advances in Call of Duty: WWII") for mx_chan_albedo and mx_chan_axis in
+ * libraries/slabs/slab.glsl. Prints the constants of the functions.
  */
 #include "fit.h"
 
@@ -14,9 +15,10 @@ static const double pi = 3.14159265358979323846;
 
 struct cell {
     double cosine, gloss;
-    double rough;  /* the mean of Fd of a rough surface over cosine-weighted directions */
-    double bump;   /* of Fb */
-    double smooth; /* of Fd of a smooth surface, which has a closed form */
+    double rough;     /* the mean of Fd of a rough surface over cosine-weighted directions */
+    double bump;      /* of Fb */
+    double smooth;    /* of Fd of a smooth surface, which has a closed form */
+    double along, up; /* the lobe times its direction: towards the viewer's side, and the normal */
 };
 
 static double limited(double x)
@@ -39,8 +41,13 @@ static void measure(struct cell *cell)
             double x = sine + sqrt(1.0 - u) * cos(phi), y = sqrt(1.0 - u) * sin(phi), z = c + cos_l,
                    length = sqrt(x * x + y * y + z * z);
             double cos_h = z / length, vh = (sine * x + c * z) / length;
-            cell->rough += (vh + pow(1.0 - vh, 5.0)) / (POINTS * POINTS);
-            cell->bump += height * vh * exp2(-fall * sqrt(cos_h)) / (POINTS * POINTS);
+            double rough = vh + pow(1.0 - vh, 5.0), bump = height * vh * exp2(-fall * sqrt(cos_h));
+            double smooth = (1.0 - 0.75 * pow(1.0 - cos_l, 5.0)) * (1.0 - 0.75 * pow(1.0 - c, 5.0));
+            double lobe = (1.0 - smoothness(g)) * rough + smoothness(g) * smooth + bump;
+            cell->rough += rough / (POINTS * POINTS);
+            cell->bump += bump / (POINTS * POINTS);
+            cell->along += lobe * sqrt(1.0 - u) * cos(phi);
+            cell->up += lobe * cos_l;
         }
     /* the mean of (1 - x)^5 is 1/21 */
     cell->smooth = (1.0 - 0.75 / 21.0) * (1.0 - 0.75 * pow(1.0 - c, 5.0));
@@ -78,9 +85,27 @@ static void residuals(const double *p, double *out, void *user_data)
         out[i] = fitted(p, &cells[i]) / albedo(&cells[i]) - 1.0;
 }
 
+/* How far the normal bends towards the viewer, in lengths of V. */
+static double bend(const double *p, const struct cell *cell)
+{
+    double c = cell->cosine, g = cell->gloss, s = smoothness(g);
+    return (p[0] + c * (p[1] + c * p[2])) * (1.0 - p[3] * g) * (1.0 - p[4] * s * s);
+}
+
+/* Angles between both directions. */
+static void turns(const double *p, double *out, void *user_data)
+{
+    const struct cell *cells = user_data;
+    for (int i = 0; i < CELLS; ++i) {
+        double c = cells[i].cosine, k = bend(p, &cells[i]);
+        out[i] = atan2(k * sqrt(1.0 - c * c), 1.0 + k * c) - atan2(cells[i].along, cells[i].up);
+    }
+}
+
 int main(void)
 {
     static struct cell cells[CELLS];
+    double axis[FIT_PARAMETERS] = {0.4, -0.4, 0.2, 1.0, 1.0};
     double p[FIT_PARAMETERS] = {0.7, 0.2, 0.0, 0.0, 0.003, 0.001, 0.0,
                                 0.0, 0.6, 0.2, 0.0, 0.0,   0.2};
     for (int i = 0; i < CELLS; ++i) {
@@ -90,5 +115,9 @@ int main(void)
     }
     printf("// within %.4f, relatively\n", fit_minimax(p, residuals, CELLS, cells));
     fit_print_form("FIT", p, 1.0);
+    printf("// within %.4f radians\n", fit_minimax(axis, turns, CELLS, cells));
+    printf(
+        "float bend = (%.4f + c * (%.4f + %.4f * c)) * (1.0 - %.4f * g) * (1.0 - %.4f * s * s);\n",
+        axis[0], axis[1], axis[2], axis[3], axis[4]);
     return 0;
 }

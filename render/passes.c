@@ -58,13 +58,26 @@ static bool add_pass(struct passes *passes, const struct passes_setup *setup,
            || fail(passes, setup->gpu->id, setup->gpu->reason);
 }
 
-/* Makes pass `index` of the library. */
+/* False for a pass over classes that no material has. */
+static bool is_needed(const struct passes_setup *setup, const mxg_result *pass)
+{
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(pass, &info);
+    return !info.stored_classes || info.stored_classes & setup->classes;
+}
+
+/* Makes pass `index` of the library, if it is needed. */
 static bool open_pass(struct passes *passes, const struct passes_setup *setup, uint32_t index,
                       int which)
 {
+    mxg_result *result = NULL;
+    if (!generate(passes, setup, index, &result) || !is_needed(setup, result)) {
+        bool good = !passes->id;
+        mxg_result_destroy(result);
+        return good;
+    }
     struct pass_part *part = &passes->parts[passes->num_parts++];
-    if (!generate(passes, setup, index, &part->result))
-        return false;
+    part->result = result;
     part->bind = (struct bind){
         .result = part->result, .scene = setup->scene, .is_opaque = true, .tints = &passes->tints};
     if (!bind_shader(&part->bind))

@@ -37,6 +37,7 @@ struct passes_setup {
     struct gpu *gpu;
     struct draw_canvas *canvas;
     uint32_t width, height, words, shown;
+    uint32_t classes; /* that the materials may store, as bits of mxg_shader_info */
     /* a compute shader that writes rays with payloads, which are lit; NULL: materials are stored */
     const char *hits;
     struct bind *const *binds; /* of materials that store; the passes have their tables of tints */

@@ -309,6 +309,7 @@ static bool open_passes(struct painting *painting, uint32_t width, uint32_t heig
         mxg_shader_info info = {sizeof info};
         mxg_result_info(painting->parts[i].result, &info);
         setup.words = info.stored_words > setup.words ? info.stored_words : setup.words;
+        setup.classes |= info.stored_classes;
         binds[i] = painting->parts[i].bind;
     }
     setup.binds = binds;

@@ -762,6 +762,12 @@ typedef struct mxg_shader_info {
      */
     uint32_t stored_words;
     uint32_t layout; /* of stored words: equal in all materials and passes that fit together */
+    /*
+     * Classes of pixels, as bits, by the number of their command in `tiles` (docs/deferred.md):
+     * that a material may store, or that a pass lights. A pass whose classes no material of a
+     * picture has need not run. 0: of other passes.
+     */
+    uint32_t stored_classes;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

@@ -292,6 +292,8 @@ class ShaderInfo:
     stored_words: int
     #: of stored words: equal in all materials and passes that fit together
     layout: int
+    #: classes of pixels, as bits, that a material may store or a lighting pass lights
+    stored_classes: int
 
 
 class Shader(Native):

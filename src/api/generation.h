@@ -167,6 +167,7 @@ _Static_assert((int)NUM_RESULT_TEXTS <= OBJECT_MAX_TEXTS, "an object has room fo
 
 /* storage.c: shader_reflect_options.more; user_data is the mxg_result. */
 void result_storage(void *user_data, struct json *json);
+uint32_t result_classes(const mxg_result *result); /* mxg_shader_info.stored_classes */
 
 /* reflect.c: the user interface data of a variable; user_data is the mxg_result. */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);

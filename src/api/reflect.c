@@ -264,6 +264,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .stored_words = shader->stored_words,
         .layout =
             result->is_pass || shader->stored_words ? deferred_layout_number(&result->storage) : 0,
+        .stored_classes = result_classes(result),
     };
     /* only the topology is expensive */
     if (out && out->size > offsetof(mxg_shader_info, topology)

@@ -3,6 +3,8 @@
 #include "api/generation.h"
 #include "base/json.h"
 
+#include <string.h>
+
 uint32_t mxg_num_pass_resources(void)
 {
     struct deferred_resource resource;
@@ -55,6 +57,28 @@ static bool has_resource(const mxg_result *result, uint32_t index)
                            : index == 0 && !result->storage.is_payload;
 }
 
+uint32_t result_classes(const mxg_result *result)
+{
+    if (!result->is_pass)
+        return result->shader.stored_classes;
+    enum deferred_class lit = deferred_pass_class(result->pass);
+    return lit == CLASS_EMPTY || !deferred_is_indirect(result->pass) ? 0 : 1u << lit;
+}
+
+/* The classes of a material by name. */
+static void put_classes(uint32_t classes, struct json *json)
+{
+    json_key(json, "classes");
+    json_open_flat(json, '[');
+    for (unsigned i = 0; i < NUM_CLASSES; i++)
+        if (classes >> i & 1u) {
+            const char *name = deferred_element((enum deferred_class)i);
+            json_item(json);
+            text_json_string(json->out, name, strlen(name));
+        }
+    json_close(json, ']');
+}
+
 void result_storage(void *user_data, struct json *json)
 {
     const mxg_result *result = user_data;
@@ -68,6 +92,8 @@ void result_storage(void *user_data, struct json *json)
     if (result->is_pass && deferred_is_indirect(result->pass))
         json_put_text(json, "class", deferred_element(deferred_pass_class(result->pass)));
     json_put_nonzero(json, "words", words);
+    if (!result->is_pass && !result->storage.is_payload)
+        put_classes(result->shader.stored_classes, json);
     json_key(json, "resources");
     json_open(json, '[');
     for (uint32_t i = 0; i < mxg_num_pass_resources(); i++)

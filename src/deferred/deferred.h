@@ -38,7 +38,7 @@ uint32_t deferred_layout_number(const struct deferred_layout *layout);
 /*
  * closure_host.store, whose store_data is a deferred_layout: the effects that write the closures of
  * a surface, or that pack its only one. Each slab has a mark (build_options.marks_slabs). Sets
- * shader->stored_words.
+ * shader->stored_words and stored_classes.
  */
 void deferred_store(struct shader *shader, const struct closure_host *host,
                     const struct closure_stored *surface);

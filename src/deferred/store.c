@@ -179,13 +179,10 @@ static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
 }
 
 /* marks: the top first. */
-static uint32_t count_words(const struct shader *shader, const struct closure_list *marks,
-                            enum deferred_storage storage)
+static struct stored_slab *slabs_of(const struct shader *shader, const struct closure_list *marks)
 {
     const struct ir_graph *g = shader->graph;
     uint32_t num = marks->leaves.len;
-    if (storage == STORAGE_FLOAT)
-        return NUM_TARGET_WORDS + WHOLE_WORDS * num;
     struct stored_slab *slabs = ARENA_ARRAY(shader->arena, struct stored_slab, num + 1);
     for (uint32_t i = 0; i < num; i++) {
         const ir_ref *in = ir_args(g, marks->leaves.items[i].leaf);
@@ -202,8 +199,38 @@ static uint32_t count_words(const struct shader *shader, const struct closure_li
             .is_whole = is_white(g, &marks->leaves.items[i]),
         };
     }
+    return slabs;
+}
+
+static uint32_t count_words(const struct ir_graph *g, const struct stored_slab *slabs, uint32_t num,
+                            enum deferred_storage storage)
+{
+    if (storage == STORAGE_FLOAT)
+        return NUM_TARGET_WORDS + WHOLE_WORDS * num;
     uint32_t words = slab_stored_pixel(g, slabs, num);
     return words > NUM_TARGET_WORDS ? words : NUM_TARGET_WORDS;
+}
+
+/* The classes that mx_class_of and mx_finish_closures may choose, as bits. */
+static uint32_t find_classes(const struct ir_graph *g, const struct stored_slab *slabs,
+                             uint32_t num)
+{
+    struct stored_features has = slab_stored_features(g, slabs, num);
+    return num ? 1u << CLASS_SIMPLE | (uint32_t)has.any << CLASS_SINGLE
+                     | (uint32_t)has.many << CLASS_COMPLEX | (uint32_t)has.special << CLASS_SPECIAL
+               : 0;
+}
+
+static void measure(struct shader *shader, const struct closure_list *marks,
+                    const struct deferred_layout *layout)
+{
+    if (layout->is_payload) {
+        shader->stored_words = DEFERRED_PAYLOAD_WORDS;
+        return;
+    }
+    const struct stored_slab *slabs = slabs_of(shader, marks);
+    shader->stored_words = count_words(shader->graph, slabs, marks->leaves.len, layout->storage);
+    shader->stored_classes = find_classes(shader->graph, slabs, marks->leaves.len);
 }
 
 /* ---- Effects ---- */
@@ -361,8 +388,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
     assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
     struct closure_list marks = marks_of(shader, surface->bsdf, surface->list);
-    shader->stored_words =
-        layout->is_payload ? DEFERRED_PAYLOAD_WORDS : count_words(shader, &marks, layout->storage);
+    measure(shader, &marks, layout);
     uint32_t source = add_source(shader, layout);
     if (layout->is_payload)
         premultiply(shader, surface, &marks, &emission);

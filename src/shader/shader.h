@@ -308,9 +308,10 @@ struct shader {
     bool has_rays;
     /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
     uint32_t stored_words;
-    bool has_passes;      /* several programs draw its surface: positions are equal to the bit */
-    bool has_two_sources; /* the second output is what the surface lets through */
-    bool is_stored;       /* a function of the deferred pipeline, for a closure from storage */
+    uint32_t stored_classes; /* that its pixels may have, as bits (docs/deferred.md) */
+    bool has_passes;         /* several programs draw its surface: positions are equal to the bit */
+    bool has_two_sources;    /* the second output is what the surface lets through */
+    bool is_stored;          /* a function of the deferred pipeline, for a closure from storage */
     /* a function for rasters, without a vertex stage: the option `form` */
     bool is_function;
     const char *function, *function_type; /* their names in the source; "": a program */

@@ -111,3 +111,19 @@ uint32_t slab_stored_pixel(const struct ir_graph *g, const struct stored_slab *s
     }
     return words;
 }
+
+struct stored_features slab_stored_features(const struct ir_graph *g,
+                                            const struct stored_slab *slabs, uint32_t num_slabs)
+{
+    enum {
+        NONE = 1u << STORED_ALBEDO,
+        MANY = 1u << STORED_WEIGHTS | 1u << STORED_ANISOTROPY,
+        SPECIAL = 1u << STORED_TINT | 1u << STORED_GLINTS
+    };
+    uint32_t parts = 0;
+    for (uint32_t i = 0; i < num_slabs; i++)
+        parts |= parts_of(g, &slabs[i], false, false);
+    return (struct stored_features){.any = parts & ~(uint32_t)NONE,
+                                    .many = num_slabs > 1 || parts & MANY,
+                                    .special = parts & SPECIAL};
+}

@@ -35,4 +35,13 @@ uint32_t slab_stored_words(const struct ir_graph *graph, const struct stored_sla
 uint32_t slab_stored_pixel(const struct ir_graph *graph, const struct stored_slab *slabs,
                            uint32_t num_slabs);
 
+/* What a pixel may have beside f0, albedo and roughness of one slab. */
+struct stored_features {
+    bool any;     /* a word of a feature */
+    bool many;    /* several slabs, weights or anisotropy */
+    bool special; /* glints or a tint */
+};
+struct stored_features slab_stored_features(const struct ir_graph *graph,
+                                            const struct stored_slab *slabs, uint32_t num_slabs);
+
 #endif

@@ -68,6 +68,7 @@ static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
                                  .width = SIZE,
                                  .height = SIZE,
                                  .words = d->stored_words,
+                                 .classes = d->stored_classes,
                                  .binds = binds,
                                  .num_binds = 1,
                                  .shown = shown};
@@ -87,6 +88,7 @@ static void read_info(struct drawing *d, bool *out_has_holes)
     mxg_result_info(bind->result, &info);
     *out_has_holes = info.stored_words && info.alpha == MXG_ALPHA_MASK;
     d->layout = info.layout;
+    d->stored_classes |= info.stored_classes;
     if (info.stored_words > d->stored_words)
         d->stored_words = info.stored_words;
     if (info.stored_words)

@@ -33,7 +33,7 @@ struct drawing {
     struct render renders[2];
     mxg_result *results[2];
     size_t count;
-    uint32_t stored_words, layout;
+    uint32_t stored_words, stored_classes, layout;
     float *pixels;
 };
 

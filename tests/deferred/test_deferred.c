@@ -278,15 +278,28 @@ static uint32_t written(struct drawing *d, uint32_t x, uint32_t y, uint32_t *wor
     return count;
 }
 
+/* The passes that light a class of pixels; those of other classes are left out. */
+static uint32_t num_lighting(const struct passes *passes)
+{
+    uint32_t num = 0;
+    for (uint32_t i = 0; i < passes->num_parts; ++i) {
+        mxg_shader_info info = {sizeof info};
+        mxg_result_info(passes->parts[i].result, &info);
+        num += info.stored_classes != 0;
+    }
+    return num;
+}
+
 /* docs/deferred.md has this table. */
 static void test_sizes(struct bench *b)
 {
     static const struct {
         const char *element;
         uint32_t bytes, top, closures; /* top: the highest four bits of word 0 */
-    } rows[] = {{"Plain", 12, 1, 1},  {"Wax", 16, 2, 1},       {"Hazy", 20, 2, 1},
-                {"Downy", 24, 2, 1},  {"Satin", 28, 3, 1},     {"Lacquered", 40, 3, 2},
-                {"Pearly", 44, 5, 2}, {"Glittering", 60, 7, 2}};
+        uint32_t passes;               /* that light a class */
+    } rows[] = {{"Plain", 12, 1, 1, 1},  {"Wax", 16, 2, 1, 2},       {"Hazy", 20, 2, 1, 2},
+                {"Downy", 24, 2, 1, 2},  {"Satin", 28, 3, 1, 3},     {"Lacquered", 40, 3, 2, 3},
+                {"Pearly", 44, 5, 2, 4}, {"Glittering", 60, 7, 2, 4}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         struct drawing d;
         uint32_t words[MAX_WORDS] = {0};
@@ -294,6 +307,7 @@ static void test_sizes(struct bench *b)
             REQUIRE_EQ(4 * written(&d, SIZE / 2, SIZE / 2, words), rows[i].bytes);
             REQUIRE_EQ(4 * d.stored_words, rows[i].bytes);
             REQUIRE_EQ(words[0] >> 28, rows[i].top);
+            REQUIRE_EQ(num_lighting(&d.passes), rows[i].passes);
             REQUIRE_EQ((words[1] >> 28) + 1, rows[i].closures);
             REQUIRE(stored_read(d.passes.stored, 0, 0, words, 3)); /* beside the sphere */
             REQUIRE_EQ(words[0], 0);

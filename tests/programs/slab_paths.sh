@@ -31,6 +31,10 @@ compare slabs CoatedMetal sphere    # opaque below a clear coat
 compare slabs CarPaint sphere
 compare slabs WrappedSilk sphere    # below a coat that scatters
 compare slab_blends MetalToPlastic sphere
+# rough media, which have the light of the environment from between the normal and the viewer
+compare slab_helpers AmberOnOak sphere
+compare slab_helpers DustyLacquer sphere
+compare slab_helpers AmberOnOak plane
 compare slabs MilkySheet plane --as-drawn # a drawn sheet has no light from behind
 
 # Light from everywhere: what a white pile does not let straight on comes out of it, whatever it is made of.

@@ -250,6 +250,8 @@ class Passes(unittest.TestCase):
         document = context.load(common.EXAMPLES / "deferred.mtlx")
         stored = document.generate("vulkan", "Lacquered", options={"pipeline": "deferred", "interface": "reduced"})
         self.assertEqual(stored.info.stored_words, 10)
+        self.assertEqual(stored.info.stored_classes & passes["light_complex"].info.stored_classes, passes["light_complex"].info.stored_classes)
+        self.assertEqual(stored.info.stored_classes & passes["light_special"].info.stored_classes, 0)
         self.assertEqual(stored.info.layout, passes["show"].info.layout)
         self.assertEqual(document.generate("vulkan", "Plain").info.stored_words, 0)
         self.assertEqual([(one.name, one.kind) for one in mxgen.pass_resources()][:2], [("words", "image2DArray"), ("word0", "image2D")])

@@ -55,7 +55,7 @@ vec3 mx_environment_radiance(vec3 direction, float lod)
     return textureLod(u_envRadiance, mx_latlong(direction), lod).rgb * u_envLightIntensity;
 }
 
-// Cosine-weighted average of the light around N.
+// Cosine-weighted average of the light around N, which has any length.
 vec3 mx_environment_irradiance(vec3 N)
 {
     if (option_environment == 0)

@@ -256,6 +256,17 @@ uint mx_class_of(uint has)
     return (has & MX_IS_SPECIAL) != 0u ? MX_SPECIAL : (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
 }
 
+// The words that every closure has, without its features.
+uint mx_core(MxClosure c)
+{
+    return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
+}
+
+uint mx_body(MxClosure c)
+{
+    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
+}
+
 // All words of a closure but its normal, which the caller chooses. stored_normal: as it will be read.
 MxRecord mx_pack(MxClosure c, vec3 stored_normal)
 {
@@ -278,8 +289,8 @@ MxRecord mx_pack(MxClosure c, vec3 stored_normal)
              | (r.lobes != 0u ? MX_HAS_LOBES : 0u) | (r.fuzz != 0u ? MX_HAS_FUZZ : 0u)
              | (r.anisotropy != 0u ? MX_HAS_ANISOTROPY : 0u) | (r.tint != 0u ? MX_HAS_TINT | MX_IS_SPECIAL : 0u)
              | (has_glints ? MX_HAS_GLINTS | MX_IS_SPECIAL : 0u);
-    r.core = mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0))) | has << 20u;
-    r.body = mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
+    r.core = mx_core(c) | has << 20u;
+    r.body = mx_body(c);
     return r;
 }
 

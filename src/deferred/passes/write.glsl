@@ -6,6 +6,12 @@ layout(location = 1) out uint mx_word_0;
 layout(location = 2) out uint mx_word_1;
 layout(location = 3) out uint mx_word_2;
 
+vec2 mx_glint_extent(vec2 uv)
+{
+    return max(abs(dFdx(uv)), abs(dFdy(uv)));
+}
+
+#if MX_WORDS > 3
 MxRecord mx_pending;            // the last closure, which is written when the next one or the end comes
 vec3 mx_normals[3];             // of the top, and the last two with words of their own
 uint mx_num_closures = 0u, mx_num_words = 0u;
@@ -14,12 +20,6 @@ bool mx_is_special = false;     // a closure has glints or a tint
 MxClosure mx_whole;
 #endif
 
-vec2 mx_glint_extent(vec2 uv)
-{
-    return max(abs(dFdx(uv)), abs(dFdy(uv)));
-}
-
-#if MX_WORDS > 3
 layout(MX_STORED_IMAGE, r32ui) uniform writeonly restrict uimage2DArray mx_words;
 
 void mx_put(uint word)
@@ -110,15 +110,6 @@ void mx_flush()
     mx_put_features(mx_pending);
 #endif
 }
-#else
-void mx_put_features(MxRecord r)
-{
-}
-
-void mx_flush()
-{
-}
-#endif
 
 // The number of a normal, and its word where it needs one.
 uint mx_number_normal(vec3 normal, inout uint word)
@@ -169,3 +160,23 @@ int mx_finish_closures(int stored)
     mx_word_1 = mx_pending.body | uint(stored - 1) << 28u;
     return stored;
 }
+#else
+// The one closure needs no more words than the targets have.
+void mx_keep(MxClosure c)
+{
+    mx_start_noise(gl_FragCoord.xy);
+    mx_word_0 = mx_core(c) | MX_SIMPLE << 28u;
+    mx_word_1 = mx_body(c);
+    mx_word_2 = mx_top(c.normal, c.roughness);
+}
+
+// A surface without a slab stores that there is none.
+int mx_finish_closures(int stored)
+{
+    if (stored == 0) {
+        mx_word_0 = 0u;
+        mx_word_1 = 0u;
+    }
+    return stored;
+}
+#endif
