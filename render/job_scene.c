@@ -54,21 +54,35 @@ static bool make_scene(struct job *job)
     return good || report_status(&job->cli.report, MXG_ERROR_MEMORY);
 }
 
+static const struct unit {
+    const char *name;
+    double meters;
+} units[] = {{"meter", 1},     {"centimeter", 0.01}, {"millimeter", 0.001}, {"kilometer", 1000},
+             {"inch", 0.0254}, {"foot", 0.3048},     {"micron", 1e-6},      {"nanometer", 1e-9},
+             {"yard", 0.9144}, {"mile", 1609.344}};
+enum { NUM_UNITS = sizeof units / sizeof *units };
+
 /* Lengths of documents are in the unit of the stage, where it is one of MaterialX's. */
 static void apply_unit(struct job *job)
 {
-    static const struct {
-        const char *name;
-        double meters;
-    } units[] = {{"meter", 1},     {"centimeter", 0.01}, {"millimeter", 0.001}, {"kilometer", 1000},
-                 {"inch", 0.0254}, {"foot", 0.3048},     {"micron", 1e-6},      {"nanometer", 1e-9},
-                 {"yard", 0.9144}, {"mile", 1609.344}};
     double unit = job->stage.meters_per_unit;
     if (args_is_given(&job->cli.parser, "distance-unit") || unit <= 0)
         return;
-    for (size_t i = 0; i < sizeof units / sizeof *units; ++i)
+    for (size_t i = 0; i < NUM_UNITS; ++i)
         if (fabs(unit / units[i].meters - 1) < 1e-5)
             mxg_options_set(job->cli.options, "distance-unit", units[i].name);
+}
+
+/* Metres in a unit of the world; 0: nobody says. */
+static double meters_per_unit(const struct job *job)
+{
+    const struct arg_parser *parser = &job->cli.parser;
+    for (size_t s = parser->num_settings; s-- > 0;)
+        for (size_t i = 0; i < NUM_UNITS; ++i)
+            if (strcmp(parser->settings[s].key, "distance-unit") == 0
+                && strcmp(parser->settings[s].value, units[i].name) == 0)
+                return units[i].meters;
+    return job->options.stage ? job->stage.meters_per_unit : 0;
 }
 
 /* Shaders have the types of the stage's lights alone, and no environment where it has none. */
@@ -152,5 +166,6 @@ bool job_prepare(struct job *job)
     painter->scene.environment_samples = (uint32_t)job->options.samples;
     painter->scene.frame = (int32_t)job->options.frame;
     painter->scene.layer_sample = job->layer_sample;
+    painter->scene.unit = 100 * meters_per_unit(job);
     return open_gpu(job);
 }

@@ -6,18 +6,6 @@
 
 #ifdef MATTER
 
-const uint DOWN = 1u, BENT = 2u; // away from where it came in; as it is outside, where it enters a medium of index 1.5
-const int MAX_COLLISIONS = 4096;
-
-// A direction after a collision; `from`: before (Henyey and Greenstein 1941).
-vec3 draw_phase(float g, vec3 from, vec2 xi)
-{
-    float part = (1.0 - g * g) / (1.0 - g + 2.0 * g * xi.x);
-    float cosine = abs(g) < 1e-3 ? 1.0 - 2.0 * xi.x : (1.0 + g * g - part * part) / (2.0 * g);
-    float sine = sqrt(max(1.0 - cosine * cosine, 0.0)), turn = 2.0 * PI * xi.y;
-    return normalize(frame_of(from) * vec3(sine * cos(turn), sine * sin(turn), cosine));
-}
-
 // How far light goes over how deep it gets.
 float slope(Path path, vec3 up)
 {
@@ -25,38 +13,31 @@ float slope(Path path, vec3 up)
     return (path.goes & BENT) != 0u ? 1.5 * inversesqrt(1.25 + cosine * cosine) : 1.0 / max(abs(cosine), 1e-4);
 }
 
-// Follows the path to its next collision in a medium, or out of it: false. One channel draws the way, and the mean of all densities weighs
-// it.
+// Follows the path to its next collision in a medium, or out of it: false.
 bool collide(inout Path path, vec3 up, vec4 xi)
 {
-    vec3 chance = path.through / (path.through.x + path.through.y + path.through.z), extinction = out10.rgb * slope(path, up);
-    float drawn = xi.x < chance.x ? extinction.x : xi.x < chance.x + chance.y ? extinction.y : extinction.z;
+    float tilt = slope(path, up);
+    vec3 chance = chance_of_channels(path), extinction = out10.rgb * tilt;
     bool down = (path.goes & DOWN) != 0u;
     float room = down ? 1.0 - path.depth : path.depth;
     if (out9.r + out9.g + out9.b <= 0.0) { // it only absorbs: Beer, Lambert
         path.through *= exp(-extinction * room);
         return false;
     }
-    float way = min(-log(1.0 - xi.y) / drawn, room);
-    vec3 passed = exp(-extinction * way), density = way < room ? passed * extinction : passed;
+    float way = min(draw_way(chance, extinction, xi.xy), room);
     path.depth = way < room ? path.depth + (down ? way : -way) : down ? 1.0 : 0.0;
-    path.through *= (way < room ? out9.rgb / max(out10.rgb, 1e-20) : vec3(1.0)) * density / dot(chance, density);
+    path.through *= weight_of_way(chance, extinction, out9.rgb * tilt, way, way < room);
     return way < room;
 }
 
 void walk(inout Path path, vec3 up)
 {
     vec4 xi = next_random();
-    for (int collisions = 1; collide(path, up, xi); ++collisions, xi = next_random()) {
-        if (collisions == 1)
+    for (uint collisions = 1u; collide(path, up, xi); ++collisions, xi = next_random()) {
+        if (collisions == 1u)
             count_turn(path, vec3(0.0));
-        float most = max(path.through.x, max(path.through.y, path.through.z));
-        if (most < 0.05)
-            path.through *= next_random().x < 0.5 ? 2.0 : 0.0;
-        if (!is_light(path.through) || collisions == MAX_COLLISIONS) {
-            path.through = vec3(0.0);
+        if (!goes_on(path, collisions))
             break;
-        }
         bool bends = (path.goes & BENT) != 0u;
         vec3 from = bends ? refract(path.direction, (path.goes & DOWN) != 0u ? up : -up, 1.0 / 1.5) : path.direction;
         path.direction = draw_phase(out9.a, from, xi.zw);
@@ -75,6 +56,7 @@ void leave_evenly(inout Path path, Point point, vec3 up, vec4 towards)
 #endif
     path.direction = draw_cosine(frame_of(up), 1.0, next_random().xy);
     path.density = dot(path.direction, up) / PI;
+    path.medium.collisions = 0u;
 }
 
 void meet_lobe(inout Path path, Point point, vec4 towards)
@@ -89,13 +71,39 @@ void meet_lobe(inout Path path, Point point, vec4 towards)
     path.goes = BENT;
 }
 
+// Leaves the pile.
+void leave_matter(inout Path path, Point point, vec4 towards, bool is_even)
+{
+    bool down = (path.goes & DOWN) != 0u, has_inside = down && out12.w > -1.5;
+    path.phase = GOING;
+    if (AS_DRAWN && down && path.turns > 0u) { // a drawn picture has no light from there
+        path.phase = ENDED;
+        return;
+    }
+    if (has_inside && !AS_DRAWN)
+        enter_hollow(path, path.matter.y);
+    if (is_even && (path.goes & BENT) == 0u)
+        leave_evenly(path, point, down ? -point.normal : point.normal, towards);
+    path.direction = on_side(path.direction, down ? -outside(path, point) : outside(path, point), path.density);
+    path.origin = beside(point, path.direction);
+}
+
 // Goes through the level for which scatter() has run.
 void go_through(inout Path path, Point point, vec4 towards)
 {
-    bool is_medium = out10.r + out10.g + out10.b > 0.0;
+    bool is_body = out4.w > 0.5, is_even = out10.r + out10.g + out10.b > 0.0;
     if ((path.goes & DOWN) != 0u)
         path.light += path.through * out1.rgb;
-    if (is_medium)
+    if ((path.goes & OUT) != 0u) {
+        if (!leave_body(path, point))
+            return;
+        is_even = true;
+    } else if (is_body && !AS_DRAWN) {
+        enter_body(path, point, Medium(out10.rgb, 0u, out9.rgb, out9.a, vec2(out12.w, 0.0), 0u, 0u));
+        return;
+    } else if (is_body)
+        is_even = false; // the next level stands for it
+    else if (is_even)
         walk(path, point.normal);
     else if ((path.goes & DOWN) != 0u)
         meet_lobe(path, point, towards);
@@ -103,13 +111,8 @@ void go_through(inout Path path, Point point, vec4 towards)
     path.matter.x = down ? out10.w : out11.w;
     path.depth = down ? 0.0 : 1.0;
     path.phase = IN_MATTER;
-    if (path.matter.x < 0.0) {
-        bool is_drawn = !(AS_DRAWN && down && path.turns > 0u); // a drawn picture has no light from there
-        path.phase = is_drawn ? GOING : ENDED;
-        if (is_drawn && is_medium && (path.goes & BENT) == 0u)
-            leave_evenly(path, point, down ? -point.normal : point.normal, towards);
-        path.origin = beside(point, path.direction);
-    }
+    if (path.matter.x < 0.0)
+        leave_matter(path, point, towards, is_even);
     if (!is_light(path.through))
         path.phase = ENDED;
 }
@@ -119,6 +122,7 @@ void enter_matter(inout Path path, Hit hit, Point point, vec4 towards)
     if (path.turns == 0u)
         path.weight = vec3(1.0); // `light` has the light of the whole pile
     path.place = hit;
+    path.side = side_of(hit, path.direction);
     path.matter = at_level;
     path.goes = DOWN | BENT;
     path.depth = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), keep_aovs(), light_aovs(),
+// A path tracer around the function scatter() of a generated shader, which stands above, as do path_structs.glsl, fill_vertex_data(), keep_aovs(), light_aovs(),
 // TRACER_SET, AS_DRAWN (a path goes as a drawn picture has it), PICKS (so many paths in a row differ only in the closure that they pick where
 // they hit first) and, where they hold, LIGHTS (lights are bound), TRANSPARENT (light may go through), MATTER (a surface is a pile of matter)
 // and DISPLACES (a program of its own, which moves the corners and traces nothing).
@@ -9,25 +9,6 @@
 //
 // Light comes from the environment, from bound lights and from what surfaces emit. Directions are drawn by closures and by the environment
 // alike, and weighed by the balance heuristic (Veach and Guibas 1995); src/closure/scatter.c tells how closures take part.
-
-struct Node { vec3 low; uint first; vec3 high; uint count; };
-struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
-struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
-struct Hit { float distance; uint triangle; vec2 weights; };
-// A ray to a light, and what it brings; through: what surfaces on the way to the eye and to the light let through of that.
-struct Shadow { vec3 origin; float limit; vec3 direction; uint hits; vec3 light; uint of; vec3 through; };
-struct Path {
-    vec3 origin; float density;
-    vec3 direction; uint turns;
-    vec3 through; uint hits;
-    vec3 medium; uint num_shadows;
-    vec3 light; uint phase;                         // that later hits send to the first one, which sends `weight` of it to the eye
-    vec3 weight, seen;                              // seen: what the first hit sends to the eye else
-    Hit hit;                                        // of a path that waits
-    Hit place; vec2 matter; float depth; uint goes; // of a path in matter: where, its level, of the level's thickness, and how
-    uint waits_for, number, random, waits;          // number of the sample
-    Shadow shadows[2];
-};
 
 layout(set = TRACER_SET, binding = 0, std430) readonly buffer Nodes { Node nodes[]; };
 layout(set = TRACER_SET, binding = 1, std430) readonly buffer Corners { Corner corners[]; };
@@ -85,6 +66,8 @@ float enter_box(uint node, vec3 origin, vec3 inverse, float limit)
     return first <= last ? first : 1e38;
 }
 
+uint left_out = ~0u; // a triangle that rays do not meet, because they start there
+
 // Moeller and Trumbore 1997, both sides.
 void meet_triangle(uint triangle, vec3 origin, vec3 direction, inout Hit hit)
 {
@@ -92,13 +75,15 @@ void meet_triangle(uint triangle, vec3 origin, vec3 direction, inout Hit hit)
     vec3 u = corners[triangle * 3u + 1u].position_s.xyz - a, v = corners[triangle * 3u + 2u].position_s.xyz - a;
     vec3 p = cross(direction, v);
     float determinant = dot(u, p);
-    if (abs(determinant) < 1e-20)
+    if (abs(determinant) < 1e-20 || triangle == left_out)
         return;
     vec3 t = origin - a, q = cross(t, u);
     vec3 solution = vec3(dot(t, p), dot(direction, q), dot(v, q)) / determinant;
     if (solution.x >= 0.0 && solution.y >= 0.0 && solution.x + solution.y <= 1.0 && solution.z > 0.0 && solution.z < hit.distance)
         hit = Hit(solution.z, triangle, solution.xy);
 }
+
+uint work = 0u; // so many boxes and triangles
 
 bool find_hit(vec3 origin, vec3 direction, float limit, out Hit hit)
 {
@@ -108,10 +93,12 @@ bool find_hit(vec3 origin, vec3 direction, float limit, out Hit hit)
     hit.distance = limit;
     vec3 inverse = 1.0 / direction;
     while (top >= 0) {
+        ++work;
         uint node = stack[top--];
         if (enter_box(node, origin, inverse, hit.distance) > hit.distance)
             continue;
         uint first = nodes[node].first, count = nodes[node].count;
+        work += count;
         for (uint i = 0u; i < count; ++i)
             meet_triangle(first + i, origin, direction, hit);
         if (count == 0u) {
@@ -332,7 +319,8 @@ void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 l
     if (AS_DRAWN) // it has no shadows
         receive(path, light, of, path.through);
     else
-        path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, light, of, path.through);
+        path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, light, of, path.through, path.medium.body,
+                                                  path.medium.body != 0u ? path.medium.extinction : vec3(0.0), path.medium.level.y);
 }
 
 // Light that lights send to the point where scatter() has run, and that goes on from there. `arrives`: that the environment sends;
@@ -355,12 +343,15 @@ vec3 meet_environment(vec3 direction, float density)
 
 // ---- Paths ----
 
+// Why a path waits.
+const uint AT_HIT = 1u, AT_REST = 2u;
+
 // What a ray meets.
-const int NOTHING = 0, OURS = 1, ANOTHERS = 2;
+const int NOTHING = 0, OURS = 1, ANOTHERS = 2, MUCH = 3; // MUCH: the path has to rest
 
 int meet(inout Path path, vec3 origin, vec3 direction, float limit, out Hit hit)
 {
-    if (path.waits != 0u) {
+    if (path.waits == AT_HIT) {
         hit = path.hit;
         path.waits = 0u;
         return OURS;
@@ -375,19 +366,12 @@ int meet(inout Path path, vec3 origin, vec3 direction, float limit, out Hit hit)
 bool wait(inout Path path, Hit hit)
 {
     path.hit = hit;
-    path.waits = 1u;
+    path.waits = AT_HIT;
     return false;
 }
 
-// What goes through a surface as it comes, where scatter() has run.
-vec3 goes_straight()
-{
-#ifdef MATTER
-    return out11.rgb;
-#else
-    return vec3(0.0);
-#endif
-}
+// Goes through the surface with the ray; false: nothing of its light does.
+bool pass_surface(inout Shadow ray, Hit hit); // body.glsl
 
 // Follows the ray to a light to its end, or false where it has to wait.
 bool follow_shadow(inout Path path)
@@ -396,6 +380,8 @@ bool follow_shadow(inout Path path)
     Shadow ray = path.shadows[path.num_shadows - 1u];
     for (; ray.hits < uint(MAX_HITS); ++ray.hits) {
         int what = meet(path, ray.origin, ray.direction, ray.limit, hit);
+        if (what != ANOTHERS)
+            ray.through *= exp(-ray.extinction * (what == OURS ? hit.distance : ray.limit));
         if (what == NOTHING) {
             receive(path, ray.light, ray.of, ray.through);
             break;
@@ -406,15 +392,8 @@ bool follow_shadow(inout Path path)
             path.shadows[path.num_shadows - 1u] = ray;
             return wait(path, hit);
         }
-#ifdef TRANSPARENT
-        at_level = vec2(-1.0, next_random().x);
-        ray.origin = shade(hit, ray.direction, vec4(0.0)).position + ray.direction * NEAR;
-        ray.limit -= hit.distance;
-        if (next_random().x < out1.a)
-            ray.through *= goes_straight();
-        if (!is_light(ray.through))
+        if (!pass_surface(ray, hit))
             break;
-#endif
     }
     --path.num_shadows;
     return true;
@@ -423,6 +402,8 @@ bool follow_shadow(inout Path path)
 // What a path does next. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole. IN_MATTER: it
 // goes through a pile of matter on a surface.
 const uint GOING = 0u, CROSSING = 1u, ENDED = 2u, IN_MATTER = 3u;
+// How it goes through matter: away from where it came in; as it is outside, where it enters a medium of index 1.5; out of a body.
+const uint DOWN = 1u, BENT = 2u, OUT = 4u;
 
 // Returns the most that AOVs take of light that comes to the first hit: `arrives` of it from the environment.
 mat3 count_turn(inout Path path, vec3 arrives)
@@ -430,7 +411,11 @@ mat3 count_turn(inout Path path, vec3 arrives)
     return path.turns++ == 0u ? keep_aovs(pixel_number(), path.number == 0u, arrives) : mat3(0.0);
 }
 
+int fly(inout Path path, out Hit hit); // body.glsl
 #ifdef MATTER
+bool is_of_body(Path path, Hit hit);
+void pass_hole(inout Path path, Hit hit);
+void meet_boundary(inout Path path, Hit hit);
 void enter_matter(inout Path path, Hit hit, Point point, vec4 towards); // matter.glsl
 void go_on_in_matter(inout Path path);
 #endif
@@ -446,6 +431,23 @@ bool follow_matter(inout Path path)
     go_on_in_matter(path);
 #endif
     return true;
+}
+
+Medium no_medium()
+{
+    return Medium(vec3(0.0), 0u, vec3(0.0), 0.0, vec2(-1.0, 0.0), ~0u, 0u);
+}
+
+void enter_medium(inout Path path, Medium medium)
+{
+    path.outer = path.medium;
+    path.medium = medium;
+}
+
+void leave_medium(inout Path path)
+{
+    path.medium = path.outer;
+    path.outer = no_medium();
 }
 
 // Where a path goes that has met a surface.
@@ -468,44 +470,62 @@ void bounce(inout Path path, Point point, vec4 towards)
     path.direction = normalize(next.xyz);
     path.density = weight.w;
     path.origin = beside(point, path.direction);
+    path.medium.collisions = 0u;
     if (!is_light(is_first ? max(path.weight, most[BY_PATH]) : path.through))
         path.phase = ENDED;
     else if (next.w > 0.5 && AS_DRAWN) {
         path.phase = CROSSING;
         path.through *= inside;
-    } else if (next.w > 0.5) // into a solid or out of it
-        path.medium = dot(point.facet, path.direction) < 0.0 ? inside : vec3(1.0);
+    } else if (next.w > 0.5) { // into a solid or out of it
+        Medium solid = no_medium();
+        solid.extinction = -log(max(inside, 1e-30));
+        if (dot(point.facet, path.direction) < 0.0)
+            enter_medium(path, solid);
+        else
+            leave_medium(path);
+    }
 }
 
 // Goes to the next surface; false where it has to wait.
 bool follow_ray(inout Path path)
 {
     Hit hit;
-    if (path.hits >= uint(MAX_HITS) || (AS_DRAWN && path.turns > 0u) || path.turns >= uint(camera.eye.w)) {
-        if (path.hits < uint(MAX_HITS) && path.turns > 0u)
+    bool is_inside = path.medium.body != 0u; // from where light comes out yet
+    if (path.hits >= uint(MAX_HITS) || (AS_DRAWN && path.turns > 0u) || path.turns >= uint(camera.eye.w) + (is_inside ? 1u : 0u)) {
+        if (path.hits < uint(MAX_HITS) && path.turns > 0u && !is_inside)
             path.light += path.through * meet_environment(path.direction, path.density);
         path.phase = ENDED;
         return true;
     }
-    int what = meet(path, path.origin, path.direction, FAR, hit);
+    int what = fly(path, hit);
     if (what == NOTHING) {
-        if (path.turns > 0u)
+        if (path.turns > 0u && path.phase != ENDED)
             path.light += path.through * meet_environment(path.direction, path.density);
         path.phase = ENDED;
     }
     if (what == ANOTHERS)
         return wait(path, hit);
+    if (what == MUCH)
+        return false;
     if (what != OURS)
         return true;
     ++path.hits;
+#ifdef MATTER
+    if (is_of_body(path, hit)) {
+        meet_boundary(path, hit);
+        return true;
+    }
+#endif
     vec4 towards = draw_environment(next_random());
     at_level = vec2(-1.0, next_random().x);
     pick = path.turns == 0u ? path.number % PICKS : PICKS;
     Point point = shade(hit, path.direction, towards);
     pick = PICKS;
-    path.through *= pow(path.medium, vec3(hit.distance));
     if (next_random().x >= out1.a) {
         path.origin = point.position + path.direction * NEAR;
+#ifdef MATTER
+        pass_hole(path, hit);
+#endif
         return true;
     }
 #ifdef MATTER
@@ -580,10 +600,10 @@ Path begin(uvec2 pixel, uint number)
     path.origin = camera.eye.xyz;
     path.direction = normalize(camera.forward.xyz + at.x * camera.right.xyz - at.y * camera.up.xyz);
     path.through = vec3(1.0);
-    path.medium = vec3(1.0);
+    path.medium = path.outer = no_medium();
     path.light = path.weight = path.seen = vec3(0.0);
     path.density = 0.0;
-    path.turns = path.hits = path.num_shadows = path.waits = path.waits_for = 0u;
+    path.turns = path.hits = path.num_shadows = path.waits = path.waits_for = path.side = 0u;
     path.phase = GOING;
     path.number = number;
     return path;
@@ -604,6 +624,7 @@ void main()
         path = begin(pixel, camera.frame.z);
     else {
         path = paths[index];
+        path.waits = path.waits == AT_REST ? 0u : path.waits;
         random_state = uvec4(pixel, path.number / PICKS, path.random);
     }
     vec4 sum = vec4(0.0);

@@ -188,6 +188,7 @@ unsigned scene_uniform(const struct scene *scene, const struct scene_object *obj
         {"u_alphaThreshold", 0.001},
         {"u_volumeDepth", 2},
         {"u_slabThickness", 0.1},
+        {"u_slabUnit", scene->unit > 0 ? scene->unit : 1},
     };
     if (strncmp(name, "u_", 2) != 0)
         return 0;

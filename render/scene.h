@@ -55,6 +55,7 @@ struct scene {
     double eye[3], target[3];
     struct matrix studio; /* from the space of the lights to the world */
     double near;          /* a distance that nothing has */
+    double unit;          /* centimetres in a unit of the world; 0: 1 */
     uint32_t num_lights;
     const struct scene_light *stage_lights; /* NULL: the studio's */
     uint32_t num_stage_lights;

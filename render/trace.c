@@ -23,8 +23,7 @@ enum {
     NUM_BUFFERS,
     NUM_BINDINGS = NUM_BUFFERS + 1,
     GROUP = 8,
-    SAMPLES_AT_ONCE = 16,
-    PATH_SIZE = 304
+    SAMPLES_AT_ONCE = 16
 };
 
 struct camera { /* layout as in path.glsl */
@@ -32,10 +31,19 @@ struct camera { /* layout as in path.glsl */
     uint32_t frame[4];
 };
 
-struct object { /* layout as in path.glsl */
-    float to_object[4][4];
-    uint32_t shader, blocks_light, first_value, num_triangles;
-};
+/* The types of GLSL in a buffer (layout std430), for its structs. */
+typedef unsigned int uint;
+typedef __attribute__((aligned(8))) float vec2[2];
+typedef __attribute__((aligned(16))) float vec3[3];
+typedef __attribute__((aligned(16))) float vec4[4];
+typedef __attribute__((aligned(16))) float mat4[4][4];
+typedef struct Hit Hit;
+typedef struct Medium Medium;
+typedef struct Shadow Shadow;
+#include "render/path_structs.glsl"
+_Static_assert(sizeof(struct Node) == sizeof(struct bvh_node)
+                   && sizeof(struct Corner) == sizeof(struct bvh_corner),
+               "the tree has the structs of path_structs.glsl");
 
 struct tracer {
     struct gpu *gpu;
@@ -79,11 +87,11 @@ static bool collect_objects(struct tracer *tracer)
     return tracer->objects || fail_for_memory(tracer);
 }
 
-static struct object describe_object(const struct kernel *kernel, uint32_t object,
+static struct Object describe_object(const struct kernel *kernel, uint32_t object,
                                      size_t first_value)
 {
     const struct scene_object *from = &kernel->bind->objects[object];
-    struct object out = {.shader = kernel->first_shader + (kernel->num_shaders > 1 ? object : 0),
+    struct Object out = {.shader = kernel->first_shader + (kernel->num_shaders > 1 ? object : 0),
                          .blocks_light = !kernel->info.transparent,
                          .first_value = (uint32_t)first_value,
                          .num_triangles = from->mesh.num_indices / 3};
@@ -101,12 +109,12 @@ static bool create_objects(struct tracer *tracer)
     for (size_t k = 0; k < tracer->num_kernels; ++k)
         for (uint32_t o = 0; o < tracer->kernels[k].bind->num_objects; ++o)
             num_values += kernel_num_values(&tracer->kernels[k], o);
-    if (!gpu_create_buffer(tracer->gpu, usage, NULL, tracer->num_objects * sizeof(struct object),
+    if (!gpu_create_buffer(tracer->gpu, usage, NULL, tracer->num_objects * sizeof(struct Object),
                            &tracer->buffers[OBJECTS])
         || !gpu_create_buffer(tracer->gpu, usage, NULL, num_values * 4 * sizeof(float),
                               &tracer->buffers[VALUES]))
         return false;
-    struct object *object = tracer->buffers[OBJECTS].mapped;
+    struct Object *object = tracer->buffers[OBJECTS].mapped;
     float(*values)[4] = tracer->buffers[VALUES].mapped;
     size_t first = 0;
     for (size_t k = 0; k < tracer->num_kernels; ++k)
@@ -146,7 +154,7 @@ static bool create_buffers(struct tracer *tracer)
         {bvh->corners, corners * sizeof *bvh->corners, CORNERS},
         {NULL, film, FILM},
         {sums, num_sums * sizeof *sums, SUMS},
-        {NULL, pixels * PATH_SIZE, PATHS},
+        {NULL, pixels * sizeof(struct Path), PATHS},
         {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING},
         {NULL, (aovs_stride(tracer->options->aovs) * pixels + 1) * 4 * sizeof(float), AOVS}};
     bool good = sums || fail_for_memory(tracer);
@@ -293,7 +301,7 @@ static size_t vertex_of(const struct tracer *tracer, const struct vertices *vert
 /* Writes a corner of each vertex to the film: its number, as a fourth component. */
 static bool list_vertices(const struct tracer *tracer, struct vertices *out)
 {
-    const struct object *objects = tracer->buffers[OBJECTS].mapped;
+    const struct Object *objects = tracer->buffers[OBJECTS].mapped;
     float *film = tracer->buffers[FILM].mapped;
     out->first = calloc(tracer->num_objects + 1, sizeof *out->first);
     for (uint32_t o = 0; out->first && o < tracer->num_objects; ++o)
@@ -305,7 +313,7 @@ static bool list_vertices(const struct tracer *tracer, struct vertices *out)
     memset(out->rows, 0xff, size);
     for (uint32_t c = 0; c < 3 * tracer->bvh.num_triangles; ++c) {
         uint32_t *row = &out->rows[vertex_of(tracer, out, c)];
-        const struct object *object = &objects[tracer->bvh.corners[c].object];
+        const struct Object *object = &objects[tracer->bvh.corners[c].object];
         if (*row != UINT32_MAX || !kernel_of(tracer, object->shader)->info.displaced)
             continue;
         memcpy(&film[4 * (size_t)out->num_rows + 3], &c, sizeof c);

@@ -8,7 +8,7 @@
 #include "render/inputs.h"
 #include "compile/compile.h"
 
-/* path.glsl and matter.glsl, as lines in pieces; ends with NULL. */
+/* path_structs.glsl, path.glsl, body.glsl and matter.glsl, as lines in pieces; ends with NULL. */
 extern const char *const trace_source[];
 
 struct trace_options {

@@ -137,6 +137,23 @@ vec3 mx_medium_reflected(vec3 color, vec3 mean_free_path, float g, float thickne
     return mx_medium_layer(1.0 - loss * loss, mx_medium_depth(loss, mean_free_path, g, thickness), way, ignored);
 }
 
+// Coefficients of the medium over a length, for light that walks through it at random; 0 where it is opaque. g by similarity, see
+// mx_medium_depth.
+vec3 mx_medium_scattering(vec3 color, vec3 mean_free_path, float g, float length)
+{
+    if (mx_is_black(mean_free_path) || mx_is_black(color))
+        return vec3(0.0);
+    vec3 loss = mx_medium_loss(color);
+    return max(length, 0.0) / max(mean_free_path, 1e-6) * (1.0 - loss * loss) / (1.0 - clamp(g, -0.95, 0.95) * loss * loss);
+}
+
+vec3 mx_medium_absorption(vec3 color, vec3 mean_free_path, float g, float length)
+{
+    if (mx_is_black(mean_free_path))
+        return vec3(0.0);
+    return max(length, 0.0) / max(mean_free_path, 1e-6) - mx_medium_scattering(color, mean_free_path, g, length);
+}
+
 // ---- values of the lobes ---------------------------------------------------------------------------------------------
 
 // The hue of f90 with the brightness 1. The interface fades out where f0 falls below 0.02, less than any matter reflects.
@@ -157,6 +174,12 @@ vec3 mx_slab_mean_free_path(vec3 transmittance, float thickness)
 float mx_slab_is_thick(vec3 color, vec3 mean_free_path, float is_body)
 {
     return mx_is_black(mean_free_path) || mx_is_black(color) ? 0.0 : is_body;
+}
+
+// Light goes into a body that is not opaque, where a path tracer follows it.
+float mx_slab_is_entered(vec3 mean_free_path, float walks)
+{
+    return mx_is_black(mean_free_path) ? 0.0 : walks;
 }
 
 float mx_slab_is_lit(vec3 emission)
@@ -287,28 +310,45 @@ float mx_slab_medium_bsdf_way(vec3 color, float roughness, vec3 mean_free_path, 
     return MX_MEAN_WAY;
 }
 
-// Coefficients over the thickness, for light that walks through the medium at random; 0 where it is opaque. g by similarity, see
-// mx_medium_depth.
+// Coefficients over the thickness, for light that walks through the medium at random; 0 where it is opaque.
 vec3 mx_slab_medium_bsdf_scattering(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                     vec3 N)
 {
-    if (mx_is_black(mean_free_path) || mx_is_black(color))
-        return vec3(0.0);
-    vec3 loss = mx_medium_loss(color);
-    return max(thickness, 0.0) / max(mean_free_path, 1e-6) * (1.0 - loss * loss) / (1.0 - clamp(phase_anisotropy, -0.95, 0.95) * loss * loss);
+    return mx_medium_scattering(color, mean_free_path, phase_anisotropy, thickness);
 }
 
 vec3 mx_slab_medium_bsdf_absorption(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                     vec3 N)
 {
-    if (mx_is_black(mean_free_path))
-        return vec3(0.0);
-    return max(thickness, 0.0) / max(mean_free_path, 1e-6)
-         - mx_slab_medium_bsdf_scattering(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N);
+    return mx_medium_absorption(color, mean_free_path, phase_anisotropy, thickness);
 }
 
 float mx_slab_medium_bsdf_anisotropy(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                      vec3 N)
+{
+    return clamp(phase_anisotropy, -0.95, 0.95);
+}
+
+// ---- slab_body_bsdf --------------------------------------------------------------------------------------------------
+// Where light goes into the mesh of a body. It changes nothing at the surface; a path tracer takes what is behind it from here.
+
+vec3 mx_slab_body_bsdf_throughput(vec3 color, vec3 mean_free_path, float phase_anisotropy, float unit, vec3 V)
+{
+    return vec3(1.0);
+}
+
+// Coefficients over a unit of the world.
+vec3 mx_slab_body_bsdf_scattering(vec3 color, vec3 mean_free_path, float phase_anisotropy, float unit)
+{
+    return mx_medium_scattering(color, mean_free_path, phase_anisotropy, unit);
+}
+
+vec3 mx_slab_body_bsdf_absorption(vec3 color, vec3 mean_free_path, float phase_anisotropy, float unit)
+{
+    return mx_medium_absorption(color, mean_free_path, phase_anisotropy, unit);
+}
+
+float mx_slab_body_bsdf_anisotropy(vec3 color, vec3 mean_free_path, float phase_anisotropy, float unit)
 {
     return clamp(phase_anisotropy, -0.95, 0.95);
 }

@@ -58,6 +58,7 @@ static struct slabs_host slabs_host(struct builder *b, const struct closure_host
         .slab_like = slab_like,
         .texels = texels,
         .closures = closures,
+        .walks = b->shader->scatters,
         .tracks_roughness = !(b->options->slab_features_off & 1u << SLAB_ROUGHNESS),
         .blurs = b->options->blurs && !(b->options->slab_features_off & 1u << SLAB_REFRACTION)};
 }

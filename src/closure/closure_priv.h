@@ -116,8 +116,12 @@ ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha);
 struct closure_level {
     ir_ref leaf;
     ir_ref is_here; /* a bool, by random; 0: always */
-    /* of a medium: vec3, over its thickness, and a float. 0: the leaf is none */
+    /*
+     * of a medium: vec3, over its thickness, and a float. 0: the leaf is none. Of a body: over a
+     * unit of the world; light goes on inside the mesh.
+     */
     ir_ref scattering, extinction, anisotropy;
+    bool is_body;
 };
 struct closure_pile {
     VEC(struct closure_level) levels;

@@ -12,11 +12,16 @@
  *         out2 = vec4(L, 2 where it goes on);  out3 = vec4(weight, density)
  *     a medium, where the extinction is not 0: the tracer walks through it, and lights it itself:
  *         out5, out7 = the light of a surface that reflects 1 from everywhere
+ *     a body, where out4.w is 1: the same, but light goes on inside the mesh
  *     out9 = vec4(scattering, phase anisotropy), out10 = vec4(extinction, the level below or -1),
- *         both over the thickness
+ *         both over the thickness, or of a body over a unit of the world
  *     out11 = vec4(what goes straight through the whole pile, the medium above or -1)
+ *     out12 = vec4(extinction, level) of the body that is there; the level is -1 where none is
+ *         there, and -2 in a pile that has none
  *
- * Light that comes back from below pays for media alone, as in docs/slabs.md.
+ * A tracer that does not follow light into a body takes the levels below, which stand for it. Light
+ * that comes back from below pays for media alone, as in docs/slabs.md; where a level is asked for,
+ * out11 is what it lets through.
  */
 #include "closure/scatter.h"
 
@@ -73,6 +78,7 @@ static void find_medium(struct finder *f, struct closure_level *level)
     level->scattering = scattering;
     level->extinction = extinction;
     level->anisotropy = closure_call(f->shader, f->host, level->leaf, LEAF_ANISOTROPY, NULL);
+    level->is_body = !closure_has(f->shader, f->host, level->leaf, LEAF_SAMPLE);
 }
 
 static bool is_lobe(struct finder *f, ir_ref leaf)
@@ -147,6 +153,8 @@ static bool any_walks(const struct ir_graph *g, const struct closure_pile *pile,
 {
     for (uint32_t i = 0; i < pile->levels.len; i++) {
         const struct closure_level *level = &pile->levels.items[i];
+        if (level->is_body)
+            return true;
         if (level->extinction && (is_seen_through || !ir_const_is(g, level->scattering, 0.0f)))
             return true;
     }
@@ -211,20 +219,26 @@ static ir_ref straight(struct closure_scatter *s, const struct closure_level *le
     ir_ref through = closure_call(s->shader, s->host, level->leaf, LEAF_THROUGHPUT, NULL);
     through = through ? ir_convert(s->graph, IR_TYPE_VEC3, through) : scatter_grey(s, 0.0f);
     if (!level->extinction)
-        return through;
+        return where(s, s->enters, through, scatter_grey(s, 1.0f));
     ir_ref is_medium = has_extinction(s, level);
     return where(s, is_medium, attenuation(s, level->extinction, slope), through);
 }
 
-/* The same of the whole pile. */
+/* The same of the whole pile, down to a body. */
 static ir_ref straight_through(struct closure_scatter *s)
 {
     ir_ref view = closure_view(s->shader, s->host), product = scatter_grey(s, 1.0f);
-    ir_ref slope = closure_way(s->shader, s->host, view);
+    ir_ref slope = closure_way(s->shader, s->host, view), is_above = 0;
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         const struct closure_level *level = level_of(s, i);
+        if (level->is_body) {
+            ir_ref is_free = level->is_here ? ir_op1(s->graph, IR_NOT, level->is_here)
+                                            : ir_const_bool(s->graph, false);
+            is_above = both(s->graph, is_above, is_free);
+            continue;
+        }
         ir_ref passed = scatter_op2(s, IR_MUL, product, straight(s, level, slope));
-        product = where(s, level->is_here, passed, product);
+        product = where(s, both(s->graph, is_above, level->is_here), passed, product);
     }
     return product;
 }
@@ -294,6 +308,8 @@ ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid
             continue;
         ir_ref is_medium = has_extinction(s, level);
         values[i] = where(s, is_medium, scatter_grey(s, 1.0f), values[i]);
+        if (level->is_body)
+            continue;
         ir_ref more = scatter_op2(s, IR_ADD, above, level->extinction);
         above = where(s, level->is_here, more, above);
     }
@@ -321,7 +337,7 @@ static ir_ref medium_above(struct closure_scatter *s)
     ir_ref above = scatter_number(s, -1.0f);
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         const struct closure_level *level = level_of(s, i);
-        if (!level->extinction)
+        if (!level->extinction || level->is_body)
             continue;
         ir_ref number = scatter_number(s, (float)i);
         ir_ref is_it = scatter_op2(s, IR_GT, s->level, number);
@@ -364,6 +380,7 @@ void matter_sample(struct closure_scatter *s)
     ir_ref matter = shader_stream(s->shader, STR_matter, IR_TYPE_VEC2);
     ir_ref asked = ir_component(s->graph, matter, 0), nothing = scatter_number(s, 0.0f);
     ir_ref enters = scatter_op2(s, IR_LT, asked, nothing);
+    s->enters = enters;
     s->level = where(s, enters, next_level(s, 0), asked);
     /* what lies on the pile shines once */
     ir_ref on_top = where(s, enters, s->emission, scatter_grey(s, 0.0f));
@@ -384,6 +401,29 @@ void matter_sample(struct closure_scatter *s)
     }
 }
 
+ir_ref matter_is_body(struct closure_scatter *s)
+{
+    ir_ref *values = new_values(s);
+    for (uint32_t i = 0; i < s->pile->levels.len; i++)
+        values[i] = level_of(s, i)->is_body ? scatter_number(s, 1.0f) : 0;
+    return at_hand(s, values, scatter_number(s, 0.0f));
+}
+
+/* The body that is there. */
+static void write_body(struct closure_scatter *s)
+{
+    ir_ref extinction = scatter_grey(s, 0.0f), at = scatter_number(s, -2.0f);
+    for (uint32_t i = s->pile->levels.len; i-- > 0;) {
+        const struct closure_level *level = level_of(s, i);
+        if (!level->is_body)
+            continue;
+        ir_ref none = ir_const_is(s->graph, at, -2.0f) ? scatter_number(s, -1.0f) : at;
+        extinction = where(s, level->is_here, level->extinction, extinction);
+        at = where(s, level->is_here, scatter_number(s, (float)i), none);
+    }
+    scatter_write_output(s, STR_out12, extinction, at);
+}
+
 void matter_write(struct closure_scatter *s)
 {
     ir_ref *scattering = new_values(s), *extinction = new_values(s), *anisotropy = new_values(s);
@@ -401,5 +441,6 @@ void matter_write(struct closure_scatter *s)
     ir_ref whole = straight_through(s);
     a = medium_above(s);
     scatter_write_output(s, STR_out11, whole, a);
+    write_body(s);
     s->shader->transparent |= !ir_const_is(s->graph, whole, 0.0f);
 }

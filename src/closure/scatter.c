@@ -13,7 +13,7 @@
  *         pick -= pᵢ
  *     out2 = vec4(L, is it inside)
  *     out3 = vec4(weight, density)
- *     out4 = vec4(medium, 0)
+ *     out4 = vec4(medium, 0), see matter.c for its w
  *     out5 = vec4(Σ wᵢ · evalᵢ(lightWorld.xyz) / (1 + lightWorld.w · Pᵢ · pdfᵢ(lightWorld.xyz)), 0)
  *     out6, out7: one of the bound lights, see light_up
  *     for each BSDF of an AOV: what stands in out3, out5 and out7, for that BSDF
@@ -534,7 +534,8 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
     scatter_write_output(s, STR_out2, direction, is_inside);
     ir_ref weight = scatter_read(s, s->parts[0].weight), density = scatter_read(s, s->density);
     scatter_write_output(s, STR_out3, weight, density);
-    scatter_write_output(s, STR_out4, scatter_read(s, s->medium), nothing);
+    ir_ref is_body = s->pile ? matter_is_body(s) : nothing, medium = scatter_read(s, s->medium);
+    scatter_write_output(s, STR_out4, medium, is_body);
     ir_ref seen = s->is_stack ? scatter_read(s, s->parts[0].seen_local) : seen_of(s, 0);
     scatter_write_output(s, STR_out5, seen, nothing);
     if (s->lighting->lights && !s->is_stack)

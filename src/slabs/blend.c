@@ -450,7 +450,8 @@ static struct top look_along_normal(const struct slab_blend *blend, const struct
     host.point = &point;
     ir_ref below = add(g, b->in[SLAB_f0], scattered(g, b->in));
     struct slab_place place = {.thickness = thickness, .below = between(g, below, 0.0f, 1.0f)};
-    place.is_body = num(g, 0.0f);
+    place.is_body = place.walks = num(g, 0.0f);
+    place.unit = num(g, 1.0f);
     ir_ref lobes = blend->host->lobes(blend->host->user_data, in, &place);
     ir_ref mean_way = num(g, CLOSURE_MEAN_WAY);
     struct closure_list list;

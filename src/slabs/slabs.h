@@ -32,6 +32,8 @@ struct slab_place {
     ir_ref thickness; /* float, centimetres */
     ir_ref below;     /* vec3: albedo of everything below */
     ir_ref is_body;   /* float: 1 at the bottom of a body, 0 in a layer or sheet */
+    ir_ref walks;     /* float: 1 where light walks through the mesh of a body */
+    ir_ref unit;      /* float: centimetres in a unit of the world */
     ir_ref blur;      /* float, centimetres: deviation by rough interfaces above; 0: none */
 };
 
@@ -54,6 +56,7 @@ struct slabs_host {
     const struct closure_host *closures;
     bool tracks_roughness; /* matter below a rough interface looks rougher */
     bool blurs;            /* and is blurred: slab_place.blur */
+    bool walks;            /* light walks through the meshes of bodies */
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };
 

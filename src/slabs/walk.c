@@ -204,6 +204,12 @@ static bool may_bounce(const struct walk *w, const ir_ref *inputs)
            && !ir_const_is(w->graph, inputs[SLAB_mean_free_path], 0.0f);
 }
 
+static ir_ref unit_of_world(struct walk *w)
+{
+    uint32_t unit = shader_private_uniform(w->shader, STR_u_slabUnit, IR_TYPE_FLOAT, 0);
+    return shader_read(w->shader, unit);
+}
+
 static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
 {
     struct ir_graph *g = w->graph;
@@ -211,9 +217,12 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
     assert(ir_get(g, slab)->num_args == NUM_SLAB_OPERANDS);
     memcpy(inputs, ir_args(g, slab), sizeof inputs);
     slab_widen(g, where->spread, inputs);
+    bool walks = where->is_body && w->host->walks;
     struct slab_place place = {.thickness = where->thickness,
                                .below = ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
                                .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f),
+                               .walks = ir_const_float(g, walks ? 1.0f : 0.0f),
+                               .unit = walks ? unit_of_world(w) : ir_const_float(g, 1.0f),
                                .blur = where->way.place ? ir_op1(g, IR_SQRT, where->way.place)
                                                         : ir_const_float(g, 0.0f)};
     if (where->below && may_bounce(w, inputs))

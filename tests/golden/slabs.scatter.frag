@@ -33,6 +33,7 @@ vec4 out7;
 vec4 out9;
 vec4 out10;
 vec4 out11;
+vec4 out12;
 
 // A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
 float mx_bicubic(const mat4 m, const float x, const float y)
@@ -203,8 +204,9 @@ void scatter()
     L = -vd.viewWorld;
     inside = 2.0;
     weight = vec3(1.0);
+    bool is_below = vd.matter.x < 0.0;
     bool drops_is_below = vd.matter.y < 0.5;
-    float choice = vd.matter.x < 0.0 ? drops_is_below ? 0.0 : 2.0 : vd.matter.x;
+    float choice = is_below ? drops_is_below ? 0.0 : 2.0 : vd.matter.x;
     vec3 N = normalize(vd.normalWorld);
     // metal
     float c = dot(N, vd.viewWorld);
@@ -339,7 +341,8 @@ void scatter()
         * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_9;
     float c_2 = dot(N, vd.lightWorld.xyz);
     float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
-    vec3 choice_2 = drops_is_below ? vec3(0.05, 0.033333335, 0.025) : vec3(0.0);
+    const vec3 coat_medium_constant = vec3(0.05, 0.033333335, 0.025);
+    vec3 choice_2 = drops_is_below ? coat_medium_constant : vec3(0.0);
     float sum_10 = vd.lightWorld.w * (sum_3 / sum_4
         * mx_ggx_pdf(vec2(0.25071993), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
     vec3 ratio_2 = fresnel * (milk_reflection_ggx_compensation
@@ -414,10 +417,16 @@ void scatter()
     out6 = vec4(L_3, distance_);
     out7 = vec4(sum_12 * light, 0.0);
     out9 = vec4(is_equal ? vec3(0.0) : is_equal_2 ? vec3(0.19811778, 0.19958141, 0.19990106) : vec3(0.0), 0.0);
-    vec3 choice_7 = is_equal ? vec3(0.05, 0.033333335, 0.025) : is_equal_2 ? vec3(0.2) : vec3(0.0);
-    float choice_8 = choice < 2.0 ? 2.0 : choice < 3.0 ? 3.0 : choice < 4.0 ? 4.0 : choice < 5.0 ? 5.0 : choice < 6.0
+    float choice_7 = choice < 2.0 ? 2.0 : choice < 3.0 ? 3.0 : choice < 4.0 ? 4.0 : choice < 5.0 ? 5.0 : choice < 6.0
         ? 6.0 : -1.0;
-    float choice_9 = drops_is_below && choice < 1.0 ? 1.0 : choice_8;
-    out10 = vec4(choice_7, drops_is_below && choice < 0.0 ? 0.0 : choice_9);
-    out11 = vec4(0.0, 0.0, 0.0, choice > 4.0 ? 4.0 : drops_is_below && choice > 1.0 ? 1.0 : -1.0);
+    float choice_8 = drops_is_below && choice < 1.0 ? 1.0 : choice_7;
+    float choice_9 = drops_is_below && choice < 0.0 ? 0.0 : choice_8;
+    out10 = vec4(is_equal ? coat_medium_constant : is_equal_2 ? vec3(0.2) : vec3(0.0), choice_9);
+    vec3 choice_10 = drops_is_below ? (drops_is_below ? is_below ? coat_reflection_greater : vec3(1.0) : vec3(1.0))
+        * exp(-(way * coat_medium_constant)) : vec3(1.0);
+    vec3 product_3 = choice_10 * (is_below ? milk_reflection_throughput : vec3(1.0)) * exp(-vec3(way * 0.2));
+    float choice_11 = choice > 4.0 ? 4.0 : drops_is_below && choice > 1.0 ? 1.0 : -1.0;
+    out11 = vec4(product_3 * (is_below ? metal_reflection_throughput : vec3(1.0)) * (is_below ? vec3(0.0) : vec3(1.0)),
+        choice_11);
+    out12 = vec4(0.0, 0.0, 0.0, -2.0);
 }

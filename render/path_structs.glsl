@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The structs of the path tracer's buffers: trace.c includes this file, too, so their sizes are the same there.
+struct Node { vec3 low; uint first; vec3 high; uint count; };
+struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
+struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
+struct Hit { float distance; uint triangle; vec2 weights; };
+// What a path is in: nothing, a solid, or the body of an object (see body.glsl). Coefficients are over a unit of the world.
+struct Medium {
+    vec3 extinction; uint body;      // the side where light came in, see side_of(); 0: it is no body
+    vec3 scattering; float anisotropy;
+    vec2 level;                      // of the pile where light came in, below 0 without matter there, and the number that picked what is there
+    uint triangle, collisions;       // the path starts there; since it came in or left a surface
+};
+// A ray to a light, and what it brings; through: what surfaces on the way to the eye and to the light let through of that.
+struct Shadow {
+    vec3 origin; float limit;
+    vec3 direction; uint hits;
+    vec3 light; uint of;
+    vec3 through; uint body;         // as of Medium
+    vec3 extinction; float number;
+};
+struct Path {
+    vec3 origin; float density;
+    vec3 direction; uint turns;
+    vec3 through; uint hits;
+    vec3 light; uint phase;          // that later hits send to the first one, which sends `weight` of it to the eye
+    vec3 weight; uint num_shadows;
+    vec3 seen; uint number;          // what the first hit sends to the eye else; number of the sample
+    Medium medium, outer;            // outer: around the medium
+    Hit hit;                         // of a path that waits
+    Hit place; vec2 matter; float depth; uint goes; // of a path in matter: where, its level, of the level's thickness, and how
+    uint side, waits_for, random, waits;            // side: where it came into the matter
+    Shadow shadows[2];
+};

@@ -1,0 +1,161 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Light in the meshes of bodies of slabs, path traced: white bodies lose no light, clear ones take what Beer and Lambert say of the way
+# through the mesh, thick ones reflect their albedo, and thin ones shine through. Arguments: mxgen-render, the root of the source tree.
+render=$(realpath "$1") root=$(realpath "$2")
+exr=$root/tests/programs/exr.py
+. "$root/tests/programs/common.sh"
+export MESA_SHADER_CACHE_DISABLE=true
+
+# near VALUE EXPECTED TOLERANCE
+near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { print a; exit !(a > b - t && a < b + t) }'; }
+# of EXPRESSION: its value.
+of() { awk "BEGIN { print $1 }"; }
+# channel FILE NAME: its mean.
+channel() { python3 "$exr" "$1" "$2" mean; }
+# trace FILE ELEMENT ARGUMENT...: a ball in even light, from far away.
+trace() {
+    exits 0 "$render" bodies.mtlx -e "$2" -q --path-trace -o "$1" -m sphere --lights none --environment white.hdr --camera 0,0,60,2.2 \
+        --size 24 --bounces 64 "${@:3}"
+}
+
+if ! has_device "$render"; then
+    skip 'there is no Vulkan device'
+    finish slab_bodies
+fi
+
+{ printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'; for i in {1..32}; do printf '\200\200\200\201'; done; } >white.hdr
+# slab NAME ALBEDO MEAN-FREE-PATH F0 [INPUTS]
+slab() {
+    echo "<slab name='$1' type='BSDF'><input name='diffuse_albedo' type='color3' value='$2'/><input name='mean_free_path' type='vector3' value='$3'/>
+      <input name='f0' type='color3' value='$4, $4, $4'/>${5:-}</slab>"
+}
+# body NAME BSDF
+body() {
+    echo "<slab_surface name='S$1' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='$2'/></slab_surface>
+      <surfacematerial name='$1' type='material'><input name='surfaceshader' type='surfaceshader' nodename='S$1'/></surfacematerial>"
+}
+# operator KIND NAME A B NUMBER: of the inputs that the kind has.
+operator() {
+    local names
+    case $1 in
+        slab_layer) names='top base thickness' ;;
+        slab_mix) names='fg bg mix' ;;
+        slab_coverage) names='in - weight' ;;
+    esac
+    set -- "$@" $names
+    echo "<$1 name='$2' type='BSDF'><input name='$6' type='BSDF' nodename='$3'/>"
+    [ "$7" = - ] || echo "<input name='$7' type='BSDF' nodename='$4'/>"
+    echo "<input name='$8' type='float' value='$5'/></$1>"
+}
+{
+    echo '<materialx version="1.39">'
+    slab white '1, 1, 1' '0.2, 0.4, 0.8' 0
+    slab shiny '1, 1, 1' '0.3, 0.3, 0.3' 0.04 "<input name='phase_anisotropy' type='float' value='0.5'/>"
+    slab milk '1, 1, 1' '0.02, 0.02, 0.02' 0.04
+    slab chalk '1, 1, 1' '0, 0, 0' 0.04
+    slab clear '0, 0, 0' '1, 1, 1' 0
+    slab amber '0, 0, 0' '1, 1, 1' 0.04
+    slab thick '0.8, 0.5, 0.2' '0.002, 0.002, 0.002' 0
+    slab wax '1, 1, 1' '0.1, 0.1, 0.1' 0
+    operator slab_layer coated milk shiny 0.02
+    operator slab_mix mixed shiny chalk 0.5
+    operator slab_coverage half shiny - 0.5
+    for name in white clear thick wax coated mixed half amber; do body "${name^}" $name; done
+    echo "<oren_nayar_diffuse_bsdf name='paint' type='BSDF'><input name='color' type='color3' value='1, 1, 1'/></oren_nayar_diffuse_bsdf>
+      <surface name='SPaper' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='paint'/></surface>
+      <surfacematerial name='Paper' type='material'><input name='surfaceshader' type='surfaceshader' nodename='SPaper'/></surfacematerial>
+      <look name='inside'><materialassign material='White' geom='//outer'/><materialassign material='Paper' geom='//inner'/></look>
+      <look name='shadow'><materialassign material='Clear' geom='//block'/><materialassign material='Paper' geom='//floor'/></look>"
+    echo '</materialx>'
+} >bodies.mtlx
+
+# all FILE: the light, and what is seen through.
+all() { of "($(channel "$1" R) + $(channel "$1" G) + $(channel "$1" B)) / 3 + 1 - $(channel "$1" A)"; }
+for element in SWhite SCoated SMixed SHalf; do
+    check "$element in even light" trace even.exr $element --paths 128
+    check "and no light is lost: $element" near "$(all even.exr)" 1 0.01
+done
+
+# The disk of the ball, by paper.
+check 'paper' trace paper.exr SPaper --paths 64
+disk=$(channel paper.exr A)
+# Parallel light through a ball of the radius 1 with the extinction t: the mean over the disk of exp(-2 t cos) is (1 - (1 + 2 t) exp(-2 t)) / (2 t²).
+# clear T: what is not seen through.
+clear() { of "1 - (1 - (1 + 2 * $1) * exp(-2 * $1)) / (2 * $1 * $1)"; }
+check 'a clear ball' trace clear.exr SClear --paths 256
+check 'is as opaque as its chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clear 1)" 0.01
+check 'a smaller one' trace clear.exr SClear --paths 256 --distance-unit millimeter
+check 'has shorter chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clear 0.1)" 0.01
+
+check 'a thick ball' trace thick.exr SThick --paths 256
+check 'reflects its albedo: red' near "$(of "$(channel thick.exr R) / $disk")" 0.8 0.015
+check "green" near "$(of "$(channel thick.exr G) / $disk")" 0.5 0.015
+check "blue" near "$(of "$(channel thick.exr B) / $disk")" 0.2 0.015
+check 'the lobe of rasters' trace thick.exr SThick --paths 64 --as-drawn
+check 'reflects it, too' near "$(of "$(channel thick.exr R) / $disk")" 0.8 0.01
+
+# A plate with a lamp behind it. plate DEPTH: from z = -DEPTH to 0.
+plate() {
+    local x y z
+    for z in "-$1" 0; do for y in -1 1; do for x in -1 1; do echo "v $x $y $z"; done; done; done
+    printf 'f %s\n' '5 6 8 7' '2 1 3 4' '1 5 7 3' '6 2 4 8' '7 8 4 3' '1 2 6 5'
+}
+# behind DEPTH: the light that comes through it.
+behind() {
+    plate "$1" >plate.obj
+    exits 0 "$render" bodies.mtlx -e SWax -q --path-trace -o plate.exr -m plate.obj --camera 0,0 --environment none --lights directional_light --size 8 \
+        --paths 64 --set u_lightData[0].direction=0,0,1 --set 'u_lightData[1].color=0,0,0' --set u_lightData[2].color=0,0,0 >&2 && channel plate.exr R
+}
+thin=$(behind 0.2) wide=$(behind 0.8)
+check 'a thin plate shines through' awk -v a="$thin" 'BEGIN { exit !(a > 0.05) }'
+check 'more than a thick one' awk -v a="$thin" -v b="$wide" 'BEGIN { print a, b; exit !(b > 0.005 && b < 0.6 * a) }'
+
+# Objects of other shaders inside a body, and in its shadow.
+sphere() { printf 'def Sphere "%s"\n{\n    double radius = %s\n}\n' "$1" "$2"; }
+head='#usda 1.0
+(
+ upAxis = "Y"
+ metersPerUnit = 0.01
+)'
+{ echo "$head"; sphere outer 1; sphere inner 0.5; } >inside.usda
+check 'paper in a white body' exits 0 "$render" bodies.mtlx --stage inside.usda --look inside -q --path-trace -o inside.exr --lights none \
+    --environment white.hdr --camera 0,0 --size 16 --paths 64 --bounces 64
+check 'and no light is lost' near "$(all inside.exr)" 1 0.01
+{
+    echo "$head"
+    cat <<'USDA'
+def Cube "block"
+{
+    double size = 1
+    double3 xformOp:translate = (0, 0, 3)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Mesh "floor"
+{
+    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+}
+def DistantLight "sun"
+{
+    float inputs:intensity = 3.14159
+    float inputs:angle = 0
+}
+def Camera "camera"
+{
+    float focalLength = 10
+    float horizontalAperture = 1
+    float verticalAperture = 1
+    double3 xformOp:translate = (0, 10, 10)
+    float xformOp:rotateX = -45
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
+}
+USDA
+} >shadow.usda
+check 'the shadow of a clear block' exits 0 "$render" bodies.mtlx --stage shadow.usda --look shadow -q --path-trace -o shadow.exr --camera /camera --size 8 --paths 16
+shadow=$(python3 "$exr" shadow.exr R 0.5 0.5)
+check 'and without it' exits 0 "$render" bodies.mtlx --stage shadow.usda --look shadow -q --path-trace -o shadow.exr --camera /camera --size 8 --paths 16 --distance-unit nanometer
+check 'is exp(-1) of the light' near "$(of "$shadow / $(python3 "$exr" shadow.exr R 0.5 0.5)")" 0.368 0.01
+
+finish slab_bodies
