@@ -262,6 +262,7 @@ void cli_forward(struct cli *cli, struct arg_list *args)
 void cli_forward_full(struct cli *cli, struct arg_list *args)
 {
     forward(cli, false, args);
+    args_append(args, cli_format("--max-steps=0"));
 }
 
 void cli_finish(struct cli *cli)

@@ -70,7 +70,7 @@ void cli_finish(struct cli *cli);
  * generation, and make it print only errors. The caller frees the items.
  */
 void cli_forward(struct cli *cli, struct arg_list *args);
-/* The same without options that make slabs cheaper. */
+/* The same without options that make slabs cheaper, and without the steps of the document. */
 void cli_forward_full(struct cli *cli, struct arg_list *args);
 /* True if there are such options. */
 bool cli_has_budget(const struct cli *cli);

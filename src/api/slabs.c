@@ -64,7 +64,7 @@ struct slab_budget generation_slab_budget(const struct generation *g)
         .max_error = g->options[OPTION_max_error].real,
         .off = g->build_options.slab_features_off,
         .recognises = g->options[OPTION_slabs].number != 0 || generation_packs(g),
-        .max_steps = generation_packs(g) ? 0 : (uint32_t)g->options[OPTION_max_steps].number,
+        .max_steps = generation_packs(g) ? -1 : (int32_t)g->options[OPTION_max_steps].number,
     };
 }
 

@@ -186,7 +186,7 @@ static struct candidate best_step(struct saver *s)
 /* False: the steps that the budget wants to see are done. */
 static bool goes_on(const struct saver *s)
 {
-    return !s->budget->max_steps || s->report->steps.len < s->budget->max_steps;
+    return s->budget->max_steps < 0 || s->report->steps.len < (uint32_t)s->budget->max_steps;
 }
 
 static bool keeps_closures(const struct saver *s)
@@ -283,7 +283,7 @@ static bool any_asked(const struct saver *s)
 
 static void recognise(struct saver *s)
 {
-    if (!s->cost.others || !(s->budget->recognises || has_limits(s->budget)))
+    if (!goes_on(s) || !s->cost.others || !(s->budget->recognises || has_limits(s->budget)))
         return;
     ir_ref root = slabs_recognise(s->shader, s->host, has_limits(s->budget), s->root);
     if (root != s->root)

@@ -10,10 +10,11 @@
 
 struct slab_budget {
     uint32_t max_closures, max_bytes; /* 0: no limit */
-    float max_error;    /* mean CIEDE2000; cheaper until the next step is above it. Below 0: none */
-    uint32_t off;       /* features that are turned off before, as bits */
-    bool recognises;    /* all closures become slabs before */
-    uint32_t max_steps; /* the first steps alone, whatever the limits; 0: all */
+    float max_error; /* mean CIEDE2000; cheaper until the next step is above it. Below 0: none */
+    uint32_t off;    /* features that are turned off before, as bits */
+    bool recognises; /* all closures become slabs before */
+    /* the first steps alone, those of the document too, whatever the limits; below 0: all */
+    int32_t max_steps;
 };
 
 enum slab_step_kind {

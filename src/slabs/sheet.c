@@ -286,7 +286,7 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
                       const struct slab_budget *budget, ir_ref root, struct slab_sheet *out)
 {
     const struct ir_graph *g = shader->graph;
-    const struct slab_budget one = {.max_closures = 1, .max_error = -1.0f};
+    const struct slab_budget one = {.max_closures = 1, .max_error = -1.0f, .max_steps = -1};
     *out = (struct slab_sheet){.shader = shader, .is_asked = slabs_is_asked(budget)};
     if (out->is_asked)
         slabs_budget(shader, host, budget, root, &out->report);

@@ -90,6 +90,8 @@ check 'spreads nothing' grep -qF 'mx_ggx_albedo_fit(0.04,' out
 sed 's/<input name="mix" type="float" value="0.6"\/>/&<input name="blend_parameters" type="boolean" value="true"\/>/' "$slabs" >asked.mtlx
 check 'the document asks' exits 0 "$mxgen" asked.mtlx -e CarPaint -Wbudget-step -o made
 check 'for one slab' says "one slab for 'paint': closures 3 to 2"
+check 'without a step' exits 0 "$mxgen" asked.mtlx -e CarPaint --max-steps 0 -Wbudget-step -o made
+check 'it gets three' eval '! says "one slab"'
 
 # Sums and products
 cat >sum.mtlx <<'END'

@@ -116,6 +116,12 @@ def check_drawn(folder):
         result = run(MXGEN, "inspect", "--slabs", "--drawn", "--format", form, document, "-e", material)
         drawn = [float(number) for number in re.findall(pattern, result.stdout)]
         check(len(drawn) == 2 and all(abs(a - b) <= NEAR for a, b in zip(drawn, listed)), f"drawn as {form}: {drawn}, listed {listed}")
+    asked = folder / "asked.mtlx"
+    share = '<input name="mix" type="float" value="0.6"/>'
+    asked.write_text(document_of("CarPaint").read_text().replace(share, share + '<input name="blend_parameters" type="boolean" value="true"/>'))
+    result = run(MXGEN, "inspect", "--slabs", "--drawn", asked, "-e", "CarPaint")
+    drawn = [float(number) for number in re.findall(patterns["text"], result.stdout)]
+    check(len(drawn) == 2 and min(drawn) > 0.2, f"the picture without steps has the step of the document: {result.stdout}")
     alone = folder / "mxgen"
     shutil.copy(MXGEN, alone)
     result = subprocess.run([alone, "inspect", "--slabs", "--drawn", document, "-e", material], env={"PATH": ""}, cwd=folder,

@@ -164,7 +164,7 @@ static void save_closures(struct generation *g)
     slabs_find_spots(&g->result->shader, g->root, &spots);
     struct slab_cost whole = slabs_cost(&g->result->shader, &spots);
     for (uint32_t num = 1; num <= MAX_CLOSURES && num < whole.closures; num++) {
-        struct slab_budget budget = {.max_closures = num, .max_error = -1.0f};
+        struct slab_budget budget = {.max_closures = num, .max_error = -1.0f, .max_steps = -1};
         ir_ref root = build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget,
                                          g->root, &report);
         REQUIRE(report.is_met && report.after.closures == num);
@@ -226,7 +226,7 @@ static void save_error(struct generation *g)
     struct slab_report tight, loose;
     if (!begin(g))
         return;
-    struct slab_budget budget = {.max_error = 0.3f};
+    struct slab_budget budget = {.max_error = 0.3f, .max_steps = -1};
     build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &tight);
     budget.max_error = 5.0f;
     build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &loose);
@@ -244,7 +244,7 @@ static void save_bytes(struct generation *g)
     if (!begin(g))
         return;
     for (uint32_t bytes = 8; bytes <= 64; bytes += 4) {
-        struct slab_budget budget = {.max_bytes = bytes, .max_error = -1.0f};
+        struct slab_budget budget = {.max_bytes = bytes, .max_error = -1.0f, .max_steps = -1};
         build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &report);
         check_steps(&report);
         REQUIRE(report.is_met == (bytes >= 12));
@@ -258,7 +258,7 @@ static void save_nothing(struct generation *g)
     struct slab_report report;
     if (!begin(g))
         return;
-    struct slab_budget budget = {.max_error = -1.0f};
+    struct slab_budget budget = {.max_error = -1.0f, .max_steps = -1};
     uint32_t before = g->result->graph.nodes.len;
     ir_ref root =
         build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &report);
