@@ -88,6 +88,13 @@ static inline void image_finish(struct image *image)
     image->through = NULL;
 }
 
+/* The channel `at` of all channels of the first layer or level. */
+static inline float image_channel(const struct image *image, size_t at)
+{
+    return image->is_float ? ((const float *)image->pixels)[at]
+                           : (float)((const uint8_t *)image->pixels)[at] / 255.0f;
+}
+
 static inline uint32_t image_level_size(uint32_t size, uint32_t level)
 {
     return size >> level ? size >> level : 1;

@@ -7,9 +7,7 @@
 
 static float texel(const struct image *image, uint32_t x, uint32_t y, unsigned channel)
 {
-    size_t at = ((size_t)y * image->width + x) * 4 + channel;
-    return image->is_float ? ((const float *)image->pixels)[at]
-                           : (float)((const uint8_t *)image->pixels)[at] / 255.0f;
+    return image_channel(image, ((size_t)y * image->width + x) * 4 + channel);
 }
 
 /* two adjacent texels of a row or column, and the fraction of the distance to the second */

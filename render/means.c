@@ -5,12 +5,6 @@
 
 #include <stdio.h>
 
-static float channel_of(const struct image *image, size_t at)
-{
-    return image->is_float ? ((const float *)image->pixels)[at]
-                           : (float)((const uint8_t *)image->pixels)[at] / 255.0f;
-}
-
 /* The first texel of part `at`; small images have texels that are in several parts. */
 static uint32_t begin_of(uint32_t at, uint32_t size, uint32_t texels)
 {
@@ -32,7 +26,7 @@ static void mean_of(const struct image *image, uint32_t column, uint32_t row, ui
     for (uint32_t y = top; y < bottom; ++y)
         for (uint32_t x = left; x < right; ++x)
             for (size_t c = 0; c < 4; ++c)
-                sum[c] += (double)channel_of(image, ((size_t)y * image->width + x) * 4 + c);
+                sum[c] += (double)image_channel(image, ((size_t)y * image->width + x) * 4 + c);
     for (size_t c = 0; c < 4; ++c)
         out[c] = (float)(sum[c] / ((double)(right - left) * (double)(bottom - top)));
 }
