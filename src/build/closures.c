@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* What the rooms of closures and slabs ask about the library. */
 #include "build/texels.h"
+#include "slabs/stack.h"
 
 static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 {
@@ -67,6 +68,9 @@ ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, 
 {
     struct slabs_host host = slabs_host(b, closures);
     host.lobes = marked_lobes; /* only the walk ends in storage */
+    /* light walks through one pile of matter, not through a stack of surfaces */
+    if (host.walks && slabs_has_media(b->shader, root))
+        root = slabs_join_stacks(b->shader, &host, root);
     return slabs_walk(b->shader, &host, root);
 }
 

@@ -66,6 +66,8 @@ struct slabs_host {
 
 /* True if a closure or shader has slabs. ref 0: it has none. */
 bool slabs_has(const struct shader *shader, ir_ref ref);
+/* True if light may go into one of its slabs. */
+bool slabs_has_media(const struct shader *shader, ir_ref ref);
 
 /*
  * Replaces all slabs below a root of any type by their lobes. Returns the root itself if it has no

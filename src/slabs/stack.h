@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * stack.c: a stack of layers (docs/slots.md) as one surface, so that a budget can blend its layers:
- * horizontal layers become mixes, vertical ones layers of slabs.
+ * stack.c: a stack of layers (docs/slots.md) as one surface, so that a budget can blend its layers,
+ * and traced light walks through them: horizontal layers become mixes, vertical ones layers of
+ * slabs.
  */
 #ifndef MXG_SLABS_STACK_H
 #define MXG_SLABS_STACK_H

@@ -445,6 +445,17 @@ bool slabs_has(const struct shader *shader, ir_ref ref)
     return ref && find_slabs(shader, ref)[ref];
 }
 
+bool slabs_has_media(const struct shader *shader, ir_ref ref)
+{
+    const struct ir_graph *g = shader->graph;
+    const uint8_t *needed = ref ? ir_mark(g, &ref, 1, shader->arena) : NULL;
+    for (ir_ref at = 1; at <= ref; at++)
+        if (needed[at] && ir_get(g, at)->op == IR_SLAB
+            && !ir_const_is(g, ir_arg(g, at, SLAB_mean_free_path), 0.0f))
+            return true;
+    return false;
+}
+
 ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
