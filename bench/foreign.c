@@ -2,6 +2,7 @@
 #include "bench/foreign.h"
 
 #include "bench/drawn.h"
+#include "cli/files.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -16,22 +17,6 @@ static const struct {
     {"Textures", MXG_BLOCK_TEXTURES},
     {"AppData", MXG_BLOCK_APP_DATA},
 };
-
-static char *read_text(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    char *text = NULL;
-    if (file && fseek(file, 0, SEEK_END) == 0) {
-        long size = ftell(file);
-        text = size >= 0 ? calloc((size_t)size + 1, 1) : NULL;
-        rewind(file);
-        if (text && fread(text, 1, (size_t)size, file) != (size_t)size)
-            bench_fail("%s cannot be read", path);
-    }
-    if (file)
-        fclose(file);
-    return text;
-}
 
 static const char *text_of(const json_t *object, const char *key)
 {
@@ -110,12 +95,12 @@ struct foreign *foreign_open(const char *stem)
     char path[4096];
     json_error_t error;
     json_t *block;
-    size_t i;
+    size_t i, size;
     if (!foreign)
         bench_fail("out of memory");
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         snprintf(path, sizeof path, "%s.%s", stem, endings[stage]);
-        foreign->program.sources[stage] = foreign->sources[stage] = read_text(path);
+        foreign->program.sources[stage] = foreign->sources[stage] = files_read(path, &size);
         if (!foreign->sources[stage]) {
             foreign_close(foreign);
             return NULL;

@@ -39,8 +39,8 @@ static bool make_folder(struct examiner *examiner)
     return examiner->folder != NULL;
 }
 
-/* Which steps of a budget of slabs a picture shows; from 1 on: so many. */
-enum { NO_STEPS = -1, ALL_STEPS = 0 };
+/* So many steps of a budget of slabs a picture shows. */
+enum { NO_STEPS = 0, ALL_STEPS = -1 };
 
 /*
  * Runs the renderer with its output in a file. Returns 0, its exit code, or -1 if it cannot start
@@ -61,7 +61,7 @@ static int run(struct examiner *examiner, const char *element, int steps)
         cli_forward_full(examiner->cli, &args);
     else
         cli_forward(examiner->cli, &args);
-    if (steps > 0)
+    if (steps != ALL_STEPS)
         args_append(&args, cli_format("--max-steps=%d", steps));
     args_append(&args, NULL);
 
@@ -112,9 +112,7 @@ static void fail(struct examiner *examiner, const struct check_element *element,
 /* Resolves an image relative to the document, as the renderer does. */
 static void add_image(struct examiner *examiner, const char *file)
 {
-    const char *document = examiner->document->file, *slash = strrchr(document, '/');
-    int folder = slash && file[0] != '/' ? (int)(slash - document) + 1 : 0;
-    char *path = cli_format("%.*s%s", folder, document, file);
+    char *path = cli_beside(examiner->document->file, file);
     check_add_image(&examiner->store, examiner->document, path);
     free(path);
 }

@@ -262,7 +262,6 @@ void cli_forward(struct cli *cli, struct arg_list *args)
 void cli_forward_full(struct cli *cli, struct arg_list *args)
 {
     forward(cli, false, args);
-    args_append(args, cli_format("--max-steps=0"));
 }
 
 void cli_finish(struct cli *cli)
@@ -411,6 +410,12 @@ char *cli_copy(const char *text, size_t len)
 {
     char *copy = memory_alloc(len + 1);
     return memcpy(copy, text, len);
+}
+
+char *cli_beside(const char *from, const char *file)
+{
+    int folder = file[0] == '/' ? 0 : (int)(files_base_name(from) - from);
+    return cli_format("%.*s%s", folder, from, file);
 }
 
 char *cli_format(const char *format, ...)

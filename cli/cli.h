@@ -70,7 +70,7 @@ void cli_finish(struct cli *cli);
  * generation, and make it print only errors. The caller frees the items.
  */
 void cli_forward(struct cli *cli, struct arg_list *args);
-/* The same without options that make slabs cheaper, and without the steps of the document. */
+/* The same without options that make slabs cheaper. */
 void cli_forward_full(struct cli *cli, struct arg_list *args);
 /* True if there are such options. */
 bool cli_has_budget(const struct cli *cli);
@@ -95,6 +95,9 @@ bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t
 
 /* The file name for an element: its path with dots. The caller frees it. */
 char *cli_file_name(const char *element_path);
+
+/* The path of a file that the file `from` names, relative to its folder. The caller frees it. */
+char *cli_beside(const char *from, const char *file);
 
 /* Another mxgen program: its path beside this one, else its name, for PATH. The caller frees it. */
 char *cli_program(const char *name);

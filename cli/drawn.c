@@ -76,10 +76,8 @@ static char *draw(struct cli *cli, const char *document, const char *element, un
     args_append(&args, cli_format("--mesh=sphere"));
     args_append(&args, cli_format("--missing-texture=checker"));
     cli_forward_full(cli, &args);
-    if (max_closures) {
-        args_append(&args, cli_format("--max-steps=-1"));
-        args_append(&args, cli_format("--max-closures=%u", max_closures));
-    }
+    args_append(&args, max_closures ? cli_format("--max-closures=%u", max_closures)
+                                    : cli_format("--max-steps=0"));
     args_append(&args, NULL);
     bool good = cli_run(&cli->report, (char *const *)(uintptr_t)args.items, &status);
     if (good && status != 0)

@@ -8,7 +8,6 @@
 #include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,8 +34,10 @@ static pid_t start(char *const *arguments, int to, int from)
 static bool read_all(int pipe_end, void *out, size_t size)
 {
     FILE *stream = fdopen(pipe_end, "rb");
-    if (!stream)
+    if (!stream) {
+        close(pipe_end);
         return false;
+    }
     bool good = fread(out, 1, size, stream) == size && fgetc(stream) == EOF;
     fclose(stream);
     return good;
@@ -63,11 +64,9 @@ bool cli_read_texels(void *user_data, const char *from, const char *file, const 
 {
     (void)user_data;
     struct arg_list args = {0};
-    const char *slash = strrchr(from, '/');
-    int folder = slash && file[0] != '/' ? (int)(slash - from) + 1 : 0;
     args_append(&args, cli_program("mxgen-render"));
     args_append(&args, cli_format(CLI_TEXELS));
-    args_append(&args, cli_format("%.*s%s", folder, from, file));
+    args_append(&args, cli_beside(from, file));
     args_append(&args, cli_format("%s", layer));
     args_append(&args, cli_format("%u", (unsigned)size));
     args_append(&args, NULL);

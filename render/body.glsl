@@ -113,7 +113,6 @@ uint side_of(Hit hit, vec3 direction)
 
 #ifdef MATTER
 
-
 bool is_of_body(Path path, Hit hit)
 {
     return path.medium.body / 2u == corners[hit.triangle * 3u].object + 1u;

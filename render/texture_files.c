@@ -3,6 +3,7 @@
  * The files of a document's texture as one image: the current frame, its file layer, its tiles; the
  * default colour if there is no file.
  */
+#include "cli/cli.h"
 #include "render/bind.h"
 
 #include <stdio.h>
@@ -79,14 +80,10 @@ static void warn_bad_pixels(struct bind *bind, const char *path, const struct im
              path, (unsigned long long)image->num_bad);
 }
 
-/* Files are relative to the document. */
-static bool read_file(struct bind *bind, const struct texture *texture, const char *file,
+static bool read_path(struct bind *bind, const struct texture *texture, const char *path,
                       struct image *out, bool *out_checker)
 {
-    const char *slash = strrchr(bind->document, '/');
-    int folder = slash && file[0] != '/' ? (int)(slash - bind->document) + 1 : 0;
-    char path[4096], reason[256];
-    snprintf(path, sizeof path, "%.*s%s", folder, bind->document, file);
+    char reason[256];
     if (bind->files && outputs_has(bind->files, path)) {
         bind->id = "output-clash";
         snprintf(bind->reason, sizeof bind->reason,
@@ -101,6 +98,15 @@ static bool read_file(struct bind *bind, const struct texture *texture, const ch
     *out_checker = true;
     return add_fault(bind, texture, path, reason)
            && (make_checker(out) || fail(bind, "out of memory"));
+}
+
+static bool read_file(struct bind *bind, const struct texture *texture, const char *file,
+                      struct image *out, bool *out_checker)
+{
+    char *path = cli_beside(bind->document, file);
+    bool good = read_path(bind, texture, path, out, out_checker);
+    free(path);
+    return good;
 }
 
 static bool read_tile(struct bind *bind, uint32_t index, const struct texture *texture,

@@ -231,10 +231,8 @@ static bool read_map(struct lamp *lamp, struct image *out)
         || mxg_scene_word(lamp->stage->scene, lamp->primitive, name, 0, file, sizeof file) < 3)
         return environment_make_plain(1, out);
     size_t marks = strncmp(file, "@@@", 3) == 0 ? 3 : 1, len = strlen(file);
-    const char *slash = strrchr(lamp->stage->file, '/');
-    int folder = slash && file[marks] != '/' ? (int)(slash + 1 - lamp->stage->file) : 0;
-    char *path =
-        cli_format("%.*s%.*s", folder, lamp->stage->file, (int)(len - 2 * marks), file + marks);
+    file[len - marks] = '\0';
+    char *path = cli_beside(lamp->stage->file, file + marks);
     bool good = environment_read(path, out, reason, sizeof reason);
     if (!good)
         stage_fail(lamp->stage, lamp->primitive, name, "cannot be used: %s", reason);

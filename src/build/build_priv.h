@@ -258,9 +258,11 @@ str_id build_colorspace(struct builder *b, elem_id element);
 ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
                              const struct port *port);
 
+/* texture.c: the file of the document that has an element; "": the library has it. */
+const char *build_file_of(const struct builder *b, elem_id element);
 /* Why a sandbox does not let the document refer to a texture; NULL: it may. */
 const char *build_texture_fault(const struct builder *b, str_id file, elem_id element);
-/* texture.c: a variable for the file of `variable`. */
+/* A variable for the file of `variable`. */
 ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id element);
 /*
  * Records how a node reads its textures before the node is built. Replaces its arguments by

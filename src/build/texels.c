@@ -13,16 +13,13 @@ struct texels {
 static bool read_texels(const struct builder *b, const struct shader_variable *variable,
                         float *out_texels)
 {
-    const struct document *doc = build_doc(b);
     const struct build_options *o = b->options;
-    const char *from = NULL;
     if (!variable->file || variable->num_tiles
         || build_texture_fault(b, variable->file, variable->element))
         return false;
-    if (variable->element >= doc->first_element)
-        from = doc_place(doc, variable->element).file;
-    return o->read_texels(o->texels_user_data, from ? from : "", build_text(b, variable->file),
-                          build_text(b, variable->sampling.layer), SLABS_TEXELS, out_texels);
+    return o->read_texels(o->texels_user_data, build_file_of(b, variable->element),
+                          build_text(b, variable->file), build_text(b, variable->sampling.layer),
+                          SLABS_TEXELS, out_texels);
 }
 
 const float *build_texels(struct builder *b, uint32_t variable)

@@ -13,13 +13,18 @@
 
 #include <stddef.h>
 
-const char *build_texture_fault(const struct builder *b, str_id file, elem_id element)
+const char *build_file_of(const struct builder *b, elem_id element)
 {
     const struct document *doc = build_doc(b);
-    if (!b->options->texture_fault || !file || element < doc->first_element)
+    const char *file = element < doc->first_element ? NULL : doc_place(doc, element).file;
+    return file ? file : "";
+}
+
+const char *build_texture_fault(const struct builder *b, str_id file, elem_id element)
+{
+    if (!b->options->texture_fault || !file || element < build_doc(b)->first_element)
         return NULL;
-    const char *from = doc_place(doc, element).file;
-    return b->options->texture_fault(b->options->texture_user_data, from ? from : "",
+    return b->options->texture_fault(b->options->texture_user_data, build_file_of(b, element),
                                      build_text(b, file));
 }
 
