@@ -22,47 +22,61 @@ float mx_power5(float x)
     return x * x * x * x * x;
 }
 
+// Share of the smooth surface.
+float mx_chan_smoothness(float g)
+{
+    return clamp(2.2 * g - 0.5, 0.0, 1.0);
+}
+
 // Height and fall of the bump of light that a rough surface sends back.
 vec2 mx_chan_bump(float g)
 {
     return vec2((34.5 * g - 59.0) * g + 24.5, max(73.2 * g - 21.2, 8.9));
 }
 
-// The program fits/chan.c makes the constants; within 0.0012.
-float mx_chan_albedo(float c, float g)
+// What a smooth surface lets in or out.
+float mx_chan_even(float c)
+{
+    return 1.0 - 0.75 * mx_power5(1.0 - c);
+}
+
+// 1 / (pi times the directional albedo). The program fits/chan.c makes the constants; within 0.0012.
+float mx_chan_share(float c, float g)
 {
     const mat4 FIT = mat4(0.7111, 0.0005, 0.4749, 0.0263, 0.1526, 0.0031, 1.0260, -0.7185, 0.1026, -0.0048, -2.2232, 0.3473,
                           -0.0538, 0.0016, 2.0696, -0.4921);
     vec4 fit = FIT * vec4(1.0, c, c * c, c * c * c);
     vec2 bump = mx_chan_bump(g);
-    float even = 0.9642857 - 0.7232143 * mx_power5(1.0 - c); // of the smooth surface: exact
-    return mix(fit.x, even, clamp(2.2 * g - 0.5, 0.0, 1.0)) + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c);
+    float even = 27.0 / 28.0 * mx_chan_even(c); // exact: the mean of (1 - x)^5 is 1/21
+    float albedo = mix(fit.x, even, mx_chan_smoothness(g)) + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c);
+    return 1.0 / (MX_PI * albedo);
+}
+
+// The lobe for a light whose half vector is cos_d from V, times the directional albedo; `even` is what the viewer sees of a smooth surface.
+float mx_chan_lobe(float g, float cos_v, float cos_l, float cos_d, float even)
+{
+    vec2 bump = mx_chan_bump(g);
+    float cos_h = min((cos_l + cos_v) / (2.0 * cos_d), 1.0); // V + L is 2 cos_d long
+    float rough = cos_d + mx_power5(1.0 - cos_d);
+    return max(mix(rough, even * mx_chan_even(cos_l), mx_chan_smoothness(g)) + bump.x * cos_d * exp2(-bump.y * sqrt(cos_h)), 0.0);
 }
 
 // The lobe times the light's cosine, for albedo 1.
-float mx_chan(float roughness, vec3 N, vec3 V, vec3 L)
+float mx_chan(float g, vec3 N, vec3 V, vec3 L)
 {
-    float g = mx_chan_gloss(roughness);
-    float cos_l = max(dot(N, L), 0.0);
     float cos_v = mx_view_cosine(N, V);
-    float cos_d = sqrt(max(0.5 + 0.5 * dot(V, L), MX_EPSILON)); // between V and the half vector, whose length is 2 cos_d
-    float cos_h = min((cos_l + cos_v) / (2.0 * cos_d), 1.0);
-    vec2 bump = mx_chan_bump(g);
-    float even = (1.0 - 0.75 * mx_power5(1.0 - cos_v)) * (1.0 - 0.75 * mx_power5(1.0 - cos_l));
-    float lobe = mix(cos_d + mx_power5(1.0 - cos_d), even, clamp(2.2 * g - 0.5, 0.0, 1.0))
-               + bump.x * cos_d * exp2(-bump.y * sqrt(cos_h));
-    return max(lobe, 0.0) * cos_l / (MX_PI * mx_chan_albedo(cos_v, g));
+    float cos_l = mx_facing_cosine(N, V, L);
+    return mx_chan_lobe(g, cos_v, cos_l, mx_half_cosine(V, L), mx_chan_even(cos_v)) * cos_l * mx_chan_share(cos_v, g);
 }
 
 // Around where the lobe receives light: the normal, bent towards the viewer as far as the mean direction of the lobe, within 0.023 radians by
 // the program fits/chan.c. A smooth surface does not bend it.
-vec3 mx_chan_axis(float roughness, vec3 N, vec3 V)
+vec3 mx_chan_axis(float g, vec3 N, vec3 V)
 {
-    float g = mx_chan_gloss(roughness);
-    float s = clamp(2.2 * g - 0.5, 0.0, 1.0);
+    float s = mx_chan_smoothness(g);
     float c = mx_view_cosine(N, V);
     float bend = (0.4353 + c * (-0.7155 + 0.5624 * c)) * ((1.0 - 1.0850 * g) * (1.0 - 1.1414 * s * s));
-    return N + bend * V;
+    return mx_facing(N, V) + bend * V;
 }
 
 // ---- media -----------------------------------------------------------------------------------------------------------
@@ -221,17 +235,22 @@ vec3 mx_slab_film_at(vec3 f0, float thickness, float ior, float cosine)
 
 // ---- slab_medium_bsdf ------------------------------------------------------------------------------------------------
 
+// Reciprocal, with the albedo of the viewer's way.
+vec3 mx_slab_thin_light(vec3 color, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 N, vec3 V, vec3 L)
+{
+    return mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V))
+         / max(mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, MX_MEAN_WAY), MX_EPSILON)
+         * (mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, L)) * mx_cosine_pdf(mx_facing(N, V), L));
+}
+
 vec3 mx_slab_medium_bsdf_eval(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                               vec3 N, vec3 V, vec3 L)
 {
-    vec3 Nf = mx_facing(N, V);
     if (mx_is_black(color))
         return vec3(0.0);
     if (mx_is_black(mean_free_path))
-        return color * mx_chan(roughness, Nf, V, L);
-    // reciprocal, with the albedo of the viewer's way
-    return mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V)) * mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, L))
-         / max(mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, MX_MEAN_WAY), MX_EPSILON) * mx_cosine_pdf(Nf, L);
+        return color * mx_chan(mx_chan_gloss(roughness), N, V, L);
+    return mx_slab_thin_light(color, mean_free_path, phase_anisotropy, thickness, N, V, L);
 }
 
 vec3 mx_slab_medium_bsdf_albedo(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
@@ -279,7 +298,7 @@ vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free
         return mx_lobe_light(L, weight, pdf);
     }
     vec3 light = mx_slab_medium_bsdf_albedo(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V)
-               * mx_environment_irradiance(mx_is_black(mean_free_path) ? mx_chan_axis(roughness, mx_facing(N, V), V) : mx_facing(N, V));
+               * mx_environment_irradiance(mx_is_black(mean_free_path) ? mx_chan_axis(mx_chan_gloss(roughness), N, V) : mx_facing(N, V));
     return mx_is_black(color) ? vec3(0.0) : light; // without a branch, which would stand in the loop over samples
 }
 

@@ -115,6 +115,12 @@ vec3 mx_medium_layer(const float way, out vec3 transmitted)
     return s * ways / below;
 }
 
+vec3 mx_medium_reflected(const float way)
+{
+    vec3 ignored;
+    return mx_medium_layer(way, ignored);
+}
+
 // The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
 // the product of both roughnesses.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
@@ -131,12 +137,6 @@ float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
     return area / 6.2831855 * square * square * cos_l
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
-}
-
-vec3 mx_medium_reflected(const float way)
-{
-    vec3 ignored;
-    return mx_medium_layer(way, ignored);
 }
 
 // An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
@@ -237,9 +237,9 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // metal
     float c = dot(N, V);
-    float cosine = max(abs(c), 1e-8);
+    float c_2 = max(abs(c), 1e-8);
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cosine + 0.01), cosine);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (c_2 + 0.01), c_2);
     float coat_reflection_scale = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_greater = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_scale, 0.0);
@@ -257,13 +257,13 @@ void main()
     vec3 difference = blended_coat_bare_throughput - ratio;
     vec3 color = (ratio + difference) * vec3(0.0, 0.1, 0.0);
     // lights
-    vec3 Nf = faceforward(N, -V, N);
-    float scaled_cosine = cosine * cosine;
-    mx_GgxLobe coat_reflection_vector = mx_GgxLobe(Nf, cosine, vec3(0.0), vec2(0.01),
-        sqrt(scaled_cosine * 0.9999 + 0.00010000001));
-    vec3 milk_medium_transmitted;
-    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cosine + 0.25071993), cosine);
+    vec3 N_2 = faceforward(N, -V, N);
+    float scaled_c_2 = c_2 * c_2;
+    mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, c_2, vec3(0.0), vec2(0.01),
+        sqrt(scaled_c_2 * 0.9999 + 0.00010000001));
+    vec3 slab_medium_bsdf_albedo = mx_medium_reflected(way);
+    vec3 scaled_slab_medium_bsdf_albedo = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (c_2 + 0.25071993), c_2);
     float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
         * milk_reflection_scale, 0.0);
@@ -273,12 +273,14 @@ void main()
         - milk_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
     vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
     vec3 milk_medium_steady = milk_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cosine + 0.29886922), cosine);
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (c_2 + 0.29886922), c_2);
     vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
         + vec3(1.0);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
-    mx_GgxLobe metal_reflection_vector = mx_GgxLobe(Nf, cosine, vec3(0.0), vec2(0.29886922),
-        sqrt(scaled_cosine * 0.9106772 + 0.08932281));
+    mx_GgxLobe metal_reflection_vector = mx_GgxLobe(N_2, c_2, vec3(0.0), vec2(0.29886922),
+        sqrt(scaled_c_2 * 0.9106772 + 0.08932281));
+    vec3 milk_medium_transmitted;
+    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
     vec3 milk_bare_product = milk_reflection_throughput
         * (milk_medium_transmitted / (vec3(1.0)
         - min(mix(metal_constant, vec3(1.0), metal_reflection_albedo.y) * metal_reflection_albedo.x
@@ -290,8 +292,8 @@ void main()
         - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
     vec3 metal_reflection_ratio = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
     vec3 metal_reflection_steady = blended_coat_bare_throughput * milk_bare_product - metal_reflection_ratio;
-    mx_GgxLobe milk_reflection_vector = mx_GgxLobe(Nf, cosine, vec3(0.0), vec2(0.25071993),
-        sqrt(scaled_cosine * 0.9371395 + 0.0628605));
+    mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, c_2, vec3(0.0), vec2(0.25071993),
+        sqrt(scaled_c_2 * 0.9371395 + 0.0628605));
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -314,30 +316,28 @@ void main()
             }
         }
         // metal_reflection, milk_reflection, milk_medium, coat_reflection
-        float cosine_2 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
-        float c_2 = dot(N, L);
-        float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
-        vec3 milk_medium_transmitted_2;
-        vec3 milk_medium_2 = mx_medium_layer(way_2, milk_medium_transmitted_2);
-        vec3 milk_medium_ratio_2 = milk_medium * milk_medium_2 / vec3(0.10193972, 0.102937125, 0.103155464);
+        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
+        float c_3 = dot(N, L);
+        float way_2 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
+        vec3 milk_medium_response = scaled_slab_medium_bsdf_albedo
+            * (mx_medium_reflected(way_2) * (max(dot(L, N_2), 0.0) / 3.1415927 * milk_medium_weight));
         vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_ratio
             * pow(metal_reflection_decay, vec3(way_2));
         vec3 metal_reflection_product = mx_ggx_light_2(metal_reflection_vector, V, L) * metal_reflection_weight;
         vec3 milk_reflection_weight = difference + ratio * pow(clamped, vec3(way_2));
         vec3 milk_reflection_response = fresnel
             * (milk_reflection_weight * (milk_reflection_scale * mx_ggx_light_2(milk_reflection_vector, V, L)));
-        vec3 sum = metal_reflection_scale * (mx_fresnel_schlick(cosine_2, metal_constant) * metal_reflection_product)
-            + milk_reflection_response;
-        vec3 sum_2 = milk_medium_ratio_2 * (max(dot(L, Nf), 0.0) / 3.1415927 * milk_medium_weight) + sum;
+        vec3 sum = milk_medium_response + (metal_reflection_scale
+            * (mx_fresnel_schlick(cosine, metal_constant) * metal_reflection_product) + milk_reflection_response);
         color += u_lightData[i].color * (intensity
-            * (fresnel * (mx_ggx_light(coat_reflection_vector, V, L) * (coat_reflection_scale * 0.5)) + sum_2));
+            * (fresnel * (mx_ggx_light(coat_reflection_vector, V, L) * (coat_reflection_scale * 0.5)) + sum));
     }
     // environment
     // milk_medium
-    vec3 milk_medium_product = mx_medium_reflected(way)
-        * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
+    vec3 milk_medium_product = slab_medium_bsdf_albedo
+        * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N_2)), 0.0).xyz;
     color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
         * milk_medium_product);
     // metal_reflection

@@ -162,6 +162,19 @@ vec3 mx_medium_reflected(const float way)
     return mx_medium_layer(way, ignored);
 }
 
+float mx_way(const vec3 N, const vec3 V)
+{
+    float c = dot(N, V);
+    return 1.5 * inversesqrt(1.25 + c * c);
+}
+
+// Reciprocal, with the albedo of the viewer's way.
+vec3 mx_slab_thin_light(const vec3 N, const vec3 V, const vec3 L)
+{
+    return mx_medium_reflected(mx_way(N, V)) / vec3(0.10193972, 0.102937125, 0.103155464)
+        * (mx_medium_reflected(mx_way(N, L)) * (max(dot(faceforward(N, -V, N), L), 0.0) / 3.1415927));
+}
+
 float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, const vec3 L)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -237,11 +250,11 @@ void scatter()
     bool is_equal = choice == 1.0;
     // milk
     float way = inversesqrt(c * c + 1.25) * 1.5;
-    vec3 Nf = faceforward(N, -vd.viewWorld, N);
-    mat3 any_frame = mx_frame(Nf, abs(Nf.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+    vec3 N_2 = faceforward(N, -vd.viewWorld, N);
+    mat3 any_frame = mx_frame(N_2, abs(N_2.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
     vec2 product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
     vec3 L_2 = any_frame * vec3(product, sqrt(1.0 - vd.random.x));
-    float pdf = max(dot(Nf, L_2), 0.0) / 3.1415927;
+    float pdf = max(dot(N_2, L_2), 0.0) / 3.1415927;
     if (is_equal) {
         vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
         float greater_3 = max(dot(coat_medium_throughput, vec3(0.33333334)), 0.0);
@@ -295,11 +308,7 @@ void scatter()
         if (vd.random.w * sum_6 < sum_5) {
             L = L_2;
             inside = 0.0;
-            float milk_medium_c = dot(N, L_2);
-            vec3 weight_2 = pdf * (mx_medium_reflected(way)
-                * mx_medium_reflected(inversesqrt(milk_medium_c * milk_medium_c + 1.25) * 1.5)
-                / vec3(0.10193972, 0.102937125, 0.103155464)) / max(pdf, 1e-8);
-            weight = weight_2 * (sum_6 / sum_5);
+            weight = mx_slab_thin_light(N, vd.viewWorld, L_2) / max(pdf, 1e-8) * (sum_6 / sum_5);
             density = pdf * (sum_5 / sum_6);
         }
     }
@@ -335,7 +344,7 @@ void scatter()
     out4 = vec4(medium, 0.0);
     float cosine = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0));
     vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
-    mat3 frame = mx_frame(Nf, X);
+    mat3 frame = mx_frame(N_2, X);
     float sum_9 = vd.lightWorld.w * (sum / sum_2 * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
     vec3 ratio = fresnel * (coat_reflection_ggx_compensation
         * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_9;

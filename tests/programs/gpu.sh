@@ -50,4 +50,43 @@ check 'passes are generated' exits 0 "$mxgen" pipeline passes
 check 'a pass compiles' exits 0 glslangValidator -V passes/light_complex.comp -o pass.spv
 statistics_of pass.spv
 check 'light_complex: registers' test "$(ours VGPRs)" -le 160
+
+# One slab costs no more than a dielectric over a diffuse closure that conserves energy, too.
+cat >slab.mtlx <<'END'
+<materialx version="1.39">
+  <slab name="matter" type="BSDF">
+    <input name="diffuse_albedo" type="color3" value="0.6, 0.3, 0.1"/>
+    <input name="f0" type="color3" value="0.04, 0.04, 0.04"/>
+    <input name="roughness" type="float" value="0.5"/>
+  </slab>
+  <slab_surface name="slab" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="matter"/></slab_surface>
+  <dielectric_bsdf name="interface" type="BSDF">
+    <input name="ior" type="float" value="1.5"/>
+    <input name="roughness" type="vector2" value="0.25, 0.25"/>
+  </dielectric_bsdf>
+  <oren_nayar_diffuse_bsdf name="diffuse" type="BSDF">
+    <input name="color" type="color3" value="0.6, 0.3, 0.1"/>
+    <input name="roughness" type="float" value="0.5"/>
+    <input name="energy_compensation" type="boolean" value="true"/>
+  </oren_nayar_diffuse_bsdf>
+  <layer name="both" type="BSDF">
+    <input name="top" type="BSDF" nodename="interface"/>
+    <input name="base" type="BSDF" nodename="diffuse"/>
+  </layer>
+  <surface name="layers" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></surface>
+</materialx>
+END
+for interface in complete reduced; do
+    check "a slab and layers are generated: $interface" exits 0 "$mxgen" slab.mtlx --target vulkan --interface $interface -o one
+    for shader in slab layers; do
+        for stage in vert frag; do
+            check "$shader compiles: $interface" exits 0 glslangValidator -V one/$shader.$stage -o $stage.spv
+        done
+        statistics_of vert.spv frag.spv
+        cp statistics $shader.statistics
+    done
+    for figure in 'Instructions' 'VGPRs' 'Inverse Throughput'; do
+        check "a slab against layers: $interface, $figure" test "$(sed -n "s/^$figure=//p" slab.statistics)" -le "$(sed -n "s/^$figure=//p" layers.statistics)"
+    done
+done
 finish gpu
