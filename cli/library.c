@@ -104,7 +104,7 @@ static const struct action {
     bool has_notes;             /* prints the notes of loading, which are otherwise hidden */
 } actions[] = {{"pack", pack, .has_output = true},
                {"list", list, .has_words = true, .has_notes = true},
-               {"expand", expand, .has_output = true},
+               {"expand", expand, .on_builtin = true, .has_output = true},
                {"doc", library_doc, true, true, true}};
 #define NUM_ACTIONS (sizeof actions / sizeof *actions)
 

@@ -541,6 +541,17 @@ check 'lacks an input' eval '[ "$(grep -c "expand-loss" err)" = 1 ] && grep -q "
 check 'as its comment says' grep -q '<!-- Without a part in this graph: glow -->' graphs.mtlx
 check 'an error on demand' exits 1 "$mxgen" library expand --no-builtin-library both.mtlx -o graphs.mtlx -Werror=expand-loss
 check 'none without code' eval 'sed -i "/IM_grey/d" both.mtlx && exits 0 "$mxgen" library expand --no-builtin-library both.mtlx -o graphs.mtlx && test ! -s err'
+cat >coat.mtlx <<'X'
+<materialx version="1.39">
+  <nodedef name="ND_paint" node="paint"><input name="color" type="color3" value="1, 0, 0"/><output name="out" type="BSDF"/></nodedef>
+  <nodegraph name="NG_paint" nodedef="ND_paint">
+    <slab name="a" type="BSDF"><input name="diffuse_albedo" type="color3" interfacename="color"/></slab>
+    <output name="out" type="BSDF" nodename="a"/>
+  </nodegraph>
+</materialx>
+X
+check 'a library of built-in nodes is expanded' exits 0 "$mxgen" library expand coat.mtlx -o graphs.mtlx -Werror
+check 'alone' test "$(grep -c '<nodedef' graphs.mtlx)" = 1
 cat >extra.mtlx <<'X'
 <?xml version="1.0"?>
 <materialx version="1.39">
