@@ -246,10 +246,10 @@ vec3 mx_slab_thin_light(vec3 color, vec3 mean_free_path, float phase_anisotropy,
 vec3 mx_slab_medium_bsdf_eval(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                               vec3 N, vec3 V, vec3 L)
 {
-    if (mx_is_black(color))
-        return vec3(0.0);
     if (mx_is_black(mean_free_path))
         return color * mx_chan(mx_chan_gloss(roughness), N, V, L);
+    if (mx_is_black(color))
+        return vec3(0.0);
     return mx_slab_thin_light(color, mean_free_path, phase_anisotropy, thickness, N, V, L);
 }
 

@@ -119,7 +119,7 @@ static void set_build_options(struct generation *g)
                 ? o[OPTION_sss].number
                 : 0,
         .marks_slabs = generation_stores(g),
-        .blurs = generation_stores(g) && !generation_packs(g) && o[OPTION_rough_refraction].number,
+        .blurs = !generation_packs(g) && o[OPTION_rough_refraction].number,
         .mattes = o[OPTION_mattes].number != 0,
         .occlusion = o[OPTION_integrator].number == 2      ? OCCLUSION_TRACED
                      : g->result->target->closures != NULL ? OCCLUSION_PRIMVAR

@@ -11,29 +11,35 @@
  * cover the space between them.
  *
  * IR nodes that do not depend on texture coordinates stay unchanged.
+ *
+ * Around a point of a surface, in place of texture coordinates, all that changes over the surface
+ * moves, along two axes of the surface: its change by a pixel, over that of the position.
  */
-#include "build/build_priv.h"
+#include "build/recorder.h"
 
 enum { POINTS = 3, TAPS = POINTS * POINTS, MAX_MOVED = 2000 };
+enum { KERNEL_BOX, KERNEL_GAUSSIAN };
 
 static const struct kernel {
     const char *name;
     float node, side, middle; /* the outer node, in sizes; the weights */
 } kernels[] = {
     /* Gauss-Legendre: sqrt(3/5) of half the size */
-    {"box", 0.38729833f, 5.0f / 18.0f, 8.0f / 18.0f},
+    [KERNEL_BOX] = {"box", 0.38729833f, 5.0f / 18.0f, 8.0f / 18.0f},
     /* Gauss-Hermite: sqrt(3) standard deviations; a size is six of them */
-    {"gaussian", 0.28867513f, 1.0f / 6.0f, 4.0f / 6.0f},
+    [KERNEL_GAUSSIAN] = {"gaussian", 0.28867513f, 1.0f / 6.0f, 4.0f / 6.0f},
 };
 
 struct blur {
     struct builder *b;
     const uint8_t *needed;
     ir_ref in;
-    ir_ref offsets[TAPS][2];
+    ir_ref offsets[TAPS][2]; /* of texture coordinates, or along the axes of the surface */
+    ir_ref skew;   /* of the axes: how much of x is in a step down the picture; 0: no surface */
     ir_ref *moved; /* TAPS per node: 0 if it does not depend on texture coordinates */
     uint32_t num_moved;
-    bool is_unknown; /* it depends on an argument of the function around it */
+    bool is_unknown;  /* it depends on an argument of the function around it */
+    bool is_of_layer; /* it depends on another layer of an OSL network */
 };
 
 static const struct kernel *find_kernel(const struct builder *b, ir_ref filtertype)
@@ -45,17 +51,17 @@ static const struct kernel *find_kernel(const struct builder *b, ir_ref filterty
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
         if (strcmp(name, kernels[i].name) == 0)
             return &kernels[i];
-    return &kernels[0];
+    return &kernels[KERNEL_BOX];
 }
 
-static void set_offsets(struct blur *blur, const struct kernel *kernel, ir_ref size)
+static void set_offsets(struct blur *blur, const struct kernel *kernel, ir_ref x, ir_ref y)
 {
     struct ir_graph *g = blur->b->graph;
     for (int tap = 0; tap < TAPS; tap++)
         for (int axis = 0; axis < 2; axis++) {
             int step = (axis == 0 ? tap % POINTS : tap / POINTS) - 1;
             blur->offsets[tap][axis] =
-                ir_op2(g, IR_MUL, size, ir_const_float(g, (float)step * kernel->node));
+                ir_op2(g, IR_MUL, axis == 0 ? x : y, ir_const_float(g, (float)step * kernel->node));
         }
 }
 
@@ -64,13 +70,14 @@ static ir_ref *moved_of(const struct blur *blur, ir_ref ref)
     return &blur->moved[(size_t)ref * TAPS];
 }
 
-static bool is_texcoord(const struct blur *blur, const struct ir_node *node)
+static bool is_moved(const struct blur *blur, const struct ir_node *node)
 {
     const struct shader *shader = blur->b->shader;
-    return node->op == IR_STREAM
-           && strncmp(str_text(shader->strings, shader->variables.items[node->attr].name),
-                      "texcoord_", 9)
-                  == 0;
+    if (node->op != IR_STREAM || blur->skew)
+        return node->op == IR_STREAM && ir_type_is_float(node->type);
+    return strncmp(str_text(shader->strings, shader->variables.items[node->attr].name), "texcoord_",
+                   9)
+           == 0;
 }
 
 static void move_texcoord(struct blur *blur, ir_ref ref)
@@ -81,6 +88,20 @@ static void move_texcoord(struct blur *blur, ir_ref ref)
         ir_ref parts[3] = {blur->offsets[tap][0], blur->offsets[tap][1], ir_const_float(g, 0.0f)};
         ir_ref offset = ir_construct(g, type, parts, ir_type_info(type)->components);
         moved_of(blur, ref)[tap] = ir_op2(g, IR_ADD, ref, offset);
+    }
+}
+
+/* The axes of the surface are the steps of a pixel to the right, and down without a part of that.
+ */
+static void move_stream(struct blur *blur, ir_ref ref)
+{
+    struct ir_graph *g = blur->b->graph;
+    ir_ref right = ir_op1(g, IR_DFDX, ref), down = ir_op1(g, IR_DFDY, ref);
+    down = ir_op2(g, IR_SUB, down, ir_op2(g, IR_MUL, right, blur->skew));
+    for (int tap = 0; tap < TAPS; tap++) {
+        ir_ref x = ir_op2(g, IR_MUL, right, blur->offsets[tap][0]),
+               y = ir_op2(g, IR_MUL, down, blur->offsets[tap][1]);
+        moved_of(blur, ref)[tap] = ir_op2(g, IR_ADD, ref, ir_op2(g, IR_ADD, x, y));
     }
 }
 
@@ -149,7 +170,7 @@ static void move_node(struct blur *blur, ir_ref ref)
 static bool follows_texcoord(const struct blur *blur, ir_ref ref)
 {
     const struct ir_node *node = ir_get(blur->b->graph, ref);
-    bool follows = is_texcoord(blur, node);
+    bool follows = is_moved(blur, node);
     for (uint32_t i = 0; i < node->num_args && !follows; i++)
         follows = moved_of(blur, ir_arg(blur->b->graph, ref, i))[0] != 0;
     return follows;
@@ -159,9 +180,13 @@ static void move(struct blur *blur, ir_ref ref)
 {
     const struct ir_node *node = ir_get(blur->b->graph, ref);
     blur->is_unknown |= node->op == IR_PARAM;
+    blur->is_of_layer |= node->op == IR_STREAM && blur->b->recorded
+                         && recorder_layer_of(blur->b->recorded, node->attr);
     if (!follows_texcoord(blur, ref) || ++blur->num_moved > MAX_MOVED)
         return;
-    if (node->op == IR_STREAM)
+    if (node->op == IR_STREAM && blur->skew)
+        move_stream(blur, ref);
+    else if (node->op == IR_STREAM)
         move_texcoord(blur, ref);
     else if (node->op == IR_TEX)
         move_texture(blur, ref);
@@ -184,29 +209,62 @@ static ir_ref sum(struct blur *blur, const struct kernel *kernel)
     return total;
 }
 
+static ir_ref stay_sharp(struct builder *b, ir_ref in, elem_id node, const char *why)
+{
+    const struct document *doc = &b->lib->doc;
+    diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(doc, node),
+             build_text(b, doc_element(doc, node)->category), why);
+    return in;
+}
+
+/* The mean; `in` itself, after a message about a node, where it cannot be moved. */
+static ir_ref mean(struct blur *blur, const struct kernel *kernel, elem_id node)
+{
+    struct builder *b = blur->b;
+    ir_ref in = blur->in;
+    blur->needed = ir_mark(b->graph, &in, 1, b->arena);
+    blur->moved = ARENA_ARRAY(b->arena, ir_ref, ((size_t)in + 1) * TAPS);
+    for (ir_ref ref = 1; ref <= in && blur->num_moved <= MAX_MOVED; ref++)
+        if (blur->needed[ref])
+            move(blur, ref);
+    if (b->recorder || blur->is_of_layer)
+        return stay_sharp(b, in, node,
+                          "a layer of an OSL network cannot evaluate it at other places");
+    if (blur->num_moved > MAX_MOVED)
+        return stay_sharp(b, in, node, "it is too large to evaluate nine times");
+    if (blur->is_unknown)
+        return stay_sharp(b, in, node,
+                          "its graph became a function of the shader, because many nodes use it");
+    return moved_of(blur, in)[0] ? sum(blur, kernel) : in;
+}
+
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node)
 {
-    if (!in || ir_const_is(b->graph, size, 0.0f))
+    if (!in || ir_is_const(b->graph, in) || ir_const_is(b->graph, size, 0.0f))
         return in;
-    if (b->recorder && !ir_is_const(b->graph, in)) {
-        diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node),
-                 "a layer of an OSL network cannot evaluate its input at other places");
-        return in;
-    }
     const struct kernel *kernel = find_kernel(b, filtertype);
     struct blur blur = {.b = b, .in = in};
-    blur.needed = ir_mark(b->graph, &in, 1, b->arena);
-    blur.moved = ARENA_ARRAY(b->arena, ir_ref, ((size_t)in + 1) * TAPS);
-    set_offsets(&blur, kernel, size);
-    for (ir_ref ref = 1; ref <= in && blur.num_moved <= MAX_MOVED; ref++)
-        if (blur.needed[ref])
-            move(&blur, ref);
-    if (blur.num_moved > MAX_MOVED || blur.is_unknown) {
-        diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node),
-                 blur.is_unknown
-                     ? "its graph became a function of the shader, because many nodes use it"
-                     : "its input is too large to evaluate nine times");
-        return in;
-    }
-    return moved_of(&blur, in)[0] ? sum(&blur, kernel) : in;
+    set_offsets(&blur, kernel, size, size);
+    return mean(&blur, kernel, node);
+}
+
+/* Over the length of a vector that may be 0. */
+static ir_ref over_length(struct ir_graph *g, ir_ref a, ir_ref vector)
+{
+    ir_ref least = ir_const_float(g, 1e-12f), square = ir_op2(g, IR_DOT, vector, vector);
+    return ir_op2(g, IR_MUL, a, ir_op1(g, IR_RSQRT, ir_op2(g, IR_MAX, square, least)));
+}
+
+ir_ref build_blur_around(struct builder *b, ir_ref in, ir_ref position, ir_ref deviation)
+{
+    struct ir_graph *g = b->graph;
+    const struct kernel *kernel = &kernels[KERNEL_GAUSSIAN];
+    struct blur blur = {.b = b, .in = in};
+    ir_ref right = ir_op1(g, IR_DFDX, position), down = ir_op1(g, IR_DFDY, position);
+    blur.skew = over_length(g, over_length(g, ir_op2(g, IR_DOT, right, down), right), right);
+    down = ir_op2(g, IR_SUB, down, ir_op2(g, IR_MUL, right, blur.skew));
+    ir_ref size = ir_op2(g, IR_MUL, deviation, ir_const_float(g, 6.0f));
+    ir_ref x = over_length(g, size, right), y = over_length(g, size, down);
+    set_offsets(&blur, kernel, x, y);
+    return mean(&blur, kernel, build_element_origin(g)->element);
 }

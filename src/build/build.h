@@ -70,7 +70,7 @@ struct build_options {
     int stored;        /* closures come from storage: the lighting of the deferred pipeline */
     int spreads_light; /* a pass of the deferred pipeline spreads the light of bodies */
     bool marks_slabs;  /* a slab_mark_bsdf lies on each slab, for src/deferred */
-    bool blurs;        /* a pass blurs what lies below rough interfaces */
+    bool blurs;        /* what lies below rough interfaces is blurred */
     bool mattes;       /* each layer of a stack has an AOV of its own */
     int occlusion;     /* enum build_occlusion */
     bool vertex_stage; /* the shader has one, which can compute values for the pixels */

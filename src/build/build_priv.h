@@ -375,11 +375,18 @@ ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely);
 bool build_fits_slab(struct builder *b, ir_ref leaf);
 /* slabs_host.slab_like */
 ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo);
+/* The origin of what is built, as far as it has an element of a document. */
+const struct ir_origin *build_element_origin(const struct ir_graph *graph);
 /* The definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
 uint32_t build_slab_definition(const struct builder *b);
 
 /* blur.c: averages `in` over texture coordinates. `node` is the blur node. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
+/*
+ * Averages `in` over the surface around `position`, a vec3, by a normal distribution; its deviation
+ * along each axis of the surface, a float, is in units of the world.
+ */
+ir_ref build_blur_around(struct builder *b, ir_ref in, ir_ref position, ir_ref deviation);
 
 /*
  * profile.c: emission with the photometric file of a texture; even emission if the file is

@@ -50,6 +50,11 @@ static const float *texels(void *user_data, uint32_t variable)
     return build_texels(user_data, variable);
 }
 
+static ir_ref blurred(void *user_data, ir_ref value, ir_ref position, ir_ref deviation)
+{
+    return build_blur_around(user_data, value, position, deviation);
+}
+
 static struct slabs_host slabs_host(struct builder *b, const struct closure_host *closures)
 {
     return (struct slabs_host){
@@ -68,6 +73,8 @@ ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, 
 {
     struct slabs_host host = slabs_host(b, closures);
     host.lobes = marked_lobes; /* only the walk ends in storage */
+    if (!b->options->marks_slabs)
+        host.blurred = blurred;
     /* light walks through one pile of matter, not through a stack of surfaces */
     if (host.walks && slabs_has_media(b->shader, root))
         root = slabs_join_stacks(b->shader, &host, root);

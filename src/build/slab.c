@@ -32,19 +32,18 @@ static ir_ref value_of(str_id input, const ir_ref *inputs, const struct slab_pla
     }
 }
 
-/* The name of a slab in its document, where it has one. */
-static str_id name_of_slab(const struct ir_graph *g)
+const struct ir_origin *build_element_origin(const struct ir_graph *g)
 {
     const struct ir_origin *origin = &g->origins.items[g->origin];
     while (!origin->element && origin->parent)
         origin = &g->origins.items[origin->parent];
-    return origin->name;
+    return origin;
 }
 
 /* Names what the graph makes after the slab: "coat_reflection" instead of "reflection_2". */
 static void name_lobes(struct builder *b, uint32_t first_origin)
 {
-    str_id slab = name_of_slab(b->graph);
+    str_id slab = build_element_origin(b->graph)->name; /* in its document */
     for (uint32_t i = first_origin; slab && i < b->graph->origins.len; i++) {
         struct ir_origin *origin = &b->graph->origins.items[i];
         if (origin->parent != b->graph->origin || !origin->name)

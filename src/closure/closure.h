@@ -244,6 +244,9 @@ bool closure_is_surface(const struct shader *shader, ir_ref root);
 ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                     enum leaf_function which, const ir_ref *light);
 
+/* The shaded point. */
+ir_ref closure_position(struct shader *shader, const struct closure_host *host);
+
 /* The fraction of light on a way through media that a closure lets through. root 0: all light. */
 ir_ref closure_throughput(struct shader *shader, const struct closure_host *host, ir_ref root,
                           ir_ref way);

@@ -5,9 +5,6 @@
 
 #include "closure/closure.h"
 
-/* The shaded point. */
-ir_ref closure_position(struct shader *shader, const struct closure_host *host);
-
 /* output.c: a linear colour by the transfer function of sRGB (IEC 61966-2-1, section 5.2). */
 ir_ref closure_encoded(struct ir_graph *graph, ir_ref color);
 /* The colour, a vec3, and its alpha: one output of a program, two members of a function. */

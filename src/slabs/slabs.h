@@ -34,7 +34,7 @@ struct slab_place {
     ir_ref is_body;   /* float: 1 at the bottom of a body, 0 in a layer or sheet */
     ir_ref walks;     /* float: 1 where light walks through the mesh of a body */
     ir_ref unit;      /* float: centimetres in a unit of the world */
-    ir_ref blur;      /* float, centimetres: deviation by rough interfaces above; 0: none */
+    ir_ref blur; /* float, centimetres: deviation of light by rough interfaces above; 0: none */
 };
 
 struct slabs_host {
@@ -53,9 +53,14 @@ struct slabs_host {
      * it cannot be read.
      */
     const float *(*texels)(void *user_data, uint32_t variable);
+    /*
+     * A value around the shaded point, with a deviation in units of the world. NULL: the shader
+     * blurs no values; a pass blurs light instead, by slab_place.blur.
+     */
+    ir_ref (*blurred)(void *user_data, ir_ref value, ir_ref position, ir_ref deviation);
     const struct closure_host *closures;
     bool tracks_roughness; /* matter below a rough interface looks rougher */
-    bool blurs;            /* and is blurred: slab_place.blur */
+    bool blurs;            /* and is blurred */
     bool walks;            /* light walks through the meshes of bodies */
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };

@@ -210,12 +210,42 @@ static ir_ref unit_of_world(struct walk *w)
     return shader_read(w->shader, unit);
 }
 
+/* The deviation of the place of the view, in centimetres. */
+static ir_ref deviation_at(struct walk *w, const struct where *where)
+{
+    ir_ref place = where->way.place;
+    return place ? ir_op1(w->graph, IR_SQRT, place) : ir_const_float(w->graph, 0.0f);
+}
+
+/* A value of what lies there, as the view sees it through rough interfaces. */
+static ir_ref seen_at(struct walk *w, ir_ref value, const struct where *where)
+{
+    const struct slabs_host *host = w->host;
+    if (!host->blurred || !where->way.place || !value || ir_is_const(w->graph, value))
+        return value;
+    ir_ref deviation = deviation_at(w, where);
+    if (host->walks)
+        deviation = ir_op2(w->graph, IR_DIV, deviation, unit_of_world(w));
+    ir_ref position = closure_position(w->shader, host->closures);
+    return host->blurred(host->user_data, value, position, deviation);
+}
+
+/* Directions and coordinates have no mean. */
+static bool has_mean(enum slab_operand operand)
+{
+    return operand != SLAB_normal && operand != SLAB_tangent && operand != SLAB_glint_uv
+           && operand != SLAB_specular_lut;
+}
+
 static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
 {
     struct ir_graph *g = w->graph;
     ir_ref inputs[NUM_SLAB_OPERANDS];
     assert(ir_get(g, slab)->num_args == NUM_SLAB_OPERANDS);
     memcpy(inputs, ir_args(g, slab), sizeof inputs);
+    for (int i = 0; i < NUM_SLAB_OPERANDS; i++)
+        if (has_mean((enum slab_operand)i))
+            inputs[i] = seen_at(w, inputs[i], where);
     slab_widen(g, where->spread, inputs);
     bool walks = where->is_body && w->host->walks;
     struct slab_place place = {.thickness = where->thickness,
@@ -223,8 +253,8 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
                                .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f),
                                .walks = ir_const_float(g, walks ? 1.0f : 0.0f),
                                .unit = walks ? unit_of_world(w) : ir_const_float(g, 1.0f),
-                               .blur = where->way.place ? ir_op1(g, IR_SQRT, where->way.place)
-                                                        : ir_const_float(g, 0.0f)};
+                               .blur = w->host->blurred ? ir_const_float(g, 0.0f)
+                                                        : deviation_at(w, where)};
     if (where->below && may_bounce(w, inputs))
         place.below = albedo_of(w, where->below);
     ir_ref lobes = w->host->lobes(w->host->user_data, inputs, &place);
@@ -268,6 +298,7 @@ static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *
     ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
     ir_ref thickness =
         node.op == IR_SLAB_LAYER ? ir_arg(g, ref, 2) : ir_const_float(g, SLABS_LAYER_THICKNESS);
+    thickness = seen_at(w, thickness, &where);
     struct where below = where;
     below.spread = sum_of(g, where.spread, top ? w->spreads[top] : 0);
     below.way = way_below(g, where.way, top ? w->slopes[top] : 0, thickness);
@@ -293,6 +324,8 @@ static bool visit_operands(struct walk *w, ir_ref ref, struct where where, ir_re
         if (is_closure(w, args[i]) && !visited(w, args[i], where, &args[i]))
             return false;
     }
+    if (node.op == IR_CLOSURE_MIX)
+        args[2] = seen_at(w, args[2], &where);
     uint32_t attr = node.op == IR_LEAF ? node.attr : 0; /* elsewhere it asks to blend parameters */
     *out_result = ir_build(g, (enum ir_op)node.op, node.type, attr, args, node.num_args);
     return true;

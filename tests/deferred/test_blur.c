@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The pass that blurs what lies below rough interfaces: an edge of paint below frosted lacquer. */
+/*
+ * What lies below rough interfaces: an edge of paint below frosted lacquer, blurred by the pass,
+ * and waves of paint, blurred by the forward shader.
+ */
 #include "deferred/drawing.h"
 #include "unit/test.h"
 
@@ -7,13 +10,24 @@
 
 #define ROUGHNESS 0.6
 #define THICKNESS 0.5
+#define WAVES 20.0 /* radians in a unit of the world */
+
+static double edge_at(double x)
+{
+    return x > 0 ? 1 : 0;
+}
+
+static double wave_at(double x)
+{
+    return 0.5 + 0.5 * sin(WAVES * x);
+}
 
 /*
- * What the viewer sees at the distance t into the half that is bright. A way along the normal meets
- * a facet of GGX (Walter 2007), whose visible slope is above s for the share 1 / (1 + (s /
- * alpha)^2) of the ways, and is refracted to the index 1.5.
+ * The mean of a pattern that the viewer sees at x. A way along the normal meets a facet of GGX
+ * (Walter 2007), whose visible slope is above s for the share 1 / (1 + (s / alpha)^2) of the ways,
+ * and is refracted to the index 1.5.
  */
-static double behind_interface(double t)
+static double behind_interface(double (*pattern)(double), double x)
 {
     enum { SLOPES = 2000, TURNS = 200 };
     const double alpha = ROUGHNESS * ROUGHNESS, pi = acos(-1);
@@ -22,24 +36,25 @@ static double behind_interface(double t)
         double u = (i + 0.5) / SLOPES, facet = atan(alpha * sqrt(u / (1 - u)));
         double away = THICKNESS * tan(facet - asin(sin(facet) / 1.5));
         for (int k = 0; k < TURNS; ++k)
-            bright += t + away * cos(2 * pi * (k + 0.5) / TURNS) > 0 ? 1.0 : 0.0;
+            bright += pattern(x + away * cos(2 * pi * (k + 0.5) / TURNS));
     }
     return bright / ((double)SLOPES * TURNS);
 }
 
-/* Paint that is bright at x > edge, below a clear lacquer. */
-static bool parse_lacquer(struct bench *b, double edge)
+/* A clear lacquer over "paint", a grey from 0 to 1, which nodes make of x. */
+static bool parse_lacquer(struct bench *b, const char *paint)
 {
-    char text[2048];
+    char text[3072];
     snprintf(
         text, sizeof text,
         "<materialx version='1.39'><position name='p' type='vector3' space='world'/>"
-        "<extract name='x' type='float'><input name='in' type='vector3' nodename='p'/></extract>"
-        "<ifgreater name='paint' type='color3'><input name='value1' type='float' nodename='x'/>"
-        "<input name='value2' type='float' value='%g'/><input name='in1' type='color3' "
-        "value='0.8, 0.8, 0.8'/><input name='in2' type='color3' value='0, 0, 0'/></ifgreater>"
+        "<extract name='x' type='float'><input name='in' type='vector3' nodename='p'/></extract>%s"
+        "<multiply name='white' type='float'><input name='in1' type='float' nodename='paint'/>"
+        "<input name='in2' type='float' value='0.8'/></multiply><convert name='color' "
+        "type='color3'>"
+        "<input name='in' type='float' nodename='white'/></convert>"
         "<slab name='base' type='BSDF'><input name='f0' type='color3' value='0, 0, 0'/>"
-        "<input name='diffuse_albedo' type='color3' nodename='paint'/></slab>"
+        "<input name='diffuse_albedo' type='color3' nodename='color'/></slab>"
         "<slab name='coat' type='BSDF'><input name='diffuse_albedo' type='color3' value='0, 0, 0'/>"
         "<input name='mean_free_path' type='vector3' value='1000, 1000, 1000'/>"
         "<input name='roughness' type='float' value='%g'/></slab>"
@@ -47,7 +62,7 @@ static bool parse_lacquer(struct bench *b, double edge)
         "<input name='base' type='BSDF' nodename='base'/><input name='thickness' type='float' "
         "value='%g'/></slab_layer><slab_surface name='Lacquer' type='surfaceshader'>"
         "<input name='bsdf' type='BSDF' nodename='both'/></slab_surface></materialx>",
-        edge, ROUGHNESS, THICKNESS);
+        paint, ROUGHNESS, THICKNESS);
     mxg_document_destroy(b->document);
     b->document = NULL;
     return REQUIRE_EQ(mxg_document_parse(b->context, mxg_library_builtin(b->context),
@@ -55,50 +70,85 @@ static bool parse_lacquer(struct bench *b, double edge)
                       MXG_OK);
 }
 
+/* Bright at x > edge. */
+static bool parse_edge(struct bench *b, double edge)
+{
+    char text[512];
+    snprintf(text, sizeof text,
+             "<ifgreater name='paint' type='float'><input name='value1' type='float' nodename='x'/>"
+             "<input name='value2' type='float' value='%g'/><input name='in1' type='float' "
+             "value='1'/><input name='in2' type='float' value='0'/></ifgreater>",
+             edge);
+    return parse_lacquer(b, text);
+}
+
+static bool parse_waves(struct bench *b)
+{
+    char text[768];
+    snprintf(text, sizeof text,
+             "<multiply name='turn' type='float'><input name='in1' type='float' nodename='x'/>"
+             "<input name='in2' type='float' value='%g'/></multiply><sin name='sine' type='float'>"
+             "<input name='in' type='float' nodename='turn'/></sin><range name='paint' "
+             "type='float'><input name='in' type='float' nodename='sine'/><input name='inlow' "
+             "type='float' value='-1'/></range>",
+             WAVES);
+    return parse_lacquer(b, text);
+}
+
 static double at(const struct drawing *drawing, size_t x, size_t y)
 {
     return (double)drawing->pixels[4 * (y * SIZE + x)];
 }
 
-/* How much of the paint's light each column has: the furthest from the truth, and from a step. */
-static void compare(const struct drawing *dark, const struct drawing *bright,
-                    const struct drawing *edge, double *out_worst, double *out_step)
+/* A pattern between pictures of dark and bright paint. */
+struct seen {
+    struct drawing dark, bright, drawn;
+    double (*pattern)(double x);
+};
+
+/* The furthest of the columns from the truth, and from the pattern itself. */
+static void compare(const struct seen *seen, double *out_worst, double *out_moved)
 {
     enum { FIRST = SIZE / 4, END = SIZE - FIRST };
-    for (size_t x = FIRST; x < END; ++x) {
-        double share = 0, t = 2 * ((double)x + 0.5) / SIZE - 1;
-        for (size_t y = FIRST; y < END; ++y)
-            share += (at(edge, x, y) - at(dark, x, y)) / (at(bright, x, y) - at(dark, x, y))
-                     / (END - FIRST);
-        *out_worst = fmax(*out_worst, fabs(share - behind_interface(t)));
-        *out_step = fmax(*out_step, fabs(share - (t > 0)));
+    *out_worst = *out_moved = 0;
+    for (size_t i = FIRST; i < END; ++i) {
+        double share = 0, x = 2 * ((double)i + 0.5) / SIZE - 1;
+        for (size_t y = FIRST; y < END; ++y) {
+            double dark = at(&seen->dark, i, y), bright = at(&seen->bright, i, y);
+            share += (at(&seen->drawn, i, y) - dark) / (bright - dark) / (END - FIRST);
+        }
+        *out_worst = fmax(*out_worst, fabs(share - behind_interface(seen->pattern, x)));
+        *out_moved = fmax(*out_moved, fabs(share - seen->pattern(x)));
     }
 }
 
-/* limit: of the difference between the edge and the truth. */
-static void test_edge(struct bench *b, const char *storage, double limit)
+/* limit: of the difference between the picture and the truth; storage NULL: forward. */
+static void test_pattern(struct bench *b, double (*pattern)(double), const char *storage,
+                         double limit)
 {
-    struct drawing dark = {0}, bright = {0}, edge = {0};
-    double worst = 0, step = 0;
-    if (parse_lacquer(b, 2) && drawing_open(b, "Lacquer", storage, UINT32_MAX, &dark)
-        && parse_lacquer(b, -2) && drawing_open(b, "Lacquer", storage, UINT32_MAX, &bright)
-        && parse_lacquer(b, 0) && drawing_open(b, "Lacquer", storage, UINT32_MAX, &edge)) {
-        compare(&dark, &bright, &edge, &worst, &step);
-        printf("blur, storage %s: the edge is within %.3f of ways through facets\n", storage,
-               worst);
+    struct seen seen = {.pattern = pattern};
+    bool is_edge = pattern == edge_at;
+    double worst, moved;
+    if (parse_edge(b, 2) && drawing_open(b, "Lacquer", storage, UINT32_MAX, &seen.dark)
+        && parse_edge(b, -2) && drawing_open(b, "Lacquer", storage, UINT32_MAX, &seen.bright)
+        && (is_edge ? parse_edge(b, 0) : parse_waves(b))
+        && drawing_open(b, "Lacquer", storage, UINT32_MAX, &seen.drawn)) {
+        compare(&seen, &worst, &moved);
+        printf("blur, storage %s: %s within %.3f of ways through facets, %.3f of no blur\n",
+               storage ? storage : "none", is_edge ? "the edge is" : "waves are", worst, moved);
         REQUIRE(worst > 0 && worst < limit);
-        REQUIRE(step > 0.25);
+        REQUIRE(moved > 2 * limit);
     }
-    drawing_close(&edge);
-    drawing_close(&bright);
-    drawing_close(&dark);
+    drawing_close(&seen.drawn);
+    drawing_close(&seen.bright);
+    drawing_close(&seen.dark);
 }
 
 /* Without the option, or with the feature left out, the edge is sharp. */
 static void test_sharp(struct bench *b)
 {
     struct drawing blurred = {0}, sharp = {0};
-    REQUIRE(parse_lacquer(b, 0));
+    REQUIRE(parse_edge(b, 0));
     mxg_options_set(b->options, "features", "-rough-refraction");
     if (drawing_open(b, "Lacquer", "float", UINT32_MAX, &blurred)) {
         mxg_options_set(b->options, "rough-refraction", "sharp");
@@ -120,8 +170,9 @@ int main(void)
     b.scene.num_lights = 1;
     mxg_options_set(b.options, "environment", "none");
     mxg_options_set(b.options, "rough-refraction", "blur");
-    test_edge(&b, "float", 0.05);
-    test_edge(&b, "dither", 0.07);
+    test_pattern(&b, edge_at, "float", 0.05);
+    test_pattern(&b, edge_at, "dither", 0.07);
+    test_pattern(&b, wave_at, NULL, 0.05);
     test_sharp(&b);
     bench_close(&b);
     return test_report("blur");

@@ -237,9 +237,9 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // metal
     float c = dot(N, V);
-    float c_2 = max(abs(c), 1e-8);
+    float greater = max(abs(c), 1e-8);
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (c_2 + 0.01), c_2);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (greater + 0.01), greater);
     float coat_reflection_scale = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_greater = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_scale, 0.0);
@@ -258,12 +258,12 @@ void main()
     vec3 color = (ratio + difference) * vec3(0.0, 0.1, 0.0);
     // lights
     vec3 N_2 = faceforward(N, -V, N);
-    float scaled_c_2 = c_2 * c_2;
-    mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, c_2, vec3(0.0), vec2(0.01),
-        sqrt(scaled_c_2 * 0.9999 + 0.00010000001));
+    float product = greater * greater;
+    mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, greater, vec3(0.0), vec2(0.01),
+        sqrt(product * 0.9999 + 0.00010000001));
     vec3 slab_medium_bsdf_albedo = mx_medium_reflected(way);
     vec3 scaled_slab_medium_bsdf_albedo = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (c_2 + 0.25071993), c_2);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (greater + 0.25071993), greater);
     float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
         * milk_reflection_scale, 0.0);
@@ -273,12 +273,12 @@ void main()
         - milk_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
     vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
     vec3 milk_medium_steady = milk_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (c_2 + 0.29886922), c_2);
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (greater + 0.29886922), greater);
     vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
         + vec3(1.0);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
-    mx_GgxLobe metal_reflection_vector = mx_GgxLobe(N_2, c_2, vec3(0.0), vec2(0.29886922),
-        sqrt(scaled_c_2 * 0.9106772 + 0.08932281));
+    mx_GgxLobe metal_reflection_vector = mx_GgxLobe(N_2, greater, vec3(0.0), vec2(0.29886922),
+        sqrt(product * 0.9106772 + 0.08932281));
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
     vec3 milk_bare_product = milk_reflection_throughput
@@ -292,8 +292,8 @@ void main()
         - blended_coat_bare_throughput_3 * milk_bare_product) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
     vec3 metal_reflection_ratio = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
     vec3 metal_reflection_steady = blended_coat_bare_throughput * milk_bare_product - metal_reflection_ratio;
-    mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, c_2, vec3(0.0), vec2(0.25071993),
-        sqrt(scaled_c_2 * 0.9371395 + 0.0628605));
+    mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, greater, vec3(0.0), vec2(0.25071993),
+        sqrt(product * 0.9371395 + 0.0628605));
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -318,8 +318,8 @@ void main()
         // metal_reflection, milk_reflection, milk_medium, coat_reflection
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
-        float c_3 = dot(N, L);
-        float way_2 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
+        float c_2 = dot(N, L);
+        float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
         vec3 milk_medium_response = scaled_slab_medium_bsdf_albedo
             * (mx_medium_reflected(way_2) * (max(dot(L, N_2), 0.0) / 3.1415927 * milk_medium_weight));

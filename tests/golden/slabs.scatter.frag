@@ -223,19 +223,19 @@ void scatter()
     vec3 N = normalize(vd.normalWorld);
     // metal
     float c = dot(N, vd.viewWorld);
-    float greater = max(abs(c), 1e-8);
+    float cos_v = max(abs(c), 1e-8);
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (greater + 0.01), greater);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cos_v + 0.01), cos_v);
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     vec3 coat_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(coat_reflection_albedo.y, 0.2),
         1e-8), vec3(0.04)) * (coat_reflection_albedo.x * coat_reflection_ggx_compensation);
     vec3 coat_reflection_greater = max(vec3(1.0) - coat_reflection_slab_reflection_bsdf_albedo, 0.0);
     float sum = dot(coat_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
-    float greater_2 = max(dot(coat_reflection_greater, vec3(0.33333334)), 0.0);
-    float sum_2 = sum + greater_2;
+    float greater = max(dot(coat_reflection_greater, vec3(0.33333334)), 0.0);
+    float sum_2 = sum + greater;
     vec3 X = normalize(vd.tangentWorld);
     if (choice == 0.0) {
-        weight = coat_reflection_greater * (sum_2 / greater_2);
+        weight = coat_reflection_greater * (sum_2 / greater);
         if (sum_2 * vd.random.w < sum) {
             vec3 coat_reflection_L, coat_reflection_weight;
             float coat_reflection_pdf;
@@ -257,25 +257,25 @@ void scatter()
     float pdf = max(dot(N_2, L_2), 0.0) / 3.1415927;
     if (is_equal) {
         vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
-        float greater_3 = max(dot(coat_medium_throughput, vec3(0.33333334)), 0.0);
-        weight = coat_medium_throughput * ((greater_3 + 0.1) / greater_3);
-        if (vd.random.w * (greater_3 + 0.1) < 0.1) {
+        float greater_2 = max(dot(coat_medium_throughput, vec3(0.33333334)), 0.0);
+        weight = coat_medium_throughput * ((greater_2 + 0.1) / greater_2);
+        if (vd.random.w * (greater_2 + 0.1) < 0.1) {
             L = L_2;
             inside = 0.0;
             weight = vec3(0.0);
-            density = pdf * (0.1 / (greater_3 + 0.1));
+            density = pdf * (0.1 / (greater_2 + 0.1));
         }
     }
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (greater + 0.25071993), greater);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     vec3 milk_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(milk_reflection_albedo.y, 0.2),
         1e-8), vec3(0.04)) * (milk_reflection_albedo.x * milk_reflection_ggx_compensation);
     vec3 milk_reflection_throughput = max(vec3(1.0) - milk_reflection_slab_reflection_bsdf_albedo, 0.0);
     float sum_3 = dot(milk_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
-    float greater_4 = max(dot(milk_reflection_throughput, vec3(0.33333334)), 0.0);
-    float sum_4 = sum_3 + greater_4;
+    float greater_3 = max(dot(milk_reflection_throughput, vec3(0.33333334)), 0.0);
+    float sum_4 = sum_3 + greater_3;
     if (choice == 3.0) {
-        weight = milk_reflection_throughput * (sum_4 / greater_4);
+        weight = milk_reflection_throughput * (sum_4 / greater_3);
         if (vd.random.w * sum_4 < sum_3) {
             vec3 milk_reflection_L, milk_reflection_weight;
             float milk_reflection_pdf;
@@ -288,7 +288,7 @@ void scatter()
         }
     }
     bool is_equal_2 = choice == 4.0;
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (greater + 0.29886922), greater);
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
     vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
         * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
@@ -302,9 +302,9 @@ void scatter()
             / (vec3(1.0) - min(metal_reflection_slab_reflection_bsdf_albedo
             * vec3(0.10193972, 0.102937125, 0.103155464), 0.999));
         float sum_5 = dot(milk_medium, vec3(0.33333334)) * 0.9 + 0.1;
-        float greater_5 = max(dot(milk_medium_throughput, vec3(0.33333334)), 0.0);
-        float sum_6 = sum_5 + greater_5;
-        weight = milk_medium_throughput * (sum_6 / greater_5);
+        float greater_4 = max(dot(milk_medium_throughput, vec3(0.33333334)), 0.0);
+        float sum_6 = sum_5 + greater_4;
+        weight = milk_medium_throughput * (sum_6 / greater_4);
         if (vd.random.w * sum_6 < sum_5) {
             L = L_2;
             inside = 0.0;
@@ -314,10 +314,10 @@ void scatter()
     }
     vec3 metal_reflection_throughput = max(vec3(1.0) - metal_reflection_slab_reflection_bsdf_albedo, 0.0);
     float sum_7 = dot(metal_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
-    float greater_6 = max(dot(metal_reflection_throughput, vec3(0.33333334)), 0.0);
-    float sum_8 = sum_7 + greater_6;
+    float greater_5 = max(dot(metal_reflection_throughput, vec3(0.33333334)), 0.0);
+    float sum_8 = sum_7 + greater_5;
     if (choice == 5.0) {
-        weight = metal_reflection_throughput * (sum_8 / greater_6);
+        weight = metal_reflection_throughput * (sum_8 / greater_5);
         if (vd.random.w * sum_8 < sum_7) {
             vec3 metal_reflection_L, metal_reflection_weight;
             float metal_reflection_pdf;
@@ -411,16 +411,16 @@ void scatter()
             * milk_reflection_slab_reflection_bsdf_eval : choice_5;
         vec3 product_2 = u_lightData[i].color * intensity
             * (choice == 0.0 ? coat_reflection_slab_reflection_bsdf_eval : choice_6);
-        float greater_7 = max(dot(product_2, vec3(0.33333334)), 0.0);
-        sum_12 += greater_7;
-        if (sum_12 * chance < greater_7) {
+        float greater_6 = max(dot(product_2, vec3(0.33333334)), 0.0);
+        sum_12 += greater_6;
+        if (sum_12 * chance < greater_6) {
             L_3 = L_4;
             distance_ = light_type == 1 ? 1e30 : light_type == 2 ? magnitude_d : light_type == 3 ? magnitude_d : 1e30;
-            light = product_2 / greater_7;
+            light = product_2 / greater_6;
         }
-        if (greater_7 > 0.0) {
-            float ratio_5 = (sum_12 * chance - greater_7) / (sum_12 - greater_7);
-            chance = sum_12 * chance < greater_7 ? sum_12 * chance / greater_7 : ratio_5;
+        if (greater_6 > 0.0) {
+            float ratio_5 = (sum_12 * chance - greater_6) / (sum_12 - greater_6);
+            chance = sum_12 * chance < greater_6 ? sum_12 * chance / greater_6 : ratio_5;
         }
     }
     out6 = vec4(L_3, distance_);

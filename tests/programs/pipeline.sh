@@ -56,6 +56,11 @@ check "another storage has another layout" other_layout
 "$mxgen" pipeline blurred --rough-refraction blur >/dev/null
 check "a material for it" "$mxgen" "$examples/frosted.mtlx" --target vulkan --pipeline deferred --rough-refraction blur --reflect -o frosted
 check "of its layout" eval '[ "$(number frosted/Frosted.json layout)" = "$(number blurred/show.json layout)" ]'
+check "values are blurred forward" "$mxgen" "$examples/frosted.mtlx" --target vulkan --rough-refraction blur -o forward
+check "by derivatives" grep -q 'dFdx(vd.positionWorld)' forward/Frosted.frag
+check "and in a path tracer" "$mxgen" "$examples/frosted.mtlx" --target vulkan --integrator scatter --rough-refraction blur -o traced
+check "by ray differentials" grep -q 'vd.dx_texcoord_0' traced/Frosted.frag
+check "not without the option" eval '"$mxgen" "$examples/frosted.mtlx" --target vulkan -o sharp && ! grep -q "dFdx" sharp/Frosted.frag'
 check "blur, too" eval '[ "$(number blurred/show.json layout)" != "$(number passes/show.json layout)" ]'
 check "diffusion, too" eval '[ "$(number spread/show.json layout)" != "$(number passes/show.json layout)" ]'
 check "and has an image" eval 'grep -q "\"scattered\"" spread/light_single.json && ! grep -q "\"scattered\"" passes/light_single.json'
