@@ -231,8 +231,9 @@ typedef struct mxg_context_desc {
      * `size` equal parts, rows from the top, RGBA each, without a change of colour space. `from`
      * and `file` are as in mxg_resolver.open; `layer` is the name of the file's layer, or "".
      * False: it cannot be read. mxgen calls it at most once per texture of a call, from the thread
-     * of the call, where steps of a budget are estimated. It must not call mxgen. NULL: a texture
-     * counts as a few fixed colours, as one that cannot be read.
+     * of the call, where steps of a budget are estimated: with the option max-error, or if the
+     * warnings budget-step are shown. It must not call mxgen. NULL: a texture counts as a few fixed
+     * colours, as one that cannot be read.
      */
     bool (*read_texels)(void *user_data, const char *from, const char *file, const char *layer,
                         uint32_t size, float *out_texels);

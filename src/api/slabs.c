@@ -78,6 +78,13 @@ static void write_error(struct text *out, float error)
         text_float(out, (float)(int)(error * 100.0f + 0.5f) / 100.0f);
 }
 
+/* Estimates may read textures, so they are made where a limit or a message needs them. */
+static bool needs_estimates(const struct generation *g)
+{
+    return g->options[OPTION_max_error].real >= 0.0f
+           || diag_is_shown(&g->result->object.diagnostics.list, DIAG_ID_budget_step);
+}
+
 static void report_step(struct generation *g, const struct slab_step *step)
 {
     struct text what, error;
@@ -85,7 +92,10 @@ static void report_step(struct generation *g, const struct slab_step *step)
     text_init(&what, &g->scratch);
     text_init(&error, &g->scratch);
     slabs_describe_step(&g->result->shader, step, &what);
-    write_error(&error, step->error);
+    if (needs_estimates(g)) {
+        text_str(&error, ", estimated error ");
+        write_error(&error, step->error);
+    }
     diag_add(diags_of(g), DIAG_ID_budget_step, doc_place(doc, g->element), text_cstr(&what),
              (unsigned)step->before.closures, (unsigned)step->after.closures,
              (unsigned)step->before.bytes, (unsigned)step->after.bytes, text_cstr(&error));
@@ -111,14 +121,25 @@ static void report_failure(struct generation *g, const struct slab_budget *budge
              (unsigned)report->after.closures, (unsigned)report->after.bytes, text_cstr(&error));
 }
 
+/* The message of a budget that cannot be met has an estimate in any case. */
+static ir_ref spend_budget(struct generation *g, const struct slab_budget *budget)
+{
+    struct slab_report *report = &g->result->slabs;
+    struct arena *scratch = needs_estimates(g) ? &g->estimates : NULL;
+    ir_ref root =
+        build_budget_slabs(g->builder, &g->closure_host, scratch, budget, g->root, report);
+    if (report->is_met || scratch)
+        return root;
+    return build_budget_slabs(g->builder, &g->closure_host, &g->estimates, budget, g->root, report);
+}
+
 bool generation_budget_slabs(struct generation *g)
 {
     if (g->is_pass) /* it has the lobes of all slabs */
         return true;
     struct slab_budget budget = generation_slab_budget(g);
     struct slab_report *report = &g->result->slabs;
-    g->root =
-        build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, report);
+    g->root = spend_budget(g, &budget);
     ir_assert_valid(&g->result->graph, "after the budget of slabs");
     for (uint32_t i = 0; i < report->steps.len; i++)
         report_step(g, &report->steps.items[i]);

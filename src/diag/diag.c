@@ -90,6 +90,11 @@ static enum diag_severity severity_in(const struct diag_list *list, enum diag_id
     return list->policy ? (enum diag_severity)list->policy->severities[id] : catalogue[id].severity;
 }
 
+bool diag_is_shown(const struct diag_list *list, enum diag_id id)
+{
+    return severity_in(list, id) < DIAG_REMARK;
+}
+
 static void append(struct diag_list *list, enum diag_id id, struct diag_place place,
                    const char *message)
 {

@@ -90,6 +90,9 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
  */
 void diag_list_follow(struct diag_list *list, const struct diag_list *document);
 
+/* True if the list shows diagnostics of this id: it is neither a remark nor switched off. */
+bool diag_is_shown(const struct diag_list *list, enum diag_id id);
+
 /* Adds a copy of a diagnostic of another list. A note belongs to the diagnostic before it. */
 void diag_repeat(struct diag_list *list, const struct diag *diag);
 
