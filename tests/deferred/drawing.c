@@ -118,7 +118,7 @@ bool drawing_open(struct bench *b, const char *element, const char *storage, uin
 {
     bool has_holes;
     begin(b, d);
-    if (!add_program(b, d, element, storage ? "deferred" : "forward", storage ? storage : "float",
+    if (!add_program(b, d, element, storage ? "deferred" : "forward", storage ? storage : "dither",
                      DRAW_LIT))
         return false;
     read_info(d, &has_holes);

@@ -40,6 +40,15 @@ static const struct setting {
     {"max_lights", "max-lights", {"3", "8"}},
 };
 enum { NUM_SETTINGS = sizeof settings / sizeof *settings };
+enum { DEFERRED = 1 }; /* of the first */
+
+static const char *key_of(const char *id)
+{
+    size_t i = 0;
+    while (strcmp(settings[i].id, id) != 0)
+        i++;
+    return settings[i].key;
+}
 
 struct run {
     mxg_context *context;
@@ -48,70 +57,100 @@ struct run {
     unsigned good, bad;
 };
 
-/* The row of a pair, in this order; NUM_ROWS: there is none. */
-static size_t row_of(const struct setting *a, size_t i, const struct setting *b, size_t k)
+/* A value of an option. */
+struct choice {
+    const struct setting *setting;
+    size_t value;
+};
+
+static const char *text_of(struct choice choice)
 {
-    for (size_t r = 0; r < NUM_ROWS; r++) {
-        const struct row *row = &rows[r];
-        bool has_other = row->other_value ? strcmp(row->other_value, b->values[k]) == 0 : k > 0;
-        if (strcmp(row->option, a->id) == 0 && strcmp(row->value, a->values[i]) == 0
-            && strcmp(row->other, b->id) == 0 && has_other)
-            return r;
-    }
-    return NUM_ROWS;
+    return choice.setting->values[choice.value];
+}
+
+static bool is_row(const struct row *row, struct choice a, struct choice b)
+{
+    bool has_other = row->other_value ? strcmp(row->other_value, text_of(b)) == 0 : b.value > 0;
+    return strcmp(row->option, a.setting->id) == 0 && strcmp(row->value, text_of(a)) == 0
+           && strcmp(row->other, b.setting->id) == 0 && has_other;
+}
+
+/* The row of a pair, in any order; NUM_ROWS: there is none. */
+static size_t row_of(struct choice a, struct choice b)
+{
+    size_t found = NUM_ROWS;
+    for (size_t r = 0; r < NUM_ROWS; r++)
+        if (is_row(&rows[r], a, b) || is_row(&rows[r], b, a)) {
+            REQUIRE(found == NUM_ROWS);
+            found = r;
+        }
+    return found;
 }
 
 /* The message of the only diagnostic names both options. */
-static void check_message(const mxg_result *result, const struct row *row,
-                          const struct setting *option, const struct setting *other)
+static void check_message(const mxg_result *result, const struct row *row)
 {
     char one[64], two[64];
     mxg_diagnostic diagnostic = {sizeof diagnostic};
     const mxg_diagnostics *list = mxg_result_diagnostics(result);
-    snprintf(one, sizeof one, "'%s=%s'", option->key, row->value);
-    snprintf(two, sizeof two, row->other_value ? "'%s=%s'" : "'%s'", other->key,
+    snprintf(one, sizeof one, "'%s=%s'", key_of(row->option), row->value);
+    snprintf(two, sizeof two, row->other_value ? "'%s=%s'" : "'%s'", key_of(row->other),
              row->other_value ? row->other_value : "");
     if (REQUIRE_EQ(mxg_diagnostics_count(list), 1)
         && REQUIRE(mxg_diagnostics_get(list, 0, &diagnostic) == MXG_OK))
         REQUIRE(strstr(diagnostic.message, one) && strstr(diagnostic.message, two));
 }
 
-static void set(mxg_options *options, const char *key, const char *value)
+/* Options of what is stored have a meaning in the deferred pipeline alone. */
+static bool is_of_storage(struct choice choice)
 {
-    if (*value)
-        REQUIRE(mxg_options_set(options, key, value) == MXG_OK);
+    return choice.value > 0
+           && (strcmp(choice.setting->id, "storage") == 0
+               || strcmp(choice.setting->id, "sss") == 0);
 }
 
-static void test_pair(struct run *run, const struct setting *a, size_t i, const struct setting *b,
-                      size_t k)
+/* Generates with the options; their rows are the errors, and without one there is a shader. */
+static void test_choices(struct run *run, const struct choice *choices, size_t count)
 {
     mxg_options *options = NULL;
     mxg_result *result = NULL;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    size_t row = row_of(a, i, b, k), back = row_of(b, k, a, i), size = 0;
-    REQUIRE(row == NUM_ROWS || back == NUM_ROWS);
+    size_t size = 0, num_rows = 0, row = NUM_ROWS;
     REQUIRE(mxg_options_create(run->context, &options) == MXG_OK);
-    set(options, a->key, a->values[i]);
-    set(options, b->key, b->values[k]);
+    for (size_t i = 0; i < count; i++) {
+        const char *value = text_of(choices[i]);
+        REQUIRE(!*value || mxg_options_set(options, choices[i].setting->key, value) == MXG_OK);
+        for (size_t k = 0; k < i; k++) {
+            size_t found = row_of(choices[i], choices[k]);
+            row = found < NUM_ROWS ? found : row;
+            num_rows += found < NUM_ROWS;
+        }
+    }
     desc.target = "vulkan";
     desc.element = "SR";
     desc.options = options;
     mxg_status status = mxg_generate(run->context, run->document, &desc, &result);
-    bool is_good = row == NUM_ROWS && back == NUM_ROWS;
-    if (!REQUIRE((status == MXG_OK) == is_good))
-        printf("    %s=%s, %s=%s\n", a->key, a->values[i], b->key, b->values[k]);
-    else if (is_good)
+    if (!REQUIRE((status == MXG_OK) == (num_rows == 0)))
+        for (size_t i = 0; i < count; i++)
+            printf("    %s=%s\n", choices[i].setting->key, text_of(choices[i]));
+    else if (num_rows == 0)
         REQUIRE(mxg_result_source(result, MXG_STAGE_PIXEL, &size) && size > 0);
-    else if (row < NUM_ROWS)
-        check_message(result, &rows[row], a, b);
-    else
-        check_message(result, &rows[back], b, a);
-    for (size_t r = 0; r < NUM_ROWS; r++)
-        run->is_found[r] |= r == row || r == back;
-    run->good += is_good;
-    run->bad += !is_good;
+    else if (num_rows == 1) {
+        check_message(result, &rows[row]);
+        run->is_found[row] = true;
+    } else
+        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(result)), num_rows);
+    run->good += num_rows == 0;
+    run->bad += num_rows != 0;
     mxg_result_destroy(result);
     mxg_options_destroy(options);
+}
+
+static void test_pair(struct run *run, struct choice a, struct choice b)
+{
+    bool has_pipeline = a.setting == settings || b.setting == settings;
+    struct choice choices[3] = {a, b, {settings, DEFERRED}};
+    test_choices(run, choices, !has_pipeline && (is_of_storage(a) || is_of_storage(b)) ? 3 : 2);
 }
 
 static void test_options(struct run *run, const struct setting *a, const struct setting *b)
@@ -119,7 +158,7 @@ static void test_options(struct run *run, const struct setting *a, const struct 
     enum { MAX_VALUES = sizeof a->values / sizeof *a->values };
     for (size_t i = 0; i < MAX_VALUES && a->values[i]; i++)
         for (size_t k = 0; k < MAX_VALUES && b->values[k]; k++)
-            test_pair(run, a, i, b, k);
+            test_pair(run, (struct choice){a, i}, (struct choice){b, k});
 }
 
 int main(void)
