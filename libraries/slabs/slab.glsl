@@ -297,9 +297,9 @@ vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free
                                    mx_lobe_random(sample_index), L, weight, pdf);
         return mx_lobe_light(L, weight, pdf);
     }
-    vec3 light = mx_slab_medium_bsdf_albedo(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V)
-               * mx_environment_irradiance(mx_is_black(mean_free_path) ? mx_chan_axis(mx_chan_gloss(roughness), N, V) : mx_facing(N, V));
-    return mx_is_black(color) ? vec3(0.0) : light; // without a branch, which would stand in the loop over samples
+    if (mx_is_black(mean_free_path))
+        return color * mx_environment_irradiance(mx_chan_axis(mx_chan_gloss(roughness), N, V));
+    return mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V)) * mx_environment_irradiance(mx_facing(N, V));
 }
 
 // Of light to the viewer, with what bounces between the medium and what lies below: 1 / (1 - below R).
