@@ -98,10 +98,10 @@ check 'has shorter chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clea
 light() {
     tail -c $((3 * (24 * 24 - $2))) "$1" | od -An -tu1 -N3 | awk -v n="$3" '{ c = $n / 255; print (c > 0.04045 ? ((c + 0.055) / 1.055) ^ 2.4 : c / 12.92) }'
 }
-check 'a ball of a colour before white' trace tinted.ppm STinted --paths 64 --background environment
+check 'a ball of a colour before white' trace tinted.ppm STinted --paths 1024 --background environment
 for i in 1 2 3; do
     way=$(echo '10 2 1' | cut -d' ' -f$i)
-    check "is seen through in colour: $i" near "$(of "$(light tinted.ppm 300 $i) / $(light tinted.ppm 0 $i)")" "$(of "exp(-2 / $way)")" 0.01
+    check "is seen through in colour: $i" near "$(of "$(light tinted.ppm 300 $i) / $(light tinted.ppm 0 $i)")" "$(of "exp(-2 / $way)")" 0.03
 done
 
 check 'a thick ball' trace thick.exr SThick --paths 256
