@@ -102,35 +102,29 @@ int fly(inout Path path, out Hit hit)
     }
 }
 
-// A number of the object and of its side that a direction meets; that of the other side differs in the last bit.
-uint side_of(Hit hit, vec3 direction)
-{
-    Corner a = corners[hit.triangle * 3u];
-    vec3 u = corners[hit.triangle * 3u + 1u].position_s.xyz - a.position_s.xyz,
-         v = corners[hit.triangle * 3u + 2u].position_s.xyz - a.position_s.xyz;
-    return (a.object + 1u) * 2u + (dot(cross(u, v), direction) < 0.0 ? 0u : 1u);
-}
-
 #ifdef MATTER
 
-bool is_of_body(Path path, Hit hit)
+// The path meets the mesh of a body that it is in, or false. The side where light came in is another part of the mesh, in the same medium,
+// and the mesh of a body around the one where the path is does nothing to its light.
+bool meet_boundary(inout Path path, Hit hit)
 {
-    return path.medium.body / 2u == corners[hit.triangle * 3u].object + 1u;
-}
-
-// The path meets the mesh of the body that it is in. The side where light came in is another part of the mesh, in the same medium.
-void meet_boundary(inout Path path, Hit hit)
-{
-    if (side_of(hit, path.direction) == path.medium.body) {
+    uint side = side_of(hit, path.direction), at = find_around(OF_PATH, path.around, side);
+    bool is_own = is_same_object(side, path.medium.body);
+    if (!is_own && at == path.around)
+        return false;
+    if (!is_own || side == path.medium.body) {
         path.origin += path.direction * hit.distance;
         path.medium.triangle = hit.triangle;
-        return;
+        if (!is_own && side != media[place_around(OF_PATH, at)].body)
+            leave_medium(path, side);
+        return true;
     }
     path.place = hit;
     path.side = path.medium.body;
     path.matter = vec2(path.medium.level.x < 0.0 ? FROM_BELOW : path.medium.level.x, path.medium.level.y);
     path.goes = path.medium.collisions != 0u ? OUT : OUT | BENT;
     path.phase = IN_MATTER;
+    return true;
 }
 
 // The normal of the facet on the side where light came in.
@@ -181,7 +175,7 @@ bool leave_body(inout Path path, Point point)
 {
     bool is_hollow = path.medium.level.x < 0.0;
     if (is_hollow || out12.w == path.medium.level.x) {
-        leave_medium(path);
+        leave_medium(path, path.medium.body);
         path.goes &= ~OUT;
         return true;
     }
@@ -195,33 +189,42 @@ bool leave_body(inout Path path, Point point)
 
 #endif
 
-bool pass_surface(inout Shadow ray, Hit hit)
+#ifdef MATTER
+
+// The same for a ray to a light, but for the side where it leaves the medium that it is in.
+bool meet_boundary(inout Shadow ray, uint number, uint side)
+{
+    uint at = find_around(number, ray.around, side);
+    bool is_around = !is_same_object(side, ray.body) && at < ray.around;
+    if (is_around && side != media[place_around(number, at)].body)
+        remove_around(number, ray.around, at);
+    return is_around || side == ray.body;
+}
+
+#endif
+
+bool pass_surface(inout Shadow ray, uint number, Hit hit)
 {
 #ifdef TRANSPARENT
-    uint side = side_of(hit, ray.direction);
 #ifdef MATTER
-    bool is_again = ray.body == side, leaves = ray.body == (side ^ 1u);
+    uint side = side_of(hit, ray.direction);
+    bool is_inside = meet_boundary(ray, number, side), leaves = ray.body == (side ^ 1u);
 #else
-    const bool is_again = false, leaves = false;
+    const bool is_inside = false, leaves = false;
 #endif
     at_level = leaves ? vec2(FROM_BELOW, ray.number) : vec2(-1.0, next_random().x);
     ray.origin = shade(hit, leaves ? -ray.direction : ray.direction, vec4(0.0)).position + ray.direction * NEAR;
     ray.limit -= hit.distance;
-    if (is_again)
+    if (is_inside)
         return true;
     bool is_hole = next_random().x >= out1.a;
 #ifdef MATTER
     if (!is_hole)
         ray.through *= leaves && out12.w < 0.0 && ray.extinction != vec3(0.0) ? vec3(0.0) : out11.rgb;
     if (leaves)
-        ray.body = 0u;
-    else if (out12.w > -1.5) {
-        ray.body = side;
-        ray.number = at_level.y;
-        ray.extinction = is_hole ? vec3(0.0) : out12.rgb;
-    }
-    if (ray.body == 0u)
-        ray.extinction = vec3(0.0);
+        leave_medium(ray, number);
+    else if (out12.w > -1.5)
+        enter_medium(ray, number, side, is_hole ? vec3(0.0) : out12.rgb);
 #else
     ray.through *= is_hole ? 1.0 : 0.0;
 #endif

@@ -12,20 +12,21 @@
 
 layout(set = TRACER_SET, binding = 0, std430) readonly buffer Nodes { Node nodes[]; };
 layout(set = TRACER_SET, binding = 1, std430) readonly buffer Corners { Corner corners[]; };
-layout(set = TRACER_SET, binding = 2, std430) buffer Film { vec4 film[]; };
+layout(set = TRACER_SET, binding = 2, std430) buffer Film { vec4 film[]; }; // light of all pixels, then what they let straight through
 // Sums of the map's light: over rows (height + 1 of them, from 0 to 1), then for each row over its texels (width + 1).
 layout(set = TRACER_SET, binding = 3, std430) readonly buffer Sums { float sums[]; };
 layout(set = TRACER_SET, binding = 4, std430) readonly buffer Objects { Object objects[]; };
 layout(set = TRACER_SET, binding = 5, std430) readonly buffer Values { vec4 values[]; };
 layout(set = TRACER_SET, binding = 6, std430) buffer Paths { Path paths[]; };
 layout(set = TRACER_SET, binding = 7, std430) buffer Waiting { uint waiting[]; }; // how many paths wait for each shader
-layout(set = TRACER_SET, binding = 9) uniform sampler2D environment_map;
+layout(set = TRACER_SET, binding = 9, std430) buffer Media { Medium media[]; };
+layout(set = TRACER_SET, binding = 10) uniform sampler2D environment_map;
 layout(push_constant) uniform Camera {
     vec4 eye, right, up, forward;  // a ray through (x, y), each from -1 to 1, goes along forward + x * right + y * up
     vec4 environment[3];           // columns: from the world to the map
     uvec4 frame;                   // width, height, first sample, number of samples
 } camera;                          // eye.w: how often a path may turn;
-                                   // up.w: brightness of the environment
+                                   // up.w: brightness of the environment; forward.w: the most media around a path
                                    // environment[0].w: a distance that nothing has; [1].w: number of this shader
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -289,6 +290,16 @@ Point shade(Hit hit, vec3 direction, vec4 light)
     return point;
 }
 
+// ---- Media: media.glsl ----
+
+const uint IS_BODY = 2u; // of Medium.body: it is no solid
+uint side_of(Hit hit, vec3 direction);
+Medium no_medium();
+void enter_medium(inout Path path, Medium medium);
+void leave_medium(inout Path path, uint body);
+void copy_media(Path path, inout Shadow ray, uint number);
+bool is_in_body(Path path);
+
 // ---- Lights ----
 
 bool is_light(vec3 color)
@@ -318,9 +329,11 @@ void add_light(inout Path path, Point point, vec3 direction, float limit, vec3 l
         return;
     if (AS_DRAWN) // it has no shadows
         receive(path, light, of, path.through);
-    else
-        path.shadows[path.num_shadows++] = Shadow(beside(point, direction), limit, direction, 0u, light, of, path.through, path.medium.body,
-                                                  path.medium.body != 0u ? path.medium.extinction : vec3(0.0), path.medium.level.y);
+    else {
+        Shadow ray = Shadow(beside(point, direction), limit, direction, 0u, light, of, path.through, 0u, vec3(0.0), 0.0, 0u);
+        copy_media(path, ray, path.num_shadows + 1u);
+        path.shadows[path.num_shadows++] = ray;
+    }
 }
 
 // Light that lights send to the point where scatter() has run, and that goes on from there. `arrives`: that the environment sends;
@@ -371,7 +384,7 @@ bool wait(inout Path path, Hit hit)
 }
 
 // Goes through the surface with the ray; false: nothing of its light does.
-bool pass_surface(inout Shadow ray, Hit hit); // body.glsl
+bool pass_surface(inout Shadow ray, uint number, Hit hit); // body.glsl
 
 // Follows the ray to a light to its end, or false where it has to wait.
 bool follow_shadow(inout Path path)
@@ -392,7 +405,7 @@ bool follow_shadow(inout Path path)
             path.shadows[path.num_shadows - 1u] = ray;
             return wait(path, hit);
         }
-        if (!pass_surface(ray, hit))
+        if (!pass_surface(ray, path.num_shadows, hit))
             break;
     }
     --path.num_shadows;
@@ -413,9 +426,8 @@ mat3 count_turn(inout Path path, vec3 arrives)
 
 int fly(inout Path path, out Hit hit); // body.glsl
 #ifdef MATTER
-bool is_of_body(Path path, Hit hit);
 void pass_hole(inout Path path, Hit hit);
-void meet_boundary(inout Path path, Hit hit);
+bool meet_boundary(inout Path path, Hit hit);
 void enter_matter(inout Path path, Hit hit, Point point, vec4 towards); // matter.glsl
 void go_on_in_matter(inout Path path);
 #endif
@@ -431,23 +443,6 @@ bool follow_matter(inout Path path)
     go_on_in_matter(path);
 #endif
     return true;
-}
-
-Medium no_medium()
-{
-    return Medium(vec3(0.0), 0u, vec3(0.0), 0.0, vec2(-1.0, 0.0), ~0u, 0u);
-}
-
-void enter_medium(inout Path path, Medium medium)
-{
-    path.outer = path.medium;
-    path.medium = medium;
-}
-
-void leave_medium(inout Path path)
-{
-    path.medium = path.outer;
-    path.outer = no_medium();
 }
 
 // Where a path goes that has met a surface.
@@ -478,11 +473,12 @@ void bounce(inout Path path, Point point, vec4 towards)
         path.through *= inside;
     } else if (next.w > 0.5) { // into a solid or out of it
         Medium solid = no_medium();
+        solid.body = side_of(met, path.direction) & ~IS_BODY;
         solid.extinction = -log(max(inside, 1e-30));
         if (dot(point.facet, path.direction) < 0.0)
             enter_medium(path, solid);
         else
-            leave_medium(path);
+            leave_medium(path, solid.body);
     }
 }
 
@@ -490,7 +486,7 @@ void bounce(inout Path path, Point point, vec4 towards)
 bool follow_ray(inout Path path)
 {
     Hit hit;
-    bool is_inside = path.medium.body != 0u; // from where light comes out yet
+    bool is_inside = is_in_body(path); // from where light comes out yet
     if (path.hits >= uint(MAX_HITS) || (AS_DRAWN && path.turns > 0u) || path.turns >= uint(camera.eye.w) + (is_inside ? 1u : 0u)) {
         if (path.hits < uint(MAX_HITS) && path.turns > 0u && !is_inside)
             path.light += path.through * meet_environment(path.direction, path.density);
@@ -511,10 +507,8 @@ bool follow_ray(inout Path path)
         return true;
     ++path.hits;
 #ifdef MATTER
-    if (is_of_body(path, hit)) {
-        meet_boundary(path, hit);
+    if (meet_boundary(path, hit))
         return true;
-    }
 #endif
     vec4 towards = draw_environment(next_random());
     at_level = vec2(-1.0, next_random().x);
@@ -600,10 +594,10 @@ Path begin(uvec2 pixel, uint number)
     path.origin = camera.eye.xyz;
     path.direction = normalize(camera.forward.xyz + at.x * camera.right.xyz - at.y * camera.up.xyz);
     path.through = vec3(1.0);
-    path.medium = path.outer = no_medium();
+    path.medium = no_medium();
     path.light = path.weight = path.seen = vec3(0.0);
     path.density = 0.0;
-    path.turns = path.hits = path.num_shadows = path.waits = path.waits_for = path.side = 0u;
+    path.turns = path.hits = path.num_shadows = path.waits = path.waits_for = path.side = path.around = 0u;
     path.phase = GOING;
     path.number = number;
     return path;
@@ -627,22 +621,24 @@ void main()
         path.waits = path.waits == AT_REST ? 0u : path.waits;
         random_state = uvec4(pixel, path.number / PICKS, path.random);
     }
-    vec4 sum = vec4(0.0);
+    vec3 light = vec3(0.0), through = vec3(0.0);
     for (;;) {
         if (!follow(path)) {
             atomicAdd(waiting[path.waits_for], 1u);
             break;
         }
-        float covered = path.turns > 0u ? 1.0 : 1.0 - dot(path.through, vec3(1.0 / 3.0)); // but for what goes straight on
-        sum += vec4(path.seen + path.weight * path.light, covered);
+        light += path.seen + path.weight * path.light;
         if (path.turns > 0u)
             light_aovs(index, BY_PATH, path.light);
+        else
+            through += path.through;
         if (path.number + 1u == end)
             break;
         path = begin(pixel, path.number + 1u);
     }
     path.random = random_state.w;
     paths[index] = path;
-    film[index] += sum;
+    film[index].rgb += light;
+    film[camera.frame.x * camera.frame.y + index].rgb += through;
 }
 #endif

@@ -4,9 +4,9 @@ struct Node { vec3 low; uint first; vec3 high; uint count; };
 struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
 struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
 struct Hit { float distance; uint triangle; vec2 weights; };
-// What a path is in: nothing, a solid, or the body of an object (see body.glsl). Coefficients are over a unit of the world.
+// What a path is in: nothing, a solid, or the body of an object (see media.glsl). Coefficients are over a unit of the world.
 struct Medium {
-    vec3 extinction; uint body;      // the side where light came in, see side_of(); 0: it is no body
+    vec3 extinction; uint body;      // the object, and the side where light came in, see side_of(); 0: it is nothing
     vec3 scattering; float anisotropy;
     vec2 level;                      // of the pile where light came in, below 0 without matter there, and the number that picked what is there
     uint triangle, collisions;       // the path starts there; since it came in or left a surface
@@ -18,6 +18,7 @@ struct Shadow {
     vec3 light; uint of;
     vec3 through; uint body;         // as of Medium
     vec3 extinction; float number;
+    uint around;                     // as of Path
 };
 struct Path {
     vec3 origin; float density;
@@ -26,9 +27,10 @@ struct Path {
     vec3 light; uint phase;          // that later hits send to the first one, which sends `weight` of it to the eye
     vec3 weight; uint num_shadows;
     vec3 seen; uint number;          // what the first hit sends to the eye else; number of the sample
-    Medium medium, outer;            // outer: around the medium
+    Medium medium;
     Hit hit;                         // of a path that waits
     Hit place; vec2 matter; float depth; uint goes; // of a path in matter: where, its level, of the level's thickness, and how
     uint side, waits_for, random, waits;            // side: where it came into the matter
+    uint around;                     // so many media are around the medium
     Shadow shadows[2];
 };

@@ -515,20 +515,20 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
                           struct image *out)
 {
     struct painting painting = {.painter = painter, .scene = painter->scene};
+    size_t pixels = (size_t)painter->width * painter->height;
     *out = (struct image){.width = painter->width,
                           .height = painter->height,
                           .is_float = true,
-                          .pixels =
-                              malloc((size_t)painter->width * painter->height * 4 * sizeof(float))};
+                          .pixels = malloc(pixels * 4 * sizeof(float)),
+                          .through = malloc(pixels * 3 * sizeof(float))};
     struct bind **binds = calloc(count + 1, sizeof(struct bind *));
-    bool good = (binds && out->pixels) || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    bool good = (binds && out->pixels && out->through)
+                || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
     good = good && make_parts(&painting, subjects, count);
     for (size_t i = 0; good && i < count; ++i)
         binds[i] = painting.parts[i].bind;
     size_t failed = 0;
-    if (good
-        && !trace_picture(&painter->gpu, binds, count, painter->width, painter->height,
-                          &painter->trace, out->pixels, &failed))
+    if (good && !trace_picture(&painter->gpu, binds, count, &painter->trace, out, &failed))
         good = fail(painter, &painting.parts[failed], &subjects[failed]);
     for (size_t i = 0; good && i < count; ++i)
         tell_warning(painter, binds[i], &subjects[i]);

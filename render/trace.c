@@ -20,8 +20,11 @@ enum {
     PATHS,
     WAITING,
     AOVS,
+    MEDIA,
     NUM_BUFFERS,
     NUM_BINDINGS = NUM_BUFFERS + 1,
+    RAYS = 3,        /* that media are around: those of a path and of its shadows */
+    MOST_AROUND = 7, /* media around one */
     GROUP = 8,
     SAMPLES_AT_ONCE = 16
 };
@@ -136,13 +139,22 @@ static bool is_displaced(const struct tracer *tracer)
     return displaced;
 }
 
+/* The most media that are kept around the one where a path is: an object may have parts inside each
+ * other. */
+static uint32_t most_around(const struct tracer *tracer)
+{
+    uint32_t parts = 2 * tracer->num_objects;
+    return parts < MOST_AROUND + 1 ? parts - 1 : MOST_AROUND;
+}
+
 static bool create_buffers(struct tracer *tracer)
 {
     struct gpu *gpu = tracer->gpu;
     const struct bvh *bvh = &tracer->bvh;
     size_t pixels = (size_t)tracer->width * tracer->height,
            corners = 3 * (size_t)bvh->num_triangles;
-    size_t film = (is_displaced(tracer) && corners > pixels ? corners : pixels) * 4 * sizeof(float);
+    size_t rows = is_displaced(tracer) && corners > 2 * pixels ? corners : 2 * pixels,
+           film = rows * 4 * sizeof(float);
     size_t num_sums;
     float *sums = importance_of_map(&scene_of(tracer)->radiance, &num_sums);
     const struct {
@@ -155,6 +167,7 @@ static bool create_buffers(struct tracer *tracer)
         {NULL, film, FILM},
         {sums, num_sums * sizeof *sums, SUMS},
         {NULL, pixels * sizeof(struct Path), PATHS},
+        {NULL, most_around(tracer) * RAYS * pixels * sizeof(struct Medium), MEDIA},
         {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING},
         {NULL, (aovs_stride(tracer->options->aovs) * pixels + 1) * 4 * sizeof(float), AOVS}};
     bool good = sums || fail_for_memory(tracer);
@@ -242,6 +255,7 @@ static struct camera make_camera(const struct tracer *tracer)
     struct camera camera = {.frame = {tracer->width, tracer->height, 0, 0}};
     camera.eye[3] = (float)tracer->options->bounces;
     camera.up[3] = tracer->options->dark ? 0 : 1;
+    camera.forward[3] = (float)most_around(tracer);
     camera.environment[0][3] = (float)scene->near;
     for (size_t i = 0; i < 3; ++i) {
         camera.eye[i] = (float)scene->eye[i];
@@ -444,6 +458,22 @@ static void close(struct tracer *tracer)
     free(tracer->kernels);
 }
 
+static void take_pixels(const struct tracer *tracer, uint32_t samples, struct image *out)
+{
+    size_t pixels = (size_t)tracer->width * tracer->height;
+    const float *light = tracer->buffers[FILM].mapped, *through = light + 4 * pixels;
+    float *pixel = out->pixels;
+    for (size_t p = 0; p < pixels; ++p, pixel += 4) {
+        float sum = 0;
+        for (size_t c = 0; c < 3; ++c) {
+            pixel[c] = light[4 * p + c] / (float)samples;
+            out->through[3 * p + c] = through[4 * p + c] / (float)samples;
+            sum += out->through[3 * p + c];
+        }
+        pixel[3] = 1 - sum / 3;
+    }
+}
+
 static void take_aovs(const struct tracer *tracer, uint32_t samples)
 {
     const float *film = tracer->buffers[AOVS].mapped;
@@ -457,15 +487,14 @@ static void take_aovs(const struct tracer *tracer, uint32_t samples)
     }
 }
 
-bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count, uint32_t width,
-                   uint32_t height, const struct trace_options *options, float *out_pixels,
-                   size_t *out_failed)
+bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count,
+                   const struct trace_options *options, struct image *out, size_t *out_failed)
 {
     struct tracer tracer = {.gpu = gpu,
                             .options = options,
                             .kernels = calloc(count, sizeof *tracer.kernels),
-                            .width = width,
-                            .height = height};
+                            .width = out->width,
+                            .height = out->height};
     uint32_t samples = options->paths * options->picks;
     *out_failed = 0;
     bool good = tracer.kernels && open_kernels(&tracer, binds, count, out_failed)
@@ -480,10 +509,10 @@ bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count, uin
         if (options->progress)
             options->progress(options->progress_data, done + camera.frame[3], samples);
     }
-    for (size_t i = 0; good && i < (size_t)width * height * 4; ++i)
-        out_pixels[i] = ((const float *)tracer.buffers[FILM].mapped)[i] / (float)samples;
-    if (good)
+    if (good) {
+        take_pixels(&tracer, samples, out);
         take_aovs(&tracer, samples);
+    }
     if (!good && tracer.kernels && gpu->reason[0])
         kernel_fail(&tracer.kernels[*out_failed], gpu->id, gpu->reason);
     close(&tracer);

@@ -8,7 +8,8 @@
 #include "render/inputs.h"
 #include "compile/compile.h"
 
-/* path_structs.glsl, path.glsl, body.glsl and matter.glsl, as lines in pieces; ends with NULL. */
+/* path_structs.glsl, path.glsl, media.glsl, body.glsl and matter.glsl, as lines in pieces; ends
+ * with NULL. */
 extern const char *const trace_source[];
 
 struct trace_options {
@@ -28,12 +29,12 @@ struct trace_options {
 };
 
 /*
- * Traces paths through all objects of the shaders to RGBA, top row first. `binds` as for
- * render_open. false: see id and reason of binds[*out_failed]. Call bind_finish in any case.
+ * Traces paths through all objects of the shaders, and fills `pixels` and `through` of the image;
+ * the opacity is 1 - the mean of what goes straight through. `binds` as for render_open. false: see
+ * id and reason of binds[*out_failed]. Call bind_finish in any case.
  */
-bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count, uint32_t width,
-                   uint32_t height, const struct trace_options *options, float *out_pixels,
-                   size_t *out_failed);
+bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count,
+                   const struct trace_options *options, struct image *out, size_t *out_failed);
 
 /* kernel.c: the shader of one `bind`, with the path tracer around it. */
 struct kernel_program {

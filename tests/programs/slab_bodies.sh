@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Light in the meshes of bodies of slabs, path traced: white bodies lose no light, clear ones take what Beer and Lambert say of the way
-# through the mesh, thick ones reflect their albedo, and thin ones shine through. Arguments: mxgen-render, the root of the source tree.
+# through the mesh and in colour, thick ones reflect their albedo, and thin ones shine through. Arguments: mxgen-render, the root of the source tree.
 render=$(realpath "$1") root=$(realpath "$2")
 exr=$root/tests/programs/exr.py
 . "$root/tests/programs/common.sh"
@@ -56,17 +56,23 @@ operator() {
     slab chalk '1, 1, 1' '0, 0, 0' 0.04
     slab clear '0, 0, 0' '1, 1, 1' 0
     slab amber '0, 0, 0' '1, 1, 1' 0.04
+    slab tinted '0, 0, 0' '10, 2, 1' 0
+    slab thin '0, 0, 0' '2, 2, 2' 0
+    slab thinner '0, 0, 0' '4, 4, 4' 0
     slab thick '0.8, 0.5, 0.2' '0.002, 0.002, 0.002' 0
     slab wax '1, 1, 1' '0.1, 0.1, 0.1' 0
     operator slab_layer coated milk shiny 0.02
     operator slab_mix mixed shiny chalk 0.5
     operator slab_coverage half shiny - 0.5
-    for name in white clear thick wax coated mixed half amber; do body "${name^}" $name; done
+    for name in white clear thick wax coated mixed half amber tinted thin thinner; do body "${name^}" $name; done
     echo "<oren_nayar_diffuse_bsdf name='paint' type='BSDF'><input name='color' type='color3' value='1, 1, 1'/></oren_nayar_diffuse_bsdf>
       <surface name='SPaper' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='paint'/></surface>
       <surfacematerial name='Paper' type='material'><input name='surfaceshader' type='surfaceshader' nodename='SPaper'/></surfacematerial>
       <look name='inside'><materialassign material='White' geom='//outer'/><materialassign material='Paper' geom='//inner'/></look>
-      <look name='shadow'><materialassign material='Clear' geom='//block'/><materialassign material='Paper' geom='//floor'/></look>"
+      <look name='scattering'><materialassign material='White' geom='//outer'/><materialassign material='Coated' geom='//middle'/>
+        <materialassign material='Wax' geom='//inner'/></look>
+      <look name='absorbing'><materialassign material='Clear' geom='//outer'/><materialassign material='Thin' geom='//middle'/>
+        <materialassign material='Thinner' geom='//inner'/><materialassign material='Paper' geom='//floor'/></look>"
     echo '</materialx>'
 } >bodies.mtlx
 
@@ -87,6 +93,16 @@ check 'a clear ball' trace clear.exr SClear --paths 256
 check 'is as opaque as its chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clear 1)" 0.01
 check 'a smaller one' trace clear.exr SClear --paths 256 --distance-unit millimeter
 check 'has shorter chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clear 0.1)" 0.01
+
+# light FILE PIXEL COLOUR: of a picture for display, as linear light (IEC 61966-2-1).
+light() {
+    tail -c $((3 * (24 * 24 - $2))) "$1" | od -An -tu1 -N3 | awk -v n="$3" '{ c = $n / 255; print (c > 0.04045 ? ((c + 0.055) / 1.055) ^ 2.4 : c / 12.92) }'
+}
+check 'a ball of a colour before white' trace tinted.ppm STinted --paths 1024 --background environment
+for i in 1 2 3; do
+    way=$(echo '10 2 1' | cut -d' ' -f$i)
+    check "is seen through in colour: $i" near "$(of "$(light tinted.ppm 300 $i) / $(light tinted.ppm 0 $i)")" "$(of "exp(-2 / $way)")" 0.03
+done
 
 check 'a thick ball' trace thick.exr SThick --paths 256
 check 'reflects its albedo: red' near "$(of "$(channel thick.exr R) / $disk")" 0.8 0.015
@@ -112,25 +128,46 @@ check 'a thin plate shines through' awk -v a="$thin" 'BEGIN { exit !(a > 0.05) }
 check 'more than a thick one' awk -v a="$thin" -v b="$wide" 'BEGIN { print a, b; exit !(b > 0.005 && b < 0.6 * a) }'
 
 # Objects of other shaders inside a body, and in its shadow.
-sphere() { printf 'def Sphere "%s"\n{\n    double radius = %s\n}\n' "$1" "$2"; }
+# sphere NAME RADIUS [Z]
+sphere() {
+    printf 'def Sphere "%s"\n{\n    double radius = %s\n    double3 xformOp:translate = (0, 0, %s)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n' \
+        "$1" "$2" "${3:-0}"
+}
+# cube NAME SIZE: above the floor.
+cube() {
+    printf 'def Cube "%s"\n{\n    double size = %s\n    double3 xformOp:translate = (0, 0, 3)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n' "$1" "$2"
+}
+# stage FILE STAGE LOOK ARGUMENT...: objects in even light.
+stage() {
+    exits 0 "$render" bodies.mtlx --stage "$2" --look "$3" -q --path-trace -o "$1" --lights none --environment white.hdr --camera 0,0 --bounces 64 "${@:4}"
+}
 head='#usda 1.0
 (
  upAxis = "Y"
  metersPerUnit = 0.01
 )'
 { echo "$head"; sphere outer 1; sphere inner 0.5; } >inside.usda
-check 'paper in a white body' exits 0 "$render" bodies.mtlx --stage inside.usda --look inside -q --path-trace -o inside.exr --lights none \
-    --environment white.hdr --camera 0,0 --size 16 --paths 64 --bounces 64
+check 'paper in a white body' stage inside.exr inside.usda inside --size 16 --paths 64
 check 'and no light is lost' near "$(all inside.exr)" 1 0.01
+{ echo "$head"; sphere outer 1; sphere middle 0.7; sphere inner 0.4; } >three.usda
+check 'three white bodies inside each other' stage three.exr three.usda scattering --size 16 --paths 64
+check 'and no light is lost' near "$(all three.exr)" 1 0.01
+# through FILE: the opacity in the middle.
+through() { python3 "$exr" "$1" A 0.5 0.5; }
+check 'three clear ones' stage three.exr three.usda absorbing --size 17 --paths 2048
+check 'are as opaque as their chords' near "$(through three.exr)" "$(of '1 - exp(-0.6 / 1 - 0.6 / 2 - 0.8 / 4)')" 0.01
+# Light leaves the first one inside the second.
+{ echo "$head"; sphere outer 1 1; sphere middle 1; } >overlap.usda
+check 'two that overlap' stage overlap.exr overlap.usda absorbing --size 17 --paths 2048
+check 'are as opaque as the ways, in the second where both are' near "$(through overlap.exr)" "$(of '1 - exp(-1 / 1 - 2 / 2)')" 0.01
+check 'two white ones' stage overlap.exr overlap.usda scattering --size 16 --paths 64
+check 'lose no light' near "$(all overlap.exr)" 1 0.01
 {
     echo "$head"
+    cube outer 1
+    cube middle 0.6
+    cube inner 0.2
     cat <<'USDA'
-def Cube "block"
-{
-    double size = 1
-    double3 xformOp:translate = (0, 0, 3)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
 def Mesh "floor"
 {
     point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]
@@ -153,9 +190,9 @@ def Camera "camera"
 }
 USDA
 } >shadow.usda
-check 'the shadow of a clear block' exits 0 "$render" bodies.mtlx --stage shadow.usda --look shadow -q --path-trace -o shadow.exr --camera /camera --size 8 --paths 16
+check 'the shadow of clear blocks inside each other' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 8 --paths 16
 shadow=$(python3 "$exr" shadow.exr R 0.5 0.5)
-check 'and without it' exits 0 "$render" bodies.mtlx --stage shadow.usda --look shadow -q --path-trace -o shadow.exr --camera /camera --size 8 --paths 16 --distance-unit nanometer
-check 'is exp(-1) of the light' near "$(of "$shadow / $(python3 "$exr" shadow.exr R 0.5 0.5)")" 0.368 0.01
+check 'and without it' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 8 --paths 16 --distance-unit nanometer
+check 'is that of the ways through them' near "$(of "$shadow / $(python3 "$exr" shadow.exr R 0.5 0.5)")" "$(of 'exp(-0.4 / 1 - 0.4 / 2 - 0.2 / 4)')" 0.01
 
 finish slab_bodies
