@@ -155,6 +155,7 @@ def compare_network(name, document, *options):
     if not NAMES or name in NAMES:
         whole, network = (in_folder(by_osl, document, [*options, *more]) for more in ([], ["--osl-network"]))
         agree(f"{name}, as a network", network, whole, 1, "as one shader", SAME)
+        check(f"{name}: no more light than there is", f"{max(whole)}" if not isinstance(whole, str) and max(whole) > 1.01 else None)
 
 
 OURS = HERE.parent.parent / "examples"
