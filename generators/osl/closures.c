@@ -69,15 +69,18 @@ static ir_ref layered(struct osl_tree *t, ir_ref top, ir_ref base)
     return osl_sum(t, t->of[top], osl_scaled(t, t->of[base], through));
 }
 
-/* The opacity is already in the closure if premultiplied. */
-static ir_ref surface(struct osl_tree *t, ir_ref closure, ir_ref opacity, bool premultiplied)
+/*
+ * The opacity is already in the closure of matter. It is a mean of what `bsdf` lets through, which
+ * OSL has as a colour.
+ */
+static ir_ref surface(struct osl_tree *t, ir_ref bsdf, ir_ref closure, ir_ref opacity,
+                      bool is_matter)
 {
-    if (!premultiplied || ir_const_is(t->graph, opacity, 1.0f))
+    if (!is_matter || ir_const_is(t->graph, opacity, 1.0f))
         return seen_through(t, closure, opacity);
     t->shader->transparent = true;
-    ir_ref through = osl_transparent(t);
-    through = osl_scaled(t, through, closure_one_minus(t->graph, opacity));
-    return osl_sum(t, closure, through);
+    ir_ref through = closure_throughput(t->shader, t->host, bsdf, ir_const_float(t->graph, 0.0f));
+    return osl_sum(t, closure, osl_scaled(t, osl_transparent(t), through));
 }
 
 static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
@@ -87,7 +90,7 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
     if (node->op == IR_LEAF)
         return osl_leaf(t, ref);
     memcpy(a, ir_args(t->graph, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *a);
-    bool premultiplied = node->attr != 0; /* of a surface */
+    bool is_matter = node->attr != 0; /* of a surface */
     switch (node->op) {
     case IR_LAYER: return layered(t, a[0], a[1]);
     case IR_CLOSURE_MIX:
@@ -95,7 +98,7 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
     case IR_CLOSURE_ADD: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
     case IR_CLOSURE_SCALE: return osl_scaled(t, t->of[a[0]], a[1]);
     case IR_SURFACE_SHADER:
-        return surface(t, osl_sum(t, t->of[a[0]], t->of[a[1]]), a[2], premultiplied);
+        return surface(t, a[0], osl_sum(t, t->of[a[0]], t->of[a[1]]), a[2], is_matter);
     case IR_SURFACE_UNLIT: return unlit(t, a[0], a[1], a[2]);
     case IR_AOV: return t->of[a[0]];
     case IR_VOLUME_SHADER: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
@@ -106,13 +109,15 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
     }
 }
 
-/* Notes whether a surface is a thin-walled shell. */
-static void set_thin(struct osl_tree *t, ir_ref surface)
+/* Notes whether a surface is a thin-walled shell, and what rays come through. */
+static void set_shell(struct osl_tree *t, ir_ref surface)
 {
     surface = closure_without_aovs(t->graph, surface);
-    bool is_thin = ir_get(t->graph, surface)->op == IR_SURFACE_SHADER
-                   && !osl_is_false(t, ir_arg(t->graph, surface, 3));
-    t->thin = is_thin ? ir_arg(t->graph, surface, 3) : 0;
+    bool is_surface = ir_get(t->graph, surface)->op == IR_SURFACE_SHADER;
+    ir_ref opacity = is_surface ? ir_arg(t->graph, surface, 2) : 0,
+           thin = is_surface ? ir_arg(t->graph, surface, 3) : 0;
+    t->thin = osl_is_false(t, thin) ? 0 : thin;
+    t->seen_through = opacity && !ir_const_is(t->graph, opacity, 1.0f);
 }
 
 /* The closure of a closure or shader. */
@@ -138,7 +143,7 @@ static ir_ref closure_below(struct osl_tree *t, ir_ref root)
 static ir_ref closure_of(struct osl_tree *t, ir_ref root)
 {
     if (root)
-        set_thin(t, root);
+        set_shell(t, root);
     return closure_below(t, root);
 }
 
@@ -163,7 +168,8 @@ static ir_ref blended(struct osl_tree *t, ir_ref slots)
         if (!slot.surface || ir_slot_is_vertical(g, &slot) || ir_const_is(g, slot.weight, 0.0f))
             continue;
         struct closure_surface layer = closure_weighted(g, layers[i], slot.weight);
-        set_thin(t, slot.surface);
+        set_shell(t, slot.surface);
+        t->seen_through |= !ir_const_is(g, alpha, 1.0f);
         sum = osl_sum(t, sum, parts_of(t, &layer));
     }
     if (ir_const_is(g, alpha, 1.0f))
@@ -299,6 +305,7 @@ static void emit_picked(struct osl_tree *t, uint32_t out, ir_ref slots)
     ir_ref number = shader_read(
         t->shader, shader_private_uniform(t->shader, STR_u_layerSample, IR_TYPE_FLOAT, 0));
     closure_choose(t->shader, t->host, slots, number, &choices);
+    t->seen_through = choices.covered != 0;
     for (uint32_t i = 0; i < choices.items.len; i++) {
         const struct closure_choice *choice = &choices.items.items[i];
         put_closure(t, out, parts_of(t, &choice->layer), choice->layer.aovs, choice->is_it);
@@ -333,9 +340,7 @@ static void emit_sides(struct osl_tree *t, ir_ref front, ir_ref back)
         emit_side(t, out, front);
         return;
     }
-    str_id name = str_intern_z(t->shader->strings, "u_backfacing");
-    ir_ref behind =
-        shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
+    ir_ref behind = osl_behind(t);
     effect(t, EFFECT_IF, 0, ir_op1(g, IR_NOT, behind));
     emit_side(t, out, front);
     effect(t, EFFECT_END, 0, 0);

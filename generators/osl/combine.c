@@ -19,6 +19,12 @@ ir_ref osl_transparent(struct osl_tree *t)
     return osl_call(t, "transparent_bsdf", IR_TYPE_BSDF, NULL, 0);
 }
 
+ir_ref osl_behind(struct osl_tree *t)
+{
+    str_id name = str_intern_z(t->shader->strings, "u_backfacing");
+    return shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
+}
+
 ir_ref osl_emission(struct osl_tree *t, ir_ref radiance)
 {
     assert(ir_type_of(t->graph, radiance) == IR_TYPE_VEC3);

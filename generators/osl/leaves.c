@@ -416,6 +416,35 @@ static ir_ref row_call(struct leaf *leaf, const struct row *row)
     return osl_mixed(t, whole, shell, ir_convert(t->graph, IR_TYPE_FLOAT, thin));
 }
 
+/*
+ * What is below a slab has the weight that the front leaves. A closure that is seen from behind
+ * reflects all light beyond the critical angle of the index that fits its f0, but a ray that came
+ * straight through a surface is not inside of matter. No index fits 1 or 0, so from behind the
+ * curve is a sum: f0 · 1 + (f90 - f0) (1 - cos)^5.
+ */
+static ir_ref seen_from_behind(struct leaf *leaf, const struct row *row)
+{
+    struct osl_tree *t = leaf->tree;
+    struct ir_graph *g = t->graph;
+    ir_ref f0 = leaf->inputs[INPUT_f0], black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    ir_ref rise = ir_op2(g, IR_SUB, leaf->inputs[INPUT_f90], f0);
+    leaf->inputs[INPUT_f0] = leaf->inputs[INPUT_f90] = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    ir_ref even = osl_scaled(t, row_call(leaf, row), f0);
+    leaf->inputs[INPUT_f0] = black;
+    leaf->inputs[INPUT_f90] = ir_op2(g, IR_MAX, rise, black);
+    return osl_sum(t, even, row_call(leaf, row));
+}
+
+static ir_ref closure_of_row(struct leaf *leaf, const struct row *row)
+{
+    struct osl_tree *t = leaf->tree;
+    ir_ref front = row_call(leaf, row);
+    if (!t->seen_through || !leaf->inputs[INPUT_f0])
+        return front;
+    ir_ref behind = seen_from_behind(leaf, row);
+    return osl_mixed(t, front, behind, ir_convert(t->graph, IR_TYPE_FLOAT, osl_behind(t)));
+}
+
 /* ---- Leaves without a row: the value of their own functions for the current view ---- */
 
 static ir_ref emission(struct osl_tree *t, ir_ref leaf)
@@ -485,7 +514,7 @@ ir_ref osl_leaf(struct osl_tree *t, ir_ref ref)
     } else if (row) {
         struct leaf leaf = {.tree = t, .ref = ref};
         find_inputs(&leaf);
-        result = row_call(&leaf, row);
+        result = closure_of_row(&leaf, row);
         result = osl_scaled(t, result, closure_call(t->shader, t->host, ref, LEAF_TINT, NULL));
     } else if (node.type == IR_TYPE_EDF || functions[LEAF_EMISSION] != LANG_NONE) {
         result = emission(t, ref);

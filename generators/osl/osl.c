@@ -86,14 +86,23 @@ static const char *shader_type(const struct spell *spell)
     return spell->stage_id == STAGE_VERTEX ? "displacement" : words[spell->shader->kind];
 }
 
-/* "NG_out": from the element's path. */
+/*
+ * "NG_out": from the element's path. oslc names its file after the shader, so a displacement beside
+ * a surface has a name of its own.
+ */
 static const char *shader_name(struct spell *spell)
 {
+    const struct shader *shader = spell->shader;
     if (spell->options->shader_name)
         return spell->options->shader_name;
-    const char *path = str_text(spell->shader->strings,
-                                spell->shader->rules.neutral_names ? 0 : spell->shader->path);
-    return *path ? names_unique(&spell->names, path, strlen(path)).text : "neutral";
+    struct text name;
+    text_init(&name, spell->scratch);
+    text_str(&name, str_text(shader->strings, shader->rules.neutral_names ? 0 : shader->path));
+    if (!name.len)
+        text_str(&name, "neutral");
+    if (spell->stage_id == STAGE_VERTEX && shader->stages[STAGE_PIXEL].effects.len)
+        text_str(&name, "_displacement");
+    return names_unique(&spell->names, text_cstr(&name), name.len).text;
 }
 
 static void write_shader(struct osl *osl)

@@ -17,6 +17,7 @@ struct osl_tree {
     ir_ref *of;           /* per node of closure or shader type: its closure in OSL; 0: none */
     uint8_t *slabs;       /* per node: it has a slab, whose layers do not weigh as those of OSL */
     ir_ref thin;          /* true if the surface is a thin-walled shell; 0: false */
+    bool seen_through;    /* rays come straight through the surface, and see it from behind */
     uint32_t *aovs;       /* the outputs of the shader's AOVs */
     struct table counted; /* the leaves among the shader's closures */
     str_id unknown;       /* the family of a leaf without an OSL closure; 0: none */
@@ -47,6 +48,9 @@ ir_ref osl_fresnel_rise(struct ir_graph *graph, const struct osl_interface *of, 
 
 /* leaves.c: the closure of a LEAF node; 0, and tree->unknown, if it has none. */
 ir_ref osl_leaf(struct osl_tree *tree, ir_ref leaf);
+
+/* combine.c: true if the ray comes from behind the surface. */
+ir_ref osl_behind(struct osl_tree *tree);
 
 /* True if an input is false or absent. */
 bool osl_is_false(const struct osl_tree *tree, ir_ref value);

@@ -6,6 +6,7 @@
 #include "glint.glsl"
 
 uniform sampler2D u_tints; // the tables of stored closures
+uniform float u_layerSample; // in OSL a number for each point
 
 // ---- diffuse reflection of an opaque medium --------------------------------------------------------------------------
 // Chan 2018, "Material Advances in Call of Duty: WWII", divided by its directional albedo, which is 0.31 to 1.12.
@@ -424,75 +425,81 @@ mat3 mx_slab_frame(vec3 N, vec3 X, vec3 V)
     return mat3(x, cross(Nf, x), Nf);
 }
 
-// A closure of a renderer does not know the light. It has the normal of the facet at the point, and a share of the roughness.
-vec4 mx_slab_facet(vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, vec3 N, vec3 X, vec3 V)
+// ---- one facet for each point ----
+// A closure of a renderer does not know the light. Where the light matters it has the normal of one facet, and the tint of the direction that
+// the facet mirrors. The renderer takes many points in a pixel; the mean over their facets is the lobe. The facet is one of the glints, or
+// where they are countless, one by how much of it the viewer sees.
+
+// Of the roughness, that such a facet has itself: with less, small lights need more points; with more, directions share their tints.
+const float MX_SLAB_FACET_ROUGHNESS = 0.0625;
+
+bool mx_slab_has_facets(float glint_density, vec4 glint_footprint)
 {
-    if (!mx_glint_has_facets(glint_density, glint_footprint))
+    return glint_density > 0.0 && mx_glint_has_facets(glint_density, glint_footprint);
+}
+
+// Its normal in the frame. Without a tint there are glints only.
+vec3 mx_slab_facet_normal(vec2 alpha, float glint_density, vec2 glint_uv, vec4 glint_footprint, float specular_lut_weight, vec3 v)
+{
+    if (specular_lut_weight <= 0.0 || mx_slab_has_facets(glint_density, glint_footprint))
+        return mx_glint_facet(alpha, glint_density, glint_uv);
+    return mx_ggx_visible(alpha, v, mx_glint_random(uvec3(uint(u_layerSample * 16777216.0), 0u, 0u)).xy);
+}
+
+// The normal, and the facet's share of the roughness.
+vec4 mx_slab_facet(vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, float specular_lut_weight, vec3 N, vec3 X, vec3 V)
+{
+    bool is_glint = mx_slab_has_facets(glint_density, glint_footprint);
+    if (!is_glint && specular_lut_weight <= 0.0)
         return vec4(N, 1.0);
-    return vec4(mx_slab_frame(N, X, V) * mx_glint_facet(mx_ggx_alpha(roughness), glint_density, glint_uv), 0.5 * MX_GLINT_STEP);
+    mat3 frame = mx_slab_frame(N, X, V);
+    return vec4(frame * mx_slab_facet_normal(mx_ggx_alpha(roughness), glint_density, glint_uv, glint_footprint, specular_lut_weight,
+                                             mx_ggx_local(frame, V)),
+                is_glint ? 0.5 * MX_GLINT_STEP : MX_SLAB_FACET_ROUGHNESS);
+}
+
+// What it sends of the light l that it mirrors to v, over Fresnel's factor, so that the mean is the lobe. Glints are as many as their share of
+// the plane (Walter et al. 2007, equation 41). A visible normal weighs G2 / G1; the last factor undoes the blur by the facet's roughness, which
+// changes the distribution of slopes like its Laplacian does, so that the lobe is within 1 %.
+float mx_slab_facet_weight(vec2 alpha, bool is_glint, vec3 m, vec3 v, vec3 l)
+{
+    float weight = 4.0 * mx_ggx_smith_visibility(v, l, alpha);
+    vec2 slope = m.xy / (alpha * m.z);
+    float q = dot(slope, slope);
+    return is_glint ? weight * dot(m, v) / m.z
+                    : weight / mx_ggx_masked(v, alpha) * (1.0 + 0.028 * (1.0 - 2.0 * q) / ((1.0 + q) * (1.0 + q)));
+}
+
+// The same with compensation, and the cosine of the light.
+vec4 mx_slab_facet_light(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, float specular_lut_weight,
+                         vec3 N, vec3 X, vec3 V)
+{
+    bool is_glint = mx_slab_has_facets(glint_density, glint_footprint);
+    if (!is_glint && specular_lut_weight <= 0.0)
+        return vec4(1.0);
+    vec2 alpha = mx_ggx_alpha(roughness);
+    vec3 v = mx_ggx_local(mx_slab_frame(N, X, V), V);
+    vec3 m = mx_slab_facet_normal(alpha, glint_density, glint_uv, glint_footprint, specular_lut_weight, v);
+    vec3 l = reflect(-v, m);
+    if (l.z <= 0.0 || dot(m, v) <= 0.0)
+        return vec4(0.0);
+    return vec4(mx_slab_facet_weight(alpha, is_glint, m, v, l)
+                    * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), "schlick", f0, vec3(0.0), f90, 0.0, 1.5), l.z);
 }
 
 // This and the tint call others for the parts that a slab may lack, so that the compiler leaves these out.
 vec4 mx_slab_reflection_bsdf_facet(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                    float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
-    if (glint_density <= 0.0)
-        return vec4(N, 1.0);
-    return mx_slab_facet(roughness, glint_density, glint_uv, glint_footprint, N, X, V);
-}
-
-// The mean tint of even light: of eight directions of the lobe.
-vec3 mx_slab_mean_tint(vec3 f0, vec3 f90, vec2 roughness, sampler2D specular_lut, float specular_lut_weight, float specular_lut_index,
-                       vec3 N, vec3 X, vec3 V)
-{
-    vec3 light = vec3(0.0);
-    vec3 tinted = vec3(0.0);
-    for (int i = 0; i < 8; i++)
-    {
-        vec3 xi = vec3((float(i) + 0.5) * 0.125, fract(float(i) * 0.625) + 0.0625, 0.0); // a lattice
-        vec3 L, weight;
-        float pdf;
-        mx_ggx_scatter(roughness, N, X, V, xi, 1.5, MX_REFLECTS, "schlick", f0, vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
-        light += weight;
-        tinted += weight * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), abs(dot(N, L)));
-    }
-    return tinted / max(light, MX_EPSILON);
-}
-
-// What a facet sends of the light of the direction that it mirrors, over Fresnel's factor: as much as the viewer sees of its area, over what
-// is there. So the mean over facets is the lobe (Walter et al. 2007, equation 41). Last the direction's cosine; below 0 there is no facet.
-vec4 mx_slab_facet_light(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, vec3 N, vec3 X, vec3 V)
-{
-    if (!mx_glint_has_facets(glint_density, glint_footprint))
-        return vec4(1.0, 1.0, 1.0, -1.0);
-    vec2 alpha = mx_ggx_alpha(roughness);
-    vec3 m = mx_glint_facet(alpha, glint_density, glint_uv);
-    vec3 v = mx_ggx_local(mx_slab_frame(N, X, V), V);
-    vec3 l = reflect(-v, m);
-    if (l.z <= 0.0 || dot(m, v) <= 0.0)
-        return vec4(0.0);
-    return vec4(4.0 * mx_ggx_smith_visibility(v, l, alpha) * dot(m, v) / m.z
-                    * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), "schlick", f0, vec3(0.0), f90, 0.0, 1.5), l.z);
-}
-
-vec3 mx_slab_tinted(vec4 facet, vec3 f0, vec3 f90, vec2 roughness, sampler2D specular_lut, float specular_lut_weight, float specular_lut_index,
-                    vec3 N, vec3 X, vec3 V)
-{
-    if (facet.w < 0.0)
-        return mx_slab_mean_tint(f0, f90, roughness, specular_lut, specular_lut_weight, specular_lut_index, N, X, V);
-    return facet.xyz * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), facet.w);
+    return mx_slab_facet(roughness, glint_density, glint_uv, glint_footprint, specular_lut_weight, N, X, V);
 }
 
 // What the closure reflects is multiplied by the tint.
 vec3 mx_slab_reflection_bsdf_tint(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                   float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
-    vec4 facet = vec4(1.0, 1.0, 1.0, -1.0);
-    if (glint_density > 0.0)
-        facet = mx_slab_facet_light(max(f0, 0.0), f90, roughness, glint_density, glint_uv, glint_footprint, N, X, V);
-    if (specular_lut_weight <= 0.0)
-        return facet.xyz;
-    return mx_slab_tinted(facet, max(f0, 0.0), f90, roughness, specular_lut, specular_lut_weight, specular_lut_index, N, X, V);
+    vec4 light = mx_slab_facet_light(max(f0, 0.0), f90, roughness, glint_density, glint_uv, glint_footprint, specular_lut_weight, N, X, V);
+    return light.xyz * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), light.w);
 }
 
 // A raster tints all of its environment as at the mirror of the view.

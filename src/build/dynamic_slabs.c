@@ -27,25 +27,13 @@ static bool has_part(const mxg_build *build, str_id input, enum slab_feature fea
     return !(build->b->options->slab_features_off & 1u << feature) && !is_off(build, input);
 }
 
-/* Closures of a renderer do not know the light. */
-static void tell_mean_tint(const mxg_build *build)
-{
-    struct builder *b = build->b;
-    if (b->options->closures)
-        diag_add(b->diags, DIAG_ID_slab_part_missing,
-                 doc_place(&b->lib->doc, build->frame->node.element),
-                 build_text(b, STR_specular_lut), build_text(b, build->def->node));
-}
-
 static void leave_out(const mxg_build *build, ir_ref *args)
 {
     ir_ref nothing = ir_const_float(build->b->graph, 0.0f);
     if (!has_part(build, STR_glint_density, SLAB_GLINTS))
         args[SLAB_glint_density] = nothing;
-    if (has_part(build, STR_specular_lut, SLAB_LUT)) {
-        tell_mean_tint(build);
+    if (has_part(build, STR_specular_lut, SLAB_LUT))
         return;
-    }
     args[SLAB_specular_lut] = 0;
     args[SLAB_specular_lut_weight] = nothing;
 }

@@ -93,6 +93,15 @@ vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float 
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
+// A normal of those visible from v.
+vec3 mx_ggx_visible(const vec2 alpha, const vec3 v, const vec2 xi)
+{
+    vec3 stretch = vec3(alpha, 1.0);
+    float reach = length(vec3(v.xy * alpha, v.z));
+    return normalize(mx_ggx_cap(cos(6.2831855 * (xi.x - vec2(0.0, 0.25))), xi.y * (v.z + reach), v * stretch, reach)
+        * stretch);
+}
+
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(const vec3 N, const vec3 X)
 {
@@ -111,10 +120,7 @@ void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
     mat3 frame = mx_frame(faceforward(N, -V, N), X);
     vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    vec3 stretch = vec3(alpha, 1.0);
-    float reach = length(vec3(v.xy * alpha, v.z));
-    vec3 h = normalize(mx_ggx_cap(cos(6.2831855 * (xi.x - vec2(0.0, 0.25))), xi.y * (v.z + reach), v * stretch, reach)
-        * stretch);
+    vec3 h = mx_ggx_visible(alpha, v, xi.xy);
     float cos_h = clamp(dot(v, h), 1e-8, 1.0);
     vec3 f = mx_fresnel_schlick(cos_h, n);
     float share = 1.0;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Renders OSL closures on balls under a uniform sky with OSL's testrender and with mxgen's path tracer; the means agree within 3 percent.
+Tints of slabs follow the light, so these balls are also under a lamp, which is above them.
 Rows of furnace.tsv: a material of furnace.mtlx or a document of the examples; the ratio of the means if the models differ; settings that
 make them agree (then the ratio is 1, which proves the reason); the reason. Some are also rendered as shader groups. The example materials
 of slabs, and a stack of layers, are the same as whole shaders and as shader groups. Arguments: mxgen, the folder of MaterialX's examples ('' or absent: none), and
@@ -20,6 +21,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SKY, SIZE, TOLERANCE, SAME = 0.5, 32, 0.03, 0.005
 DISTANCE, FIELD = 4.0, math.radians(30)
 NETWORKS = {"varnished", "slabs_lacquered", "slab_tinted", "slab_glints", "StandardSurface/standard_surface_gold.mtlx", "OpenPbr/open_pbr_default.mtlx"}
+LAMPS = {"slab_tinted", "slab_tinted_rough", "slab_tinted_glints"}
 counts = {"passed": 0, "failed": 0, "skipped": 0}
 
 
@@ -62,7 +64,7 @@ def scene(layers):
 <ShaderGroup>{layers}</ShaderGroup>
 <Sphere center="0, 0, 0" radius="1" resolution="256"/>
 <ShaderGroup><Shader type="surface" name="sky" layer="sky"/></ShaderGroup>
-<Background resolution="32"/>
+<Background resolution="128"/>
 </World>
 """
 
@@ -73,13 +75,23 @@ def write_tint(folder):
     radiance.write(folder / "tint.hdr", [[(light, 1 - light, view) for view in steps] for light in reversed(steps)])
 
 
-def by_osl(document, options, folder):
+def lamp(height):
+    """What the lamp sends from a direction of this height, over what a uniform sky sends."""
+    return 0.1 + 8 * max(height, 0) ** 8 # never 0, by which testrender divides
+
+
+def write_sky(path, is_lamp, rows=64):
+    radiance.write(path, [[(SKY * (lamp(math.cos(math.pi * (y + 0.5) / rows)) if is_lamp else 1),) * 3] * (2 * rows) for y in range(rows)])
+
+
+def by_osl(document, options, folder, is_lamp=False):
     fault = run(MXGEN, document, "--target", "osl", "-q", "-o", folder, *options)
     groups = [path for path in folder.glob("*.oslgroup") if ".displacement." not in path.name]
     write_tint(folder)
     for path in document.parent.glob("*.png"): # a texture lies beside its document
         shutil.copy(path, folder)
-    (folder / "sky.osl").write_text(f"surface sky()\n{{\n    Ci = background() * {SKY};\n}}\n")
+    share = "(0.1 + 8 * pow(max(up[1], 0), 8))" if is_lamp else "1"
+    (folder / "sky.osl").write_text(f"surface sky()\n{{\n    vector up = normalize(I);\n    Ci = background() * ({SKY} * {share});\n}}\n")
     for path in sorted(folder.glob("*.osl")):
         fault = fault or run("oslc", "-q", path.name, folder=folder)
     if fault:
@@ -95,8 +107,8 @@ def by_osl(document, options, folder):
     return fault or ball_mean(folder / "osl.hdr")
 
 
-def traced(document, options, folder):
-    radiance.write_constant(folder / "sky.hdr", SKY)
+def traced(document, options, folder, is_lamp=False):
+    write_sky(folder / "sky.hdr", is_lamp)
     if document.parent == HERE: # a texture lies beside its document
         document = pathlib.Path(shutil.copy(document, folder))
         write_tint(folder)
@@ -105,9 +117,9 @@ def traced(document, options, folder):
     return fault or ball_mean(folder / "traced.hdr")
 
 
-def in_folder(render, document, options):
+def in_folder(render, document, options, is_lamp=False):
     with tempfile.TemporaryDirectory() as folder:
-        return render(document, options, pathlib.Path(folder))
+        return render(document, options, pathlib.Path(folder), is_lamp)
 
 
 def agree(what, mean, reference, expected, by="traced", tolerance=TOLERANCE):
@@ -126,6 +138,8 @@ def compare(what, document, options, expected):
     agree(what, in_folder(by_osl, document, options), reference, expected)
     if what in NETWORKS:
         agree(f"{what}, as a network", in_folder(by_osl, document, [*options, "--osl-network"]), reference, expected)
+    if what in LAMPS:
+        agree(f"{what}, under a lamp", *(in_folder(render, document, options, True) for render in (by_osl, traced)), expected)
 
 
 if not shutil.which("oslc") or not shutil.which("testrender"):
@@ -141,6 +155,7 @@ def compare_network(name, document, *options):
     if not NAMES or name in NAMES:
         whole, network = (in_folder(by_osl, document, [*options, *more]) for more in ([], ["--osl-network"]))
         agree(f"{name}, as a network", network, whole, 1, "as one shader", SAME)
+        check(f"{name}: no more light than there is", f"{max(whole)}" if not isinstance(whole, str) and max(whole) > 1.01 else None)
 
 
 OURS = HERE.parent.parent / "examples"

@@ -72,6 +72,14 @@ float mx_ggx_pdf(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, int 
          * (is_reflected ? 0.25 * share : (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h, eta));
 }
 
+// A normal of those visible from v.
+vec3 mx_ggx_visible(vec2 alpha, vec3 v, vec2 xi)
+{
+    vec3 stretch = vec3(alpha, 1.0);
+    float reach = mx_ggx_smith(v, alpha);
+    return normalize(mx_ggx_cap(mx_polar(1.0, xi.x), xi.y * (v.z + reach), v * stretch, reach) * stretch);
+}
+
 // What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is smooth.
 void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, int mode, string model, vec3 n, vec3 k, vec3 f90,
                     float exponent, float film, float film_ior, out vec3 L, out vec3 weight, out float pdf)
@@ -79,9 +87,7 @@ void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, 
     vec2 alpha = mx_ggx_alpha(roughness);
     mat3 frame = mx_frame(mx_facing(N, V), X);
     vec3 v = mx_ggx_local(frame, V);
-    vec3 stretch = vec3(alpha, 1.0);
-    float reach = mx_ggx_smith(v, alpha);
-    vec3 h = normalize(mx_ggx_cap(mx_polar(1.0, xi.x), xi.y * (v.z + reach), v * stretch, reach) * stretch);
+    vec3 h = mx_ggx_visible(alpha, v, xi.xy);
     float cos_h = clamp(dot(v, h), MX_EPSILON, 1.0);
     vec3 f = mx_fresnel(cos_h, model, n, k, f90, exponent, film, film_ior);
     float share = mx_ggx_share(f, mode);
