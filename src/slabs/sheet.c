@@ -47,9 +47,7 @@ struct filler {
 
 const char *slab_name(const struct slab_sheet *sheet, ir_ref ref)
 {
-    const struct ir_graph *g = sheet->shader->graph;
-    str_id name = g->origins.items[ir_get(g, ref)->origin].name;
-    return name ? str_text(sheet->shader->strings, name) : "?";
+    return slabs_name(sheet->shader, ref);
 }
 
 void slab_write_number(float value, struct text *out)
