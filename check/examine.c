@@ -302,6 +302,7 @@ static void examine_element(struct examiner *examiner, const mxg_document *docum
                             struct check_element *element)
 {
     element->picture = element->signature = element->full = element->drawn_error = "";
+    element->slabs = "";
     element->shaders =
         store_array(&examiner->store, examiner->targets.len, sizeof *element->shaders);
     for (size_t i = 0; i < examiner->targets.len; ++i) {

@@ -41,7 +41,10 @@ void examine_settings(struct examiner *examiner, const mxg_result *result,
 void examine_images(struct examiner *examiner, const mxg_result *result);
 void examine_picture(struct examiner *examiner, const mxg_document *document,
                      struct check_element *element);
-/* examine_steps.c: the steps of the budget of slabs, without drawn errors. */
+/* examine_slabs.c: the tree of slabs, of a material that has some or that options make slabs of. */
+void examine_slabs(struct examiner *examiner, const mxg_document *document,
+                   struct check_element *element);
+/* examine_slabs.c: the steps of the budget of slabs, without drawn errors. */
 void examine_steps(struct examiner *examiner, const mxg_document *document,
                    struct check_element *element);
 

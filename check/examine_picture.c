@@ -213,6 +213,7 @@ void examine_picture(struct examiner *examiner, const mxg_document *document,
     if (signature && drawn.png) {
         element->signature = signature;
         element->picture = picture_base64(&examiner->store, drawn.png, drawn.png_size);
+        examine_slabs(examiner, document, element);
         if (cli_has_budget(examiner->cli))
             add_full(examiner, document, element, &drawn);
     } else {

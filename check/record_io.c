@@ -134,6 +134,7 @@ static void element(struct record_io *io, void *item)
     io->coding->settings(io, "textures", &element->textures, &element->num_textures);
     text(io, "signature", &element->signature);
     text(io, "picture", &element->picture);
+    text(io, "slabsPicture", &element->slabs);
     text(io, "fullPicture", &element->full);
     text(io, "drawnError", &element->drawn_error);
     element->steps = objects(io, "steps", false, element->steps, &element->num_steps,

@@ -138,6 +138,15 @@ static void write_head(FILE *out, const struct check_run *run, const struct card
         fprintf(out, "<p>drawn error of the budget: %s</p>", card->element->drawn_error);
 }
 
+static void write_slabs(FILE *out, const struct check_element *element)
+{
+    if (*element->slabs)
+        fprintf(out,
+                "<details><summary>slabs</summary><img alt=\"\" loading=\"lazy\" "
+                "src=\"data:image/svg+xml;base64,%s\"/></details>",
+                element->slabs);
+}
+
 static void write_steps(FILE *out, const struct check_element *element)
 {
     if (!element->num_steps)
@@ -322,6 +331,8 @@ static void write_card(struct sink *sink, const struct card *card)
         write_table(out, card->element);
     if (card->element)
         write_steps(out, card->element);
+    if (card->element)
+        write_slabs(out, card->element);
     write_changes(out, sink->run, card);
     write_messages(out, card);
     if (card->is_gone)

@@ -104,6 +104,7 @@ static struct check_element *plain_elements(struct store *store,
     for (size_t i = 0; i < document->num_elements; ++i) {
         elements[i] = document->elements[i];
         elements[i].picture = elements[i].full = elements[i].drawn_error = "";
+        elements[i].slabs = "";
         elements[i].num_steps = 0;
         elements[i].shaders =
             store_array(store, elements[i].num_shaders, sizeof *elements[i].shaders);

@@ -11,7 +11,6 @@
 
 #define SIZE "48" /* pixels */
 #define BALL 0.36 /* of the height: its radius, without the edge, which neighbours soften */
-enum { MOST_CLOSURES = 16 };
 
 /* ---- Difference ---- */
 
@@ -61,57 +60,80 @@ double drawn_difference(const char *a, size_t size_a, const char *b, size_t size
 
 /* ---- Pictures ---- */
 
-/* max_closures 0: the full material. NULL after a message. */
-static char *draw(struct cli *cli, const char *document, const char *element, unsigned max_closures,
-                  const char *path, size_t *out_size)
+/* What is drawn, and the steps of its budget. */
+struct subject {
+    const char *file, *element, *path; /* path: of the picture */
+    unsigned num_steps;
+    bool is_asked; /* options have the budget; otherwise it is one closure */
+};
+
+/* The steps that a report of the slabs lists. */
+static void count_steps(struct cli *cli, const mxg_document *document, struct subject *subject)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    mxg_result *result = NULL;
+    desc.target = "glsl";
+    desc.element = subject->element;
+    desc.options = cli->options;
+    mxg_inspect(cli->context, document, MXG_VIEW_SLABS, &desc, &result);
+    const char *text = result ? mxg_result_text(result, NULL) : NULL;
+    subject->is_asked = text && !strstr(text, "\nto one closure\n");
+    for (; text && (text = strstr(text, ", estimated error ")); ++text)
+        ++subject->num_steps;
+    mxg_result_destroy(result);
+}
+
+/* After the first steps; 0: the full material. NULL after a message. */
+static char *draw(struct cli *cli, const struct subject *subject, unsigned steps, size_t *out_size)
 {
     struct arg_list args = {0};
     int status = -1;
     args_append(&args, cli_program("mxgen-render"));
-    args_append(&args, cli_format("%s", document));
-    if (element)
-        args_append(&args, cli_format("--element=%s", element));
-    args_append(&args, cli_format("--output=%s", path));
+    args_append(&args, cli_format("%s", subject->file));
+    if (subject->element)
+        args_append(&args, cli_format("--element=%s", subject->element));
+    args_append(&args, cli_format("--output=%s", subject->path));
     args_append(&args, cli_format("--size=" SIZE));
     args_append(&args, cli_format("--mesh=sphere"));
     args_append(&args, cli_format("--missing-texture=checker"));
-    cli_forward_full(cli, &args);
-    args_append(&args, max_closures ? cli_format("--max-closures=%u", max_closures)
-                                    : cli_format("--max-steps=0"));
+    if (steps)
+        cli_forward(cli, &args);
+    else
+        cli_forward_full(cli, &args);
+    if (steps && !subject->is_asked)
+        args_append(&args, cli_format("--max-closures=1"));
+    args_append(&args, cli_format("--max-steps=%u", steps));
     args_append(&args, NULL);
     bool good = cli_run(&cli->report, (char *const *)(uintptr_t)args.items, &status);
     if (good && status != 0)
         report_error(&cli->report, "no-picture",
                      "there are no drawn errors: the renderer made no picture of '%s'",
-                     element ? element : document);
+                     subject->element ? subject->element : subject->file);
     args_free(&args);
-    char *data = good && status == 0 ? files_read(path, out_size) : NULL;
-    unlink(path);
+    char *data = good && status == 0 ? files_read(subject->path, out_size) : NULL;
+    unlink(subject->path);
     return data;
 }
 
-static bool compare_all(struct cli *cli, const char *document, const char *element,
-                        const char *path, FILE *out)
+static bool compare_all(struct cli *cli, const struct subject *subject, FILE *out)
 {
     size_t size = 0, other_size = 0;
-    char *full = draw(cli, document, element, 0, path, &size);
-    const char *between = "";
-    bool good = full != NULL, differs = true;
-    for (unsigned n = 1; good && differs && n <= MOST_CLOSURES; ++n) {
-        char *cheaper = draw(cli, document, element, n, path, &other_size);
+    char *full = subject->num_steps ? draw(cli, subject, 0, &size) : NULL;
+    bool good = full || !subject->num_steps;
+    for (unsigned n = 1; good && n <= subject->num_steps; ++n) {
+        char *cheaper = draw(cli, subject, n, &other_size);
         double error = drawn_difference(full, size, cheaper, other_size);
         good = cheaper && error >= 0;
-        differs = good && (other_size != size || memcmp(full, cheaper, size) != 0);
         if (good)
-            fprintf(out, "%s%u=%.4f", between, n, error);
-        between = ",";
+            fprintf(out, "%s%u=%.4f", n > 1 ? "," : "", n, error);
         free(cheaper);
     }
     free(full);
     return good;
 }
 
-bool drawn_errors(struct cli *cli, const char *document, const char *element, char **out)
+bool drawn_errors(struct cli *cli, const mxg_document *document, const char *file,
+                  const char *element, char **out)
 {
     const char *root = getenv("TMPDIR");
     char *folder = cli_format("%s/mxgen-drawn-XXXXXX", root && *root ? root : "/tmp");
@@ -121,7 +143,9 @@ bool drawn_errors(struct cli *cli, const char *document, const char *element, ch
     bool good = stream && mkdtemp(folder);
     if (good) {
         char *path = cli_format("%s/ball.ppm", folder);
-        good = compare_all(cli, document, element, path, stream);
+        struct subject subject = {.file = file, .element = element, .path = path};
+        count_steps(cli, document, &subject);
+        good = compare_all(cli, &subject, stream);
         free(path);
         rmdir(folder);
     } else {

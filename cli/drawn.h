@@ -12,10 +12,11 @@
 double drawn_difference(const char *a, size_t size_a, const char *b, size_t size_b);
 
 /*
- * Draws the element of a document by mxgen-render, full and with 1, 2, … closures, and appends
- * "CLOSURES=ERROR" to *out for each budget that changes the picture, separated by commas. False
- * after a message: there is no renderer, or it makes no picture.
+ * Draws the element of a document by mxgen-render, full and after each step of its budget, and
+ * appends "STEPS=ERROR" to *out for each step, separated by commas. False after a message: there is
+ * no renderer, or it makes no picture.
  */
-bool drawn_errors(struct cli *cli, const char *document, const char *element, char **out);
+bool drawn_errors(struct cli *cli, const mxg_document *document, const char *file,
+                  const char *element, char **out);
 
 #endif

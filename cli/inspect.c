@@ -95,11 +95,13 @@ static void print_stack(struct cli *cli, const mxg_document *own, struct inspect
 }
 
 /* The errors of pictures become an option, which the reports read. Without pictures, true too. */
-static bool add_drawn(struct cli *cli, const char *file, const struct inspect *inspect)
+static bool add_drawn(struct cli *cli, const mxg_document *document, const char *file,
+                      const struct inspect *inspect)
 {
     char *errors = NULL;
     bool good = true;
-    if (inspect->is_drawn && drawn_errors(cli, file, inspect->element, &errors) && *errors)
+    if (inspect->is_drawn && drawn_errors(cli, document, file, inspect->element, &errors)
+        && *errors)
         good = mxg_options_set(cli->options, "drawn-errors", errors) == MXG_OK;
     free(errors);
     return good;
@@ -134,7 +136,8 @@ int command_inspect(const struct command *command, int argc, char **argv)
          &inspect.views[MXG_VIEW_SLABS]},
         {"format", 0, ARG_TEXT, "text|json|svg", "of --slabs (default: text)", &inspect.format},
         {"drawn", 0, ARG_FLAG, NULL,
-         "of --slabs: draws the material, full and in budgets, and shows the errors beside the "
+         "of --slabs: draws the material, full and after each step, and shows the errors beside "
+         "the "
          "estimates",
          &inspect.is_drawn},
         {"element", 'e', ARG_TEXT, "PATH",
@@ -162,7 +165,7 @@ int command_inspect(const struct command *command, int argc, char **argv)
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
             if (document && inspect.place.file)
                 print_stack(&cli, document, &inspect);
-            else if (document && add_drawn(&cli, cli.parser.inputs.items[i], &inspect))
+            else if (document && add_drawn(&cli, document, cli.parser.inputs.items[i], &inspect))
                 print_views(&cli, document, &inspect);
             mxg_document_destroy(document);
         }

@@ -77,23 +77,23 @@ static void view_closures(struct generation *g, struct text *out)
     closure_describe(&g->result->shader, &g->closure_host, g->root, out);
 }
 
-/* The option `drawn-errors`: CLOSURES=ERROR. */
+/* The option `drawn-errors`: STEPS=ERROR. */
 static bool read_drawn(struct generation *g, struct slab_sheet *sheet)
 {
     const struct option_value *errors = &g->options[OPTION_drawn_errors];
     for (uint32_t i = 0; i < errors->list.len; i++) {
         const char *word = errors->list.items[i];
         char *end, *last;
-        unsigned long closures = strtoul(word, &end, 10);
+        unsigned long steps = strtoul(word, &end, 10);
         float error = *end == '=' ? strtof(end + 1, &last) : -1.0f;
         if (end == word || !(error >= 0.0f) || last == end + 1 || *last) {
             diag_add(&g->result->object.diagnostics.list, DIAG_ID_bad_option,
                      (struct diag_place){0}, word, option_key(OPTION_drawn_errors),
-                     "closures and their error, such as 2=1.35");
+                     "steps and their error, such as 2=1.35");
             return false;
         }
         vec_push(&g->result->object.arena, &sheet->drawn,
-                 (struct slab_drawn){(uint32_t)closures, error});
+                 (struct slab_drawn){(uint32_t)steps, error});
     }
     return true;
 }

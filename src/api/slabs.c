@@ -143,6 +143,9 @@ bool generation_budget_slabs(struct generation *g)
     ir_assert_valid(&g->result->graph, "after the budget of slabs");
     for (uint32_t i = 0; i < report->steps.len; i++)
         report_step(g, &report->steps.items[i]);
+    if (report->unblended)
+        diag_add(diags_of(g), DIAG_ID_not_blended, doc_place(&g->document->layer.doc, g->element),
+                 slabs_name(&g->result->shader, report->unblended));
     if (!report->is_met)
         report_failure(g, &budget);
     return report->is_met;

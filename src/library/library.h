@@ -421,7 +421,7 @@ void library_report_space(const struct library *lib, const char *space, struct d
 
 /* The first type that has a unit of this name; 0: none. */
 str_id library_unit_type_of(const struct library *lib, str_id unit);
-/* Reports that a unit is unknown or belongs to another type. */
+/* Reports that a unit is unknown, has no scale or belongs to another type. */
 void library_report_unit(const struct library *lib, str_id type, str_id unit,
                          struct diag_place place, struct diag_list *diags);
 /* The scale of a unit to the base unit of its type; type 0: any type. false: unknown. */

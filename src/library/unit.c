@@ -100,7 +100,9 @@ void library_report_unit(const struct library *lib, str_id type, str_id unit,
                          struct diag_place place, struct diag_list *diags)
 {
     str_id other = library_unit_type_of(lib, unit);
-    if (other && library_has_unit_type(lib, type))
+    if (type && find_unit(lib, type, unit, false))
+        diag_add(diags, DIAG_ID_unit_without_scale, place, text_of(lib, unit));
+    else if (other && library_has_unit_type(lib, type))
         diag_add(diags, DIAG_ID_unit_of_other_type, place, text_of(lib, unit), text_of(lib, other),
                  text_of(lib, type));
     else

@@ -74,11 +74,22 @@ static enum slab_step_kind kind_of(const struct ir_graph *g, ir_ref ref)
     }
 }
 
-/* False: another operator with the same operands is elsewhere, and would need them still. */
+/* Another operator with the same operands is elsewhere, and needs them still. */
+static bool is_costlier(struct slab_cost a, struct slab_cost b)
+{
+    return a.closures > b.closures || a.bytes > b.bytes;
+}
+
 static bool is_cheaper(struct slab_cost a, struct slab_cost b)
 {
-    return a.closures <= b.closures && a.bytes <= b.bytes
-           && (a.closures < b.closures || a.bytes < b.bytes);
+    return !is_costlier(a, b) && is_costlier(b, a);
+}
+
+/* The document asks to blend the parameters of an operator. */
+static bool is_asked(const struct ir_graph *g, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(g, ref);
+    return (node->op == IR_SLAB_LAYER || node->op == IR_CLOSURE_MIX) && node->attr;
 }
 
 static struct candidate blend_at(struct saver *s, const struct slab_spot *spot)
@@ -105,33 +116,45 @@ static ir_ref without(const struct saver *s, uint32_t features)
     return root;
 }
 
-/* The deepest operator of two slabs, or the deepest that makes the tree cheaper. */
-static struct candidate deepest_of(struct saver *s, bool is_cheaper_only)
+/* Which operators of two slabs may become one. */
+enum choice {
+    CHEAPER, /* if the tree is cheaper then */
+    ASKED    /* those that the document asks for, if the tree is not costlier then */
+};
+
+static bool is_worth(enum choice choice, struct slab_cost after, struct slab_cost before)
+{
+    return choice == ASKED ? !is_costlier(after, before) : is_cheaper(after, before);
+}
+
+/* The deepest operator of a choice, at any cost or only where it is worth it. */
+static struct candidate deepest_of(struct saver *s, enum choice choice, bool at_any_cost)
 {
     struct candidate best = {.root = 0};
     for (uint32_t i = 0; i < s->spots.items.len; i++) {
         const struct slab_spot spot = s->spots.items.items[i];
         if (!slab_can_blend(s->graph, spot.ref)
+            || (choice == ASKED && !is_asked(s->graph, spot.ref))
             || (best.root && s->spots.depth[spot.ref] <= best.depth))
             continue;
         struct candidate c = blend_at(s, &spot);
-        if (!is_cheaper_only || is_cheaper(cost_of(s, c.root), s->cost))
+        if (at_any_cost || is_worth(choice, cost_of(s, c.root), s->cost))
             best = c;
     }
     return best;
 }
 
 /* Where operators share slabs, several blends together make the tree cheaper. */
-static struct candidate deepest_blend(struct saver *s)
+static struct candidate deepest_blend(struct saver *s, enum choice choice)
 {
-    struct candidate c = deepest_of(s, true);
+    struct candidate c = deepest_of(s, choice, false);
     struct saver further = *s;
     while (!c.root) {
-        struct candidate next = deepest_of(&further, false);
+        struct candidate next = deepest_of(&further, choice, true);
         if (!next.root)
             return c;
         set_root(&further, next.root);
-        if (is_cheaper(further.cost, s->cost))
+        if (is_worth(choice, further.cost, s->cost))
             c = next;
     }
     return c;
@@ -159,8 +182,7 @@ static void consider(struct saver *s, struct candidate c, struct candidate *best
         return;
     struct slab_cost cost = cost_of(s, c.root);
     bool is_feature = c.step.kind == SLAB_STEP_FEATURE; /* saves instructions, too */
-    if (cost.closures > s->cost.closures || cost.bytes > s->cost.bytes
-        || (!is_feature && !is_cheaper(cost, s->cost)))
+    if (is_feature ? is_costlier(cost, s->cost) : !is_cheaper(cost, s->cost))
         return;
     c.step.error = error_of(s, c.root);
     if (c.step.error >= 0.0f && (!best->root || c.step.error < best->step.error))
@@ -212,7 +234,7 @@ static struct candidate next_step(struct saver *s)
         if (best.root)
             return best;
     }
-    struct candidate c = deepest_blend(s);
+    struct candidate c = deepest_blend(s, CHEAPER);
     return c.root || keeps_closures(s) ? (c.root ? c : next_feature(s)) : c;
 }
 
@@ -222,8 +244,7 @@ static void meet_limits(struct saver *s)
         struct candidate c = next_step(s);
         if (!c.root)
             return;
-        assert(cost_of(s, c.root).closures <= s->cost.closures
-               && cost_of(s, c.root).bytes <= s->cost.bytes);
+        assert(!is_costlier(cost_of(s, c.root), s->cost));
         record(s, c.step, c.root);
     }
 }
@@ -244,19 +265,12 @@ static void spend_error(struct saver *s)
 /* The operators that the document asks to blend, the deepest first. */
 static void blend_asked(struct saver *s)
 {
-    for (bool any = true; any && goes_on(s);) {
-        any = false;
-        for (uint32_t i = s->spots.items.len; i-- > 0 && !any;) {
-            const struct slab_spot *spot = &s->spots.items.items[i];
-            const struct ir_node *node = ir_get(s->graph, spot->ref);
-            bool is_operator = node->op == IR_SLAB_LAYER || node->op == IR_CLOSURE_MIX;
-            if (!is_operator || !node->attr || !slab_can_blend(s->graph, spot->ref))
-                continue;
-            struct candidate c = blend_at(s, spot);
-            c.step.kind = SLAB_STEP_ASKED;
-            record(s, c.step, c.root);
-            any = true;
-        }
+    while (goes_on(s)) {
+        struct candidate c = deepest_blend(s, ASKED);
+        if (!c.root)
+            return;
+        c.step.kind = SLAB_STEP_ASKED;
+        record(s, c.step, c.root);
     }
 }
 
@@ -270,15 +284,13 @@ bool slabs_is_asked(const struct slab_budget *budget)
     return has_limits(budget) || budget->recognises || budget->off;
 }
 
-/* True if the document asks for steps. */
-static bool any_asked(const struct saver *s)
+/* An operator that the document asks to blend; 0: there is none. */
+static ir_ref find_asked(const struct saver *s)
 {
-    for (uint32_t i = 0; i < s->spots.items.len; i++) {
-        const struct ir_node *node = ir_get(s->graph, s->spots.items.items[i].ref);
-        if ((node->op == IR_SLAB_LAYER || node->op == IR_CLOSURE_MIX) && node->attr)
-            return true;
-    }
-    return false;
+    for (uint32_t i = 0; i < s->spots.items.len; i++)
+        if (is_asked(s->graph, s->spots.items.items[i].ref))
+            return s->spots.items.items[i].ref;
+    return 0;
 }
 
 static void recognise(struct saver *s)
@@ -313,7 +325,7 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
         return root;
     set_root(&s, has_limits(budget) ? slabs_join_stacks(shader, host, root) : root);
     out->before = out->after = s.cost;
-    if (!s.cost.closures || (!slabs_is_asked(budget) && !any_asked(&s)))
+    if (!s.cost.closures || (!slabs_is_asked(budget) && !find_asked(&s)))
         return s.root;
     if (host->scratch)
         slabs_look(shader, host, s.root, NULL, &s.whole);
@@ -325,8 +337,16 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
                   || (keeps(&s) && (budget->max_error < 0.0f || out->error <= budget->max_error));
     if (out->is_met)
         spend_error(&s);
+    out->unblended = goes_on(&s) ? find_asked(&s) : 0;
     out->after = s.cost;
     return s.root;
+}
+
+const char *slabs_name(const struct shader *shader, ir_ref ref)
+{
+    const struct ir_graph *g = shader->graph;
+    str_id name = g->origins.items[ir_get(g, ref)->origin].name;
+    return name ? str_text(shader->strings, name) : "?";
 }
 
 void slabs_describe_step(const struct shader *shader, const struct slab_step *step,
@@ -349,9 +369,6 @@ void slabs_describe_step(const struct shader *shader, const struct slab_step *st
     text_str(out, kinds[step->kind]);
     if (step->kind == SLAB_STEP_FEATURE)
         text_fmt(out, " %s", features[step->feature]);
-    else if (step->node) {
-        const struct ir_graph *g = shader->graph;
-        str_id name = g->origins.items[ir_get(g, step->node)->origin].name;
-        text_fmt(out, " '%s'", name ? str_text(shader->strings, name) : "?");
-    }
+    else if (step->node)
+        text_fmt(out, " '%s'", slabs_name(shader, step->node));
 }

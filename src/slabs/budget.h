@@ -39,8 +39,9 @@ struct slab_step {
 struct slab_report {
     VEC(struct slab_step) steps;
     struct slab_cost before, after;
-    float error; /* below 0: unknown; 0 without steps */
-    bool is_met; /* the limits hold */
+    float error;      /* below 0: unknown; 0 without steps */
+    bool is_met;      /* the limits hold */
+    ir_ref unblended; /* an operator that the document asks to blend in vain; 0: none */
 };
 
 /* The cheaper tree. root: of any type; without slabs it stays as it is. */
@@ -49,6 +50,9 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
 
 /* True if the budget asks for steps. */
 bool slabs_is_asked(const struct slab_budget *budget);
+
+/* The name of the node that an operator or a slab comes from. */
+const char *slabs_name(const struct shader *shader, ir_ref ref);
 
 /* "layer 'coated'", "second lobe": what a step removes. */
 void slabs_describe_step(const struct shader *shader, const struct slab_step *step,

@@ -125,10 +125,10 @@ void slabs_write_json(const struct slab_sheet *sheet, struct text *out)
     for (uint32_t i = 0; i < sheet->report.steps.len; i++)
         put_step(&json, sheet, &sheet->report.steps.items[i]);
     json_close(&json, ']');
-    json_key(&json, "texturesNotRead");
+    json_key(&json, "notRead");
     json_open_flat(&json, '[');
-    for (uint32_t i = 0; i < sheet->textures.len; i++) {
-        const char *name = slab_name(sheet, sheet->textures.items[i]);
+    for (uint32_t i = 0; i < sheet->unread.len; i++) {
+        const char *name = slab_name(sheet, sheet->unread.items[i]);
         json_item(&json);
         text_json_string(out, name, strlen(name));
     }

@@ -7,6 +7,7 @@
 #include "slabs/stack.h"
 
 #include <math.h>
+#include <string.h>
 
 const struct slab_shown slab_shown[] = {{SLAB_diffuse_albedo, "albedo"},
                                         {SLAB_f0, "f0"},
@@ -47,9 +48,7 @@ struct filler {
 
 const char *slab_name(const struct slab_sheet *sheet, ir_ref ref)
 {
-    const struct ir_graph *g = sheet->shader->graph;
-    str_id name = g->origins.items[ir_get(g, ref)->origin].name;
-    return name ? str_text(sheet->shader->strings, name) : "?";
+    return slabs_name(sheet->shader, ref);
 }
 
 void slab_write_number(float value, struct text *out)
@@ -262,22 +261,35 @@ static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
     note_shared_masks(f);
 }
 
-/* The textures that estimates cannot read. */
-static void note_textures(struct slab_sheet *sheet, const struct slabs_host *host,
-                          const uint8_t *needed, ir_ref root)
+/* What a host alone knows: textures that cannot be read, its uniforms, data of its vertices. */
+static bool is_unread(const struct slab_sheet *sheet, const struct slabs_host *host,
+                      const struct ir_node *node)
 {
-    for (ir_ref ref = 1; ref <= root; ref++) {
-        const struct ir_node *node = ir_get(sheet->shader->graph, ref);
-        if (needed[ref] && node->op == IR_TEXTURE
-            && !(host->texels && host->texels(host->user_data, node->attr)))
-            vec_push(sheet->shader->arena, &sheet->textures, ref);
-    }
+    const struct shader *shader = sheet->shader;
+    if (node->op == IR_TEXTURE)
+        return !(host->texels && host->texels(host->user_data, node->attr));
+    if (node->op != IR_UNIFORM && node->op != IR_STREAM)
+        return false;
+    const struct shader_variable *variable = &shader->variables.items[node->attr];
+    const char *semantic = variable->semantic ? str_text(shader->strings, variable->semantic) : "";
+    return node->op == IR_UNIFORM
+               ? !variable->path
+               : strncmp(semantic, "geomprop:", 9) == 0 || strncmp(semantic, "color:", 6) == 0;
+}
+
+static void note_unread(struct slab_sheet *sheet, const struct slabs_host *host,
+                        const uint8_t *needed, ir_ref root)
+{
+    for (ir_ref ref = 1; ref <= root; ref++)
+        if (needed[ref] && is_unread(sheet, host, ir_get(sheet->shader->graph, ref)))
+            vec_push(sheet->shader->arena, &sheet->unread, ref);
 }
 
 float slab_drawn_error(const struct slab_sheet *sheet, const struct slab_step *step)
 {
+    uint32_t steps = (uint32_t)(step - sheet->report.steps.items) + 1;
     for (uint32_t i = 0; i < sheet->drawn.len; i++)
-        if (sheet->drawn.items[i].closures == step->after.closures)
+        if (sheet->drawn.items[i].steps == steps)
             return sheet->drawn.items[i].error;
     return -1.0f;
 }
@@ -286,10 +298,10 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
                       const struct slab_budget *budget, ir_ref root, struct slab_sheet *out)
 {
     const struct ir_graph *g = shader->graph;
-    const struct slab_budget one = {.max_closures = 1, .max_error = -1.0f, .max_steps = -1};
+    const struct slab_budget one = {
+        .max_closures = 1, .max_error = -1.0f, .max_steps = budget->max_steps};
     *out = (struct slab_sheet){.shader = shader, .is_asked = slabs_is_asked(budget)};
-    if (out->is_asked)
-        slabs_budget(shader, host, budget, root, &out->report);
+    slabs_budget(shader, host, out->is_asked ? budget : &one, root, &out->report);
     root = slabs_join_stacks(shader, host, root);
     out->is_recognised = root && !slabs_has(shader, root);
     if (out->is_recognised)
@@ -299,7 +311,7 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
     struct filler f = {.sheet = out, .shader = shader, .graph = g, .host = host};
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     f.is_written = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
-    note_textures(out, host, needed, root);
+    note_unread(out, host, needed, root);
     for (ir_ref ref = 1; ref <= root; ref++) {
         uint8_t op = ir_get(g, ref)->op;
         bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER;
@@ -308,6 +320,4 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
     }
     if (ir_type_is_closure(ir_type_of(g, root)))
         fill_tree(&f, root, root);
-    if (!out->is_asked)
-        slabs_budget(shader, host, &one, root, &out->report);
 }

@@ -40,16 +40,16 @@ struct slab_tree {
     struct slab_cost cost;
 };
 
-/* The error of a picture with so many closures, of the caller. */
+/* The error of a picture after so many steps, of the caller. */
 struct slab_drawn {
-    uint32_t closures;
+    uint32_t steps;
     float error;
 };
 
 struct slab_sheet {
     const struct shader *shader;
     VEC(struct slab_tree) trees;
-    VEC(ir_ref) textures;      /* that the estimate does not read */
+    VEC(ir_ref) unread;        /* what the estimate knows no value of */
     bool is_recognised;        /* the slabs stand for other closures */
     struct slab_report report; /* of the budget */
     bool is_asked;             /* the caller has a budget; otherwise it is one closure */

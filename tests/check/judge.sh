@@ -152,6 +152,11 @@ else
     check 'steps of a budget' exits 0 "${steps[@]}" --html steps.html --json steps.json
     check 'have their costs and errors' grep -Eq "^  'CarPaint': one slab for the layer 'coated': closures 2 to 1, bytes 24 to 16, error estimated [01]\.[0-9]+, drawn [01]\.[0-9]+" out
     check 'in pages' grep -q "<td>one slab for the layer 'coated'</td><td>2 to 1</td><td>24 to 16</td><td>" steps.html
+    check 'with the tree of slabs' python3 -c 'import base64, re, xml.etree.ElementTree as e
+svgs = [base64.b64decode(text) for text in re.findall("<summary>slabs</summary>.*?image/svg.xml;base64,([^\"]+)", open("steps.html").read())]
+trees = [[t.text or "" for t in e.fromstring(svg).findall("{*}text")] for svg in svgs]
+assert len(trees) == 5 and any("one slab for the layer" in t for texts in trees for t in texts), trees'
+    check 'not of others' eval '! grep -q "<summary>slabs" red.html'
     check 'each is drawn' says steps.json '[all(float(s["drawnError"]) >= 0 for s in e["steps"]) and e["steps"][-1]["drawnError"] == e["drawnError"] for e in d[0]["elements"] if e["path"] == "CarPaint"]' '[True]'
     check 'by itself' says steps.json '[len({s["drawnError"] for s in e["steps"]}) > 1 for e in d[0]["elements"] if e["path"] == "CarPaint"]' '[True]'
     sed -i 's/0.8, 0.1, 0.1/0.1, 0.8, 0.1/' red.mtlx

@@ -48,6 +48,7 @@ static struct check_document *make_document(void)
                                                .num_textures = 1,
                                                .picture = "cGljdHVyZQ==",
                                                .signature = "1,2",
+                                               .slabs = "PHN2Zy8+",
                                                .full = "ZnVsbA==",
                                                .drawn_error = "1.35",
                                                .steps = steps,

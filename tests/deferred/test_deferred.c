@@ -375,6 +375,8 @@ static void test_views(struct bench *b)
                 {"Plain", 0, {0, 0.6f, 0}},
                 {"Satin", 0, {0.8f, 0, 0}},
                 {"Plain", 3, {1, 1, 1}},
+                /* below the interface, f0 0.04, and twice through (0.95, 0.8, 0.6) */
+                {"Lacquered", 4, {0.96f * 0.9025f, 0.96f * 0.64f, 0.96f * 0.36f}},
                 {"Plain", 5, {0.6f, 0.2f, 0.1f}}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         struct drawing d;
@@ -495,6 +497,10 @@ int main(int argc, char **argv)
                                                                         "FlakePaint", "PearlPaint"};
     static const char *const features[] = {"Plain", "Wax",       "Hazy",    "Downy",
                                            "Satin", "Lacquered", "Chipped", "Lantern"},
+                             *const blends[] = {"CarbonAndMetal", "SkinIntoGold", "CoatedSkin",
+                                                "MetalToPlastic", "Opal"},
+                             *const helpers[] = {"HazyMetal", "DustyLacquer", "FlipFlop",
+                                                 "AmberOnOak", "ScreenInVelvet"},
                              *const layers[] = {"CoatedMetal", "DustyFibre", "WrappedSilk",
                                                 "CarPaint"},
                              *const others[] = {"Painted", "Brushed", "Cloth", "Toy",
@@ -524,6 +530,12 @@ int main(int argc, char **argv)
     if (b.document)
         for (size_t i = 0; i < sizeof layers / sizeof *layers; ++i)
             test_payload(&b, layers[i], 38);
+    if (open_document(&b, argv[1], "slab_blends.mtlx"))
+        for (size_t i = 0; i < sizeof blends / sizeof *blends; ++i)
+            test_picture(&b, blends[i]);
+    if (open_document(&b, argv[1], "slab_helpers.mtlx"))
+        for (size_t i = 0; i < sizeof helpers / sizeof *helpers; ++i)
+            test_picture(&b, helpers[i]);
     if (open_document(&b, argv[1], "slab_glints.mtlx"))
         for (size_t i = 0; i < sizeof paints / sizeof *paints; ++i)
             test_picture(&b, paints[i]);

@@ -94,6 +94,22 @@ check 'the document asks' exits 0 "$mxgen" asked.mtlx -e CarPaint -Wbudget-step 
 check 'for one slab' says "one slab for 'paint': closures 3 to 2"
 check 'without a step' exits 0 "$mxgen" asked.mtlx -e CarPaint --max-steps 0 -Wbudget-step -o made
 check 'it gets three' eval '! says "one slab"'
+mixes() { # two mixes of the same slabs, and a mix of these; the first ARGUMENT of them ask
+    python3 - "$1" <<'END'
+import sys
+ask = lambda i: '<input name="blend_parameters" type="boolean" value="true"/>' if i < int(sys.argv[1]) else ""
+mixes = "".join(f"""<slab_mix name="{name}" type="BSDF"><input name="fg" type="BSDF" nodename="{fg}"/><input name="bg" type="BSDF" nodename="{bg}"/>
+  <input name="mix" type="float" value="0.{i + 2}"/>{ask(i)}</slab_mix>""" for i, (name, fg, bg) in enumerate((("p", "a", "b"), ("q", "a", "b"), ("r", "p", "q"))))
+print(f"""<materialx version="1.39"><slab name="a" type="BSDF"/><slab name="b" type="BSDF"><input name="roughness" type="float" value="0.2"/></slab>
+  {mixes}<slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="r"/></slab_surface></materialx>""")
+END
+}
+mixes 3 >mixes.mtlx
+check 'mixes that share slabs' exits 0 "$mxgen" mixes.mtlx -Wbudget-step -o made
+check 'blend together' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "closures 2 to 1, bytes 36 to 16" && ! says not-blended'
+mixes 1 >mixes.mtlx
+check 'one of them' exits 0 "$mxgen" mixes.mtlx -Wbudget-step -o made
+check 'would cost more' eval "says \"the parameters of 'p' do not blend\" && ! says budget-step"
 
 # Sums and products
 cat >sum.mtlx <<'END'
@@ -164,6 +180,25 @@ assert [row["kind"] for row in tree["rows"]] == ["layer", "coverage", "slab", "l
 assert tree["cost"] == {"closures": 3, "bytes": 60} and len(sheet["steps"]) == 2
 lights = [row["lightFromAbove"] for row in tree["rows"] if row["kind"] == "slab"]
 assert lights[0] == 1 and 0 < lights[2] < lights[1] <= 1, lights'
+cat >masks.mtlx <<'END'
+<materialx version="1.39">
+  <geompropvalue name="wear" type="float"><input name="geomprop" type="string" value="wear"/></geompropvalue>
+  <slab name="a" type="BSDF"/>
+  <slab name="b" type="BSDF"><input name="roughness" type="float" value="0.2"/></slab>
+  <slab_mix name="worn" type="BSDF"><input name="fg" type="BSDF" nodename="a"/><input name="bg" type="BSDF" nodename="b"/>
+    <input name="mix" type="float" nodename="wear"/></slab_mix>
+  <slab_coverage name="patches" type="BSDF"><input name="in" type="BSDF" nodename="worn"/><input name="weight" type="float" nodename="wear"/></slab_coverage>
+  <slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="patches"/></slab_surface>
+</materialx>
+END
+check 'one mask of two operators' exits 0 "$mxgen" inspect --slabs masks.mtlx
+check 'is named' grep -qE '^  (worn and patches|patches and worn) share a mask, but count as independent' out
+check 'in JSON' exits 0 "$mxgen" inspect --slabs --format json masks.mtlx
+check 'too' python3 -c 'import json
+tree, = json.load(open("out"))["trees"]
+assert sorted(tree["sharedMasks"]) == ["patches", "worn"], tree'
+sed 's/weight" type="float" nodename="wear"/weight" type="float" value="0.5"/' masks.mtlx >own.mtlx
+check 'of two masks' eval 'exits 0 "$mxgen" inspect --slabs own.mtlx && ! grep -q "share a mask" out'
 check 'a picture' exits 0 "$mxgen" inspect --slabs --format svg "$slabs" -e DustyFibre
 check 'is XML' python3 -c 'import xml.etree.ElementTree as e
 root = e.parse("out").getroot()

@@ -116,6 +116,9 @@ def check_drawn(folder):
         result = run(MXGEN, "inspect", "--slabs", "--drawn", "--format", form, document, "-e", material)
         drawn = [float(number) for number in re.findall(pattern, result.stdout)]
         check(len(drawn) == 2 and all(abs(a - b) <= NEAR for a, b in zip(drawn, listed)), f"drawn as {form}: {drawn}, listed {listed}")
+    result = run(MXGEN, "inspect", "--slabs", "--drawn", "--max-bytes", 12, document_of("CarPaint"), "-e", "CarPaint")
+    drawn = [float(number) for number in re.findall(patterns["text"], result.stdout)]
+    check(len(drawn) == 3 and len(set(drawn)) == 3, f"the step without a second lobe has the error of another step: {result.stdout}")
     asked = folder / "asked.mtlx"
     share = '<input name="mix" type="float" value="0.6"/>'
     asked.write_text(document_of("CarPaint").read_text().replace(share, share + '<input name="blend_parameters" type="boolean" value="true"/>'))

@@ -58,13 +58,19 @@ with tempfile.TemporaryDirectory() as folder:
     document, mask = pathlib.Path(folder) / "textured.mtlx", pathlib.Path(folder) / "mask.ppm"
     document.write_text(DOCUMENT)
     unread = report(document)
-    check(unread["texturesNotRead"] == ["mask"], f"a file that is missing is not named: {unread['texturesNotRead']}")
+    check(unread["notRead"] == ["mask"], f"a file that is missing is not named: {unread['notRead']}")
+    document.write_text(DOCUMENT.replace("<image", '<time name="now" type="float"/><image').replace('name="roughness" type="float" value="0.8"',
+        'name="roughness" type="float" nodename="now"').replace('<input name="file" type="filename" value="mask.ppm"/></image>',
+        '<input name="geomprop" type="string" value="wear"/></geompropvalue>').replace("<image", "<geompropvalue"))
+    unknown = report(document)["notRead"]
+    check(sorted(unknown) == ["mask", "now"], f"the time and data of vertices are not named: {unknown}")
+    document.write_text(DOCUMENT)
     if RENDER:
         errors = {}
         for share in (0, 0.5, 1):
             write_mask(mask, share)
             seen = report(document)
-            check(seen["texturesNotRead"] == [], f"mask of {share}: told as not read")
+            check(seen["notRead"] == [], f"mask of {share}: told as not read")
             errors[share] = seen["steps"][-1]["estimatedError"]
         fixed = unread["steps"][-1]["estimatedError"]
         check(errors[0] < 0.01 and errors[1] < 0.01, f"one slab is seen alone, but blending shows: {errors}")
@@ -86,7 +92,7 @@ with tempfile.TemporaryDirectory() as folder:
         check(seen[0] == seen[1] != seen[2], f"steps before and after a texture changed: {seen}")
         mask.write_bytes(b"no picture")
         document.write_text(DOCUMENT)
-        check(report(document)["texturesNotRead"] == ["mask"], "a file that is no picture counts as read")
+        check(report(document)["notRead"] == ["mask"], "a file that is no picture counts as read")
     else:
         skip("there is no renderer, which reads textures")
 finish("slab-texels")
