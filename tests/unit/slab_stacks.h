@@ -117,6 +117,27 @@ static inline void stack_make_sheet(struct stack *stack, int num_layers)
     }
 }
 
+/* A tree in one line; `thickness` is that of slabs which lie in no top. */
+static inline void stack_print(const struct stack *stack, int node, double thickness, FILE *out)
+{
+    const struct stack_node *n = &stack->nodes[node];
+    switch (n->kind) {
+    case STACK_SLAB: fprintf(out, "slab(%.2f", n->albedo); break;
+    case STACK_LAYER: fputs("layer(", out); break;
+    case STACK_MIX: fprintf(out, "mix(%.2f, ", n->share); break;
+    case STACK_COVER: fprintf(out, "cover(%.2f, ", n->share); break;
+    }
+    if (n->kind != STACK_SLAB)
+        stack_print(stack, n->a, n->kind == STACK_LAYER ? n->thickness : thickness, out);
+    else if (n->mfp > 0.0)
+        fprintf(out, ", %.2f", thickness / n->mfp);
+    if (n->kind == STACK_LAYER || n->kind == STACK_MIX) {
+        fputs(", ", out);
+        stack_print(stack, n->b, thickness, out);
+    }
+    fputs(")", out);
+}
+
 /* ---- Documents ---- */
 
 static inline int stack_write_node(const struct stack_node *node, int i, char *out, size_t room)

@@ -22,6 +22,7 @@ struct run {
     double view, light; /* cosines, in the plane of the normal and x */
     void (*look)(struct run *run);
     void *wanted; /* of `look` */
+    FILE *page;   /* for the stacks and their errors, as Markdown; NULL: none */
 };
 
 /* ---- Evaluation ---- */
@@ -225,10 +226,37 @@ static struct reflected reflected_by(struct run *run, const struct stack *stack,
     return result;
 }
 
+enum { WALK, PLAIN, BOTH, OPENPBR, NUM_MODELS };
+
+static void begin_page(FILE *page)
+{
+    fputs("# Stacks against a random walk\n\n"
+          "`build/tests/unit_slabs docs/slabs/stacks.md` writes this page; "
+          "[slabs.md](../slabs.md#measured) explains it. `layer(x, y)` is x\n"
+          "over y, 0.01 cm thick; `mix(m, x, y)` has the share m of x; `cover(c, x)` is there with "
+          "the probability c; `slab(a, d)` has the\n"
+          "albedo a and the optical depth d along the normal, and `slab(a)` is opaque. The truth "
+          "is the share of light that returns to a\n"
+          "viewer at the cosine; the other columns are what a model adds to it.\n\n"
+          "| stack | cosine | truth | walk | without the way in | two throughputs | OpenPBR |\n"
+          "| --- | --- | --- | --- | --- | --- | --- |\n",
+          page);
+}
+
+static void write_row(FILE *page, const struct stack *stack, double view, double truth,
+                      const double *error)
+{
+    fputs("| `", page);
+    stack_print(stack, stack->num_nodes - 1, 0.01, page);
+    fprintf(page, "` | %.2f | %.3f |", view, truth);
+    for (int k = 0; k < NUM_MODELS; ++k)
+        fprintf(page, " %+.3f |", error[k]);
+    fputs("\n", page);
+}
+
 /* The walk is nearer to the truth than a layer in nine of ten stacks. */
 static void test_truth(struct run *run)
 {
-    enum { WALK, PLAIN, BOTH, OPENPBR, NUM_MODELS };
     unsigned nearer_plain = 0, nearer_both = 0, nearer_openpbr = 0;
     double sum[NUM_MODELS] = {0.0}, worst = 0.0;
     for (int i = 0; i < NUM_STACKS; ++i) {
@@ -238,8 +266,12 @@ static void test_truth(struct run *run)
         struct reflected got = reflected_by(run, &stack, view);
         double openpbr = stack_openpbr(&stack, stack.num_nodes - 1, 0.01,
                                        stack_way(view) + CLOSURE_MEAN_WAY, 0.0);
-        double error[NUM_MODELS] = {fabs(got.whole - truth), fabs(got.plain - truth),
-                                    fabs(got.both - truth), fabs(openpbr - truth)};
+        double error[NUM_MODELS] = {got.whole - truth, got.plain - truth, got.both - truth,
+                                    openpbr - truth};
+        if (run->page)
+            write_row(run->page, &stack, view, truth, error);
+        for (int k = 0; k < NUM_MODELS; ++k)
+            error[k] = fabs(error[k]);
         nearer_plain += error[WALK] < error[PLAIN];
         nearer_both += error[WALK] < error[BOTH];
         nearer_openpbr += error[WALK] < error[OPENPBR];
@@ -386,9 +418,12 @@ static void test_lights(struct run *run)
     REQUIRE(worst < 0.02);
 }
 
-int main(void)
+/* Argument: the page to write. */
+int main(int argc, char **argv)
 {
-    struct run run = {.context = NULL};
+    struct run run = {.page = argc > 1 ? fopen(argv[1], "w") : NULL};
+    if (run.page)
+        begin_page(run.page);
     REQUIRE(mxg_context_create(NULL, &run.context) == MXG_OK);
     run.library = mxg_library_builtin(run.context);
     REQUIRE(run.library != NULL);
@@ -404,5 +439,6 @@ int main(void)
     mxg_options_destroy(run.options);
     mxg_library_unref(run.library);
     mxg_context_destroy(run.context);
+    REQUIRE(argc == 1 || (run.page && fclose(run.page) == 0));
     return test_report("slabs");
 }
