@@ -30,5 +30,6 @@ struct Path {
     Hit hit;                         // of a path that waits
     Hit place; vec2 matter; float depth; uint goes; // of a path in matter: where, its level, of the level's thickness, and how
     uint side, waits_for, random, waits;            // side: where it came into the matter
+    float share;                                    // of the surface in the first hit; 0: the path has the light of an AOV
     Shadow shadows[2];
 };

@@ -125,13 +125,16 @@ struct closure_level {
 };
 struct closure_pile {
     VEC(struct closure_level) levels;
+    ir_ref *is_part; /* bools: which of the closures light is in; NULL: there is one */
 };
 /*
- * False: no level is a medium that light walks through, or the closure is more than layers and
- * mixes of lobes that reflect. is_seen_through: clear media count, too.
+ * The matter of a surface, and behind it that of BSDFs for AOVs; the host chooses one. False: no
+ * level is a medium that light walks through, or a closure is more than layers and mixes of lobes
+ * that reflect. is_seen_through: clear media count, too.
  */
-bool closure_find_pile(struct shader *shader, const struct closure_host *host, ir_ref root,
-                       bool is_seen_through, struct closure_pile *out);
+bool closure_find_pile(struct shader *shader, const struct closure_host *host,
+                       const ir_ref *closures, uint32_t num_closures, bool is_seen_through,
+                       struct closure_pile *out);
 
 /* volume.c: a volume behind the shaded point. */
 struct closure_volume {

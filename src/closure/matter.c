@@ -8,6 +8,8 @@
  * The tracer asks for one level after the other:
  *
  *     matter = vec2(level, or below 0 the first one; random number)
+ *         the number is from 0 to below 1 for the surface, and k higher for the BSDF of the AOV k,
+ *         which is a pile of its own and has the weight 1 where its light is asked for
  *     a lobe: light from above is reflected by it, or goes on as it came:
  *         out2 = vec4(L, 2 where it goes on);  out3 = vec4(weight, density)
  *     a medium, where the extinction is not 0: the tracer walks through it, and lights it itself:
@@ -124,10 +126,10 @@ static bool open_operands(struct finder *f, struct operand of, struct operand ou
     return true;
 }
 
-static bool find_levels(struct finder *f, ir_ref root)
+static bool find_levels(struct finder *f, struct operand root)
 {
     VEC(struct operand) open = {0};
-    vec_push(f->shader->arena, &open, ((struct operand){.ref = root}));
+    vec_push(f->shader->arena, &open, root);
     while (open.len) {
         struct operand at = vec_last(&open), operands[2];
         open.len--;
@@ -161,14 +163,32 @@ static bool any_walks(const struct ir_graph *g, const struct closure_pile *pile,
     return false;
 }
 
-bool closure_find_pile(struct shader *shader, const struct closure_host *host, ir_ref root,
-                       bool is_seen_through, struct closure_pile *out)
+/* The number between the whole ones, and which of those it follows. */
+static void find_parts(struct finder *f, uint32_t num)
+{
+    struct ir_graph *g = f->graph;
+    ir_ref part = ir_op1(g, IR_FLOOR, f->number);
+    f->number = ir_op2(g, IR_SUB, f->number, part);
+    f->pile->is_part = ARENA_ARRAY(f->shader->arena, ir_ref, num);
+    for (uint32_t i = 0; i < num; i++)
+        f->pile->is_part[i] = ir_op2(g, IR_EQ, part, ir_const_float(g, (float)i));
+}
+
+bool closure_find_pile(struct shader *shader, const struct closure_host *host,
+                       const ir_ref *closures, uint32_t num_closures, bool is_seen_through,
+                       struct closure_pile *out)
 {
     struct finder f = {shader, shader->graph, host, out, 0};
     ir_ref matter = shader_stream(shader, STR_matter, IR_TYPE_VEC2);
-    f.number = ir_component(shader->graph, matter, 1);
     *out = (struct closure_pile){0};
-    return root && find_levels(&f, root) && any_walks(f.graph, out, is_seen_through);
+    f.number = ir_component(shader->graph, matter, 1);
+    if (num_closures > 1)
+        find_parts(&f, num_closures);
+    ir_ref number = f.number;
+    for (uint32_t i = 0; i < num_closures; i++, f.number = number)
+        if (!find_levels(&f, (struct operand){closures[i], out->is_part ? out->is_part[i] : 0}))
+            return false;
+    return any_walks(f.graph, out, is_seen_through);
 }
 
 /* ---- Values of levels ---- */
@@ -390,6 +410,9 @@ void matter_sample(struct closure_scatter *s)
     scatter_effect(s, EFFECT_ASSIGN, s->direction, on);
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside, scatter_number(s, 2.0f));
     scatter_effect(s, EFFECT_ASSIGN, s->parts[0].weight, scatter_grey(s, 1.0f));
+    for (uint32_t p = 1; p < s->num_parts; p++)
+        scatter_effect(s, EFFECT_ASSIGN, s->parts[p].weight,
+                       where(s, s->pile->is_part[p], scatter_grey(s, 1.0f), scatter_grey(s, 0.0f)));
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         ir_ref leaf = level_of(s, i)->leaf;
         shader_add_closure(s->shader, leaf);

@@ -289,6 +289,14 @@ static struct closure_surface leaf_of(const struct surfaces *s, ir_ref ref)
     return out;
 }
 
+/* A pile of matter has the opacity of its surface. */
+static struct closure_surface matter_of(const struct surfaces *s, ir_ref surface)
+{
+    struct closure_surface out = premultiplied(s->graph, s->known[surface]);
+    out.is_matter = true;
+    return out;
+}
+
 static struct closure_surface parts_of(const struct surfaces *s, ir_ref ref)
 {
     struct ir_graph *g = s->graph;
@@ -302,6 +310,7 @@ static struct closure_surface parts_of(const struct surfaces *s, ir_ref ref)
     case IR_AOV: return with_aov(s, ref);
     case IR_SHADER_MIX: return mixed(s, known[args[0]], known[args[1]], args[2]);
     case IR_SLOTS: return stack_of(s, ref);
+    case IR_MATTER: return matter_of(s, args[0]);
     default: return (struct closure_surface){0};
     }
 }
