@@ -189,8 +189,8 @@ static void append_value(struct source *source, const struct picture_aov *aov, s
                                                                            : ", 0.0, 0.0, 0.0";
     bool is_whole = aovs_is_whole(aov);
     snprintf(line, sizeof line, "%s    aov_film[at + %zu] %s vec4(%s%s);\n",
-             is_whole ? "    if (is_first)\n    " : "", number,
-             is_whole ? "=" : "+= share *", variable->name, rest);
+             is_whole ? "    if (is_first)\n    " : "", number, is_whole ? "=" : "+= share *",
+             variable->name, rest);
     append(source, line);
 }
 

@@ -114,8 +114,9 @@ ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha);
 
 /* matter.c: the leaves of a closure as levels from above, which light goes through at random. */
 struct closure_level {
-    ir_ref leaf;
-    ir_ref is_here; /* a bool, by random; 0: always */
+    ir_ref leaf;     /* 0: an EDF, which lets all light through */
+    ir_ref emission; /* of an EDF: vec3 */
+    ir_ref is_here;  /* a bool, by random; 0: always */
     /*
      * of a medium: vec3, over its thickness, and a float. 0: the leaf is none. Of a body: over a
      * unit of the world; light goes on inside the mesh.

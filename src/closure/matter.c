@@ -106,6 +106,27 @@ static bool add_leaf(struct finder *f, ir_ref leaf, ir_ref is_here)
     return true;
 }
 
+/* Light of a surface, as a level. */
+static void add_light(struct finder *f, ir_ref edf, ir_ref is_here)
+{
+    struct closure_level level = {.is_here = is_here};
+    struct closure_list list;
+    ir_ref at_rest = ir_const_float(f->graph, 0.0f);
+    level.emission = ir_const_splat(f->graph, IR_TYPE_VEC3, 0.0f);
+    closure_flatten(f->shader, f->host, edf, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct closure_leaf *leaf = &list.leaves.items[i];
+        ir_ref light = closure_call(f->shader, f->host, leaf->leaf, LEAF_EMISSION, NULL);
+        if (!light)
+            continue;
+        shader_add_closure(f->shader, leaf->leaf);
+        light = ir_op2(f->graph, IR_MUL, ir_convert(f->graph, IR_TYPE_VEC3, light),
+                       closure_weight(f->shader, leaf, at_rest));
+        level.emission = ir_op2(f->graph, IR_ADD, level.emission, light);
+    }
+    vec_push(f->shader->arena, &f->pile->levels, level);
+}
+
 /* Opens the operands of an operator, the first one last. False: it is none of a pile. */
 static bool open_operands(struct finder *f, struct operand of, struct operand out[2])
 {
@@ -137,7 +158,10 @@ static bool find_levels(struct finder *f, struct operand root)
         if (!at.ref)
             continue;
         ir_push_origin_of(f->graph, at.ref);
-        if (ir_get(f->graph, at.ref)->op == IR_LEAF) {
+        if (ir_type_of(f->graph, at.ref) == IR_TYPE_EDF) {
+            is_good = f->pile->levels.len < MAX_LEVELS;
+            add_light(f, at.ref, at.is_here);
+        } else if (ir_get(f->graph, at.ref)->op == IR_LEAF) {
             is_good = add_leaf(f, at.ref, at.is_here);
         } else if ((is_good = open_operands(f, at, operands))) {
             vec_push(f->shader->arena, &open, operands[0]);
@@ -233,11 +257,18 @@ static ir_ref attenuation(struct closure_scatter *s, ir_ref depth, ir_ref slope)
     return ir_op1(s->graph, IR_EXP, ir_op1(s->graph, IR_NEG, scatter_op2(s, IR_MUL, depth, slope)));
 }
 
+static ir_ref throughput(struct closure_scatter *s, ir_ref leaf)
+{
+    ir_ref through = closure_call(s->shader, s->host, leaf, LEAF_THROUGHPUT, NULL);
+    return through ? ir_convert(s->graph, IR_TYPE_VEC3, through) : scatter_grey(s, 0.0f);
+}
+
 /* What a level lets through of light that goes straight on, towards the viewer. */
 static ir_ref straight(struct closure_scatter *s, const struct closure_level *level, ir_ref slope)
 {
-    ir_ref through = closure_call(s->shader, s->host, level->leaf, LEAF_THROUGHPUT, NULL);
-    through = through ? ir_convert(s->graph, IR_TYPE_VEC3, through) : scatter_grey(s, 0.0f);
+    if (!level->leaf)
+        return scatter_grey(s, 1.0f);
+    ir_ref through = throughput(s, level->leaf);
     if (!level->extinction)
         return where(s, s->enters, through, scatter_grey(s, 1.0f));
     ir_ref is_medium = has_extinction(s, level);
@@ -274,12 +305,6 @@ static ir_ref share_of_lobe(struct closure_scatter *s, ir_ref leaf)
     return scatter_op2(s, IR_ADD, albedo, scatter_number(s, 0.1f)); /* albedos are fits */
 }
 
-static ir_ref throughput(struct closure_scatter *s, ir_ref leaf)
-{
-    ir_ref through = closure_call(s->shader, s->host, leaf, LEAF_THROUGHPUT, NULL);
-    return through ? ir_convert(s->graph, IR_TYPE_VEC3, through) : scatter_grey(s, 0.0f);
-}
-
 struct choice {
     ir_ref through, lobe, passes, all; /* lobe, passes: shares of `all` */
 };
@@ -295,7 +320,7 @@ static struct choice choose(struct closure_scatter *s, ir_ref leaf)
 
 static bool scatters(const struct closure_scatter *s, ir_ref leaf)
 {
-    return closure_has(s->shader, s->host, leaf, LEAF_SAMPLE);
+    return leaf && closure_has(s->shader, s->host, leaf, LEAF_SAMPLE);
 }
 
 /* ---- Light ---- */
@@ -303,8 +328,9 @@ static bool scatters(const struct closure_scatter *s, ir_ref leaf)
 static ir_ref lobe_response(struct closure_scatter *s, ir_ref leaf, ir_ref direction,
                             ir_ref solid_angle)
 {
-    ir_ref value = closure_call(s->shader, s->host, leaf, LEAF_EVAL, &direction);
-    if (!value || !scatters(s, leaf))
+    ir_ref value =
+        scatters(s, leaf) ? closure_call(s->shader, s->host, leaf, LEAF_EVAL, &direction) : 0;
+    if (!value)
         return scatter_grey(s, 0.0f);
     value = ir_convert(s->graph, IR_TYPE_VEC3, value);
     if (!solid_angle)
@@ -389,8 +415,9 @@ static ir_ref emission_at_hand(struct closure_scatter *s)
 {
     ir_ref *values = new_values(s);
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
-        ir_ref leaf = level_of(s, i)->leaf;
-        values[i] = closure_call(s->shader, s->host, leaf, LEAF_EMISSION, NULL);
+        const struct closure_level *level = level_of(s, i);
+        values[i] = level->leaf ? closure_call(s->shader, s->host, level->leaf, LEAF_EMISSION, NULL)
+                                : level->emission;
     }
     return at_hand(s, values, scatter_grey(s, 0.0f));
 }
@@ -415,7 +442,8 @@ void matter_sample(struct closure_scatter *s)
                        where(s, s->pile->is_part[p], scatter_grey(s, 1.0f), scatter_grey(s, 0.0f)));
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         ir_ref leaf = level_of(s, i)->leaf;
-        shader_add_closure(s->shader, leaf);
+        if (leaf)
+            shader_add_closure(s->shader, leaf);
         if (!scatters(s, leaf))
             continue;
         scatter_effect(s, EFFECT_IF, 0, is_at(s, i));

@@ -17,12 +17,23 @@ static const struct operands {
     uint8_t op;
     const char *classes;
 } operand_classes[] = {
-    {IR_LAYER, "cc"},         {IR_CLOSURE_MIX, "ccn"},        {IR_CLOSURE_ADD, "oo"},
-    {IR_CLOSURE_SCALE, "on"}, {IR_SURFACE_SHADER, "ccnb"},    {IR_SURFACE_UNLIT, "nnn"},
-    {IR_VOLUME_SHADER, "cc"}, {IR_DISPLACEMENT_SHADER, "nn"}, {IR_LIGHT_SHADER, "cnn"},
-    {IR_SHADER_MIX, "ssn"},   {IR_MATERIAL, "ssss"},          {IR_SLAB_LAYER, "ccn"},
-    {IR_SLAB_SURFACE, "cbn"}, {IR_SUBSTANCE, "snnn"},         {IR_SLOTS, "nnsnnnnx"},
-    {IR_AOV, "sx"},          {IR_MATTER, "sc"},
+    {IR_LAYER, "cc"},
+    {IR_CLOSURE_MIX, "ccn"},
+    {IR_CLOSURE_ADD, "oo"},
+    {IR_CLOSURE_SCALE, "on"},
+    {IR_SURFACE_SHADER, "ccnb"},
+    {IR_SURFACE_UNLIT, "nnn"},
+    {IR_VOLUME_SHADER, "cc"},
+    {IR_DISPLACEMENT_SHADER, "nn"},
+    {IR_LIGHT_SHADER, "cnn"},
+    {IR_SHADER_MIX, "ssn"},
+    {IR_MATERIAL, "ssss"},
+    {IR_SLAB_LAYER, "ccn"},
+    {IR_SLAB_SURFACE, "cbn"},
+    {IR_SUBSTANCE, "snnn"},
+    {IR_SLOTS, "nnsnnnnx"},
+    {IR_AOV, "sx"},
+    {IR_MATTER, "sc"},
 };
 
 /* The class of an operand: the last ones repeat for each layer of a stack, and for each AOV. */

@@ -18,7 +18,8 @@
 #include "slabs/stack.h"
 
 struct piece {
-    ir_ref bsdf, edf;
+    ir_ref bsdf;
+    ir_ref edf;       /* for a budget; light that walks has it on the bsdf */
     ir_ref opacity;   /* 0: 1 */
     ir_ref thickness; /* of a sheet; 0: it is none */
     bool is_solid;    /* light that passes the bsdf ends there */
@@ -29,7 +30,7 @@ struct joiner {
     struct shader *shader;
     struct ir_graph *graph;
     const struct slabs_host *host;
-    bool walks; /* for light that walks, else for a budget */
+    bool walks;          /* for light that walks, else for a budget */
     struct piece *known; /* by surface */
 };
 
@@ -71,6 +72,12 @@ static ir_ref layered(const struct joiner *j, ir_ref top, ir_ref base, ir_ref th
     return top ? ir_build(j->graph, IR_SLAB_LAYER, IR_TYPE_BSDF, 0, args, 3) : base;
 }
 
+static ir_ref on(const struct joiner *j, ir_ref top, ir_ref base)
+{
+    ir_ref args[2] = {top, base};
+    return top ? ir_build(j->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2) : base;
+}
+
 /* What is there with this probability; 0: always. */
 static ir_ref covered(const struct joiner *j, ir_ref bsdf, ir_ref opacity)
 {
@@ -98,7 +105,7 @@ static struct piece beside(const struct joiner *j, const struct piece *bg, const
 static bool is_open_below(const struct joiner *j, ir_ref bsdf)
 {
     const struct ir_graph *g = j->graph;
-    while (bsdf && ir_get(g, bsdf)->op != IR_LEAF) {
+    while (bsdf && ir_type_of(g, bsdf) == IR_TYPE_BSDF && ir_get(g, bsdf)->op != IR_LEAF) {
         uint8_t op = ir_get(g, bsdf)->op;
         bool is_layer = op == IR_LAYER || op == IR_SLAB_LAYER;
         if (!is_layer && op != IR_CLOSURE_SCALE)
@@ -108,7 +115,7 @@ static bool is_open_below(const struct joiner *j, ir_ref bsdf)
         bsdf = is_base ? base : ir_arg(g, bsdf, 0);
     }
     ir_ref way = ir_const_float(j->graph, 0.0f);
-    return !bsdf
+    return !bsdf || ir_type_of(g, bsdf) != IR_TYPE_BSDF
            || !ir_const_is(g, closure_throughput(j->shader, j->host->closures, bsdf, way), 0.0f);
 }
 
@@ -124,8 +131,7 @@ static struct piece alone(const struct joiner *j, struct piece piece)
             piece.aovs[i] = layered(j, aovs[i], 0, piece.thickness);
     } else if (j->walks && piece.is_solid && is_open_below(j, piece.bsdf)) {
         ir_ref black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-        ir_ref args[2] = {piece.bsdf, j->host->slab_like(j->host->user_data, 0, black)};
-        piece.bsdf = piece.bsdf ? ir_build(g, IR_LAYER, IR_TYPE_BSDF, 0, args, 2) : args[1];
+        piece.bsdf = on(j, piece.bsdf, j->host->slab_like(j->host->user_data, 0, black));
     }
     piece.thickness = 0;
     piece.is_solid = false;
@@ -152,7 +158,10 @@ static struct piece leaf_of(const struct joiner *j, ir_ref ref)
         out.thickness = is_no(g, ir_arg(g, ref, 1)) ? 0 : ir_arg(g, ref, 2);
         return out;
     }
-    out.edf = ir_arg(g, ref, 1);
+    if (j->walks)
+        out.bsdf = on(j, ir_arg(g, ref, 1), out.bsdf);
+    else
+        out.edf = ir_arg(g, ref, 1);
     out.opacity = ir_const_is(g, ir_arg(g, ref, 2), 1.0f) ? 0 : ir_arg(g, ref, 2);
     return out;
 }
@@ -200,8 +209,7 @@ static void put_coat(const struct joiner *j, struct piece *base, const struct pi
 {
     ir_ref share = product(j, mask, coat->opacity);
     if (base->bsdf && coat->bsdf)
-        base->bsdf =
-            layered(j, mixed(j, 0, coat->bsdf, share), base->bsdf, thickness_of(j, coat));
+        base->bsdf = layered(j, mixed(j, 0, coat->bsdf, share), base->bsdf, thickness_of(j, coat));
     ir_ref *aovs = new_aovs(j);
     for (uint32_t i = 0; i < j->shader->aovs.len; i++)
         aovs[i] = coat->aovs[i] ? mixed(j, base->aovs[i], coat->aovs[i], share) : base->aovs[i];
