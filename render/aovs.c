@@ -81,12 +81,17 @@ size_t aovs_num(const struct aovs *aovs)
     return aovs ? aovs->len : 0;
 }
 
+size_t aovs_num_scattered(const struct aovs *aovs)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < aovs_num(aovs); ++i)
+        count += aovs_is_scattered(&aovs->items[i]);
+    return count;
+}
+
 size_t aovs_stride(const struct aovs *aovs)
 {
-    size_t num = aovs_num(aovs), stride = num;
-    for (size_t i = 0; i < num; ++i)
-        stride += aovs_is_scattered(&aovs->items[i]) ? AOVS_SCATTERED : 0;
-    return stride;
+    return aovs_num(aovs) + AOVS_SCATTERED * aovs_num_scattered(aovs);
 }
 
 void aovs_list(const struct aovs *aovs, size_t first, size_t count, mxg_options *options)

@@ -35,6 +35,8 @@ bool aovs_find(const struct picture_aov *aov, const mxg_result *result, enum aov
 #define AOVS_SCATTERED 3
 /* aovs may be NULL: none. */
 size_t aovs_num(const struct aovs *aovs);
+/* Those that are BSDFs. */
+size_t aovs_num_scattered(const struct aovs *aovs);
 /* The values of a pixel: one for each AOV, then AOVS_SCATTERED for each BSDF. */
 size_t aovs_stride(const struct aovs *aovs);
 

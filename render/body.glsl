@@ -53,7 +53,7 @@ bool scatters(Medium medium)
 void turn_inside(inout Path path, vec3 direction)
 {
     if (path.medium.collisions++ == 0u)
-        count_turn(path, vec3(0.0));
+        count_turn(path);
     path.density = 0.0;
     path.direction = direction;
 }
@@ -180,7 +180,7 @@ bool leave_body(inout Path path, Point point)
         return true;
     }
     turn_inside(path, draw_cosine(frame_of(-outside(path, point)), 1.0, next_random().xy));
-    path.medium.level.y = next_random().x;
+    path.medium.level.y = floor(path.medium.level.y) + next_random().x;
     path.medium.triangle = path.place.triangle;
     path.origin = point.position;
     path.phase = GOING;

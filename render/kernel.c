@@ -174,10 +174,10 @@ static void append_fill(struct source *source, const mxg_result *result)
 }
 
 /*
- * keep_aovs() adds the AOVs of the first hit to those of its pixel; an integer is that of the first
- * sample, because it has no mean. A BSDF keeps behind all AOVs of the pixel what it gives of the
- * light that comes by the path, from the environment and from a bound light: light_aovs() adds that
- * when the light comes. keep_aovs() returns the most of each.
+ * keep_aovs() adds the AOVs of the first hit to those of its pixel, times the path's share; an
+ * integer is that of the first sample, because it has no mean. For keep_light() a BSDF keeps behind
+ * all AOVs of the pixel what it gives of the light that comes by the path, from the environment and
+ * from a bound light: light_aovs() adds that when the light comes. It returns the most of each.
  */
 static void append_value(struct source *source, const struct picture_aov *aov, size_t number,
                          const mxg_variable *variable)
@@ -189,13 +189,25 @@ static void append_value(struct source *source, const struct picture_aov *aov, s
                                                                            : ", 0.0, 0.0, 0.0";
     bool is_whole = aovs_is_whole(aov);
     snprintf(line, sizeof line, "%s    aov_film[at + %zu] %s vec4(%s%s);\n",
-             is_whole ? "    if (is_first)\n    " : "", number,
-             is_whole ? "=" : "+=", variable->name, rest);
+             is_whole ? "    if (is_first)\n    " : "", number, is_whole ? "=" : "+= share *",
+             variable->name, rest);
     append(source, line);
 }
 
 static void append_keep_aovs(struct source *source, const mxg_result *result,
                              const struct aovs *aovs)
+{
+    mxg_variable variable;
+    append(source, "void keep_aovs(uint pixel, bool is_first, float share)\n{\n"
+                   "    uint at = pixel * AOV_STRIDE;\n");
+    for (size_t i = 0; i < aovs_num(aovs); ++i)
+        if (aovs_find(&aovs->items[i], result, AOVS_VALUE, &variable))
+            append_value(source, &aovs->items[i], i, &variable);
+    append(source, "}\n\n");
+}
+
+static void append_keep_light(struct source *source, const mxg_result *result,
+                              const struct aovs *aovs)
 {
     static const struct {
         enum aovs_output output;
@@ -205,12 +217,10 @@ static void append_keep_aovs(struct source *source, const mxg_result *result,
     mxg_variable variable;
     char line[256];
     size_t at = aovs_num(aovs);
-    append(source,
-           "mat3 keep_aovs(uint pixel, bool is_first, vec3 arrives)\n{\n"
-           "    uint at = pixel * AOV_STRIDE;\n    vec3 kept;\n    mat3 most = mat3(0.0);\n");
-    for (size_t i = 0; i < aovs_num(aovs); ++i) {
-        if (aovs_find(&aovs->items[i], result, AOVS_VALUE, &variable))
-            append_value(source, &aovs->items[i], i, &variable);
+    append(source, "mat3 keep_light(uint pixel, vec3 arrives)\n{\n"
+                   "    uint at = pixel * AOV_STRIDE;\n    vec3 kept;\n"
+                   "    mat3 most = mat3(0.0);\n");
+    for (size_t i = 0; i < aovs_num(aovs); ++i)
         for (size_t k = 0; aovs_is_scattered(&aovs->items[i]) && k < num_parts; ++k, ++at) {
             bool is_there = aovs_find(&aovs->items[i], result, parts[k].output, &variable);
             snprintf(line, sizeof line,
@@ -220,7 +230,6 @@ static void append_keep_aovs(struct source *source, const mxg_result *result,
                      is_there ? variable.name : "vec3(0.0)", parts[k].factor, at, k, k);
             append(source, line);
         }
-    }
     append(source, "    return most;\n}\n\n");
 }
 
@@ -248,6 +257,7 @@ static void append_aovs(struct source *source, const mxg_result *result, const s
     append(source, line);
     append(source, "bool is_light(vec3 color);\n");
     append_keep_aovs(source, result, aovs);
+    append_keep_light(source, result, aovs);
     append_light_aovs(source, aovs);
 }
 
@@ -271,6 +281,9 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
     append(&source, bind_has_semantic(kernel->bind->result, "matter") ? "#define MATTER\n" : "");
+    snprintf(line, sizeof line, "const uint PARTS = %zuu;\n",
+             1 + aovs_num_scattered(options->aovs));
+    append(&source, line);
     append(&source, displaces ? "#define DISPLACES\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);

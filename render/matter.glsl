@@ -35,7 +35,7 @@ void walk(inout Path path, vec3 up)
     vec4 xi = next_random();
     for (uint collisions = 1u; collide(path, up, xi); ++collisions, xi = next_random()) {
         if (collisions == 1u)
-            count_turn(path, vec3(0.0));
+            count_turn(path);
         if (!goes_on(path, collisions))
             break;
         bool bends = (path.goes & BENT) != 0u;
@@ -65,7 +65,7 @@ void meet_lobe(inout Path path, Point point, vec4 towards)
     path.through *= out3.rgb;
     if (out2.w > 1.5)
         return;
-    count_turn(path, vec3(0.0));
+    count_turn(path);
     path.direction = normalize(out2.xyz);
     path.density = out3.w;
     path.goes = BENT;
@@ -76,7 +76,7 @@ void leave_matter(inout Path path, Point point, vec4 towards, bool is_even)
 {
     bool down = (path.goes & DOWN) != 0u, has_inside = down && out12.w > -1.5;
     path.phase = GOING;
-    if (AS_DRAWN && down && path.turns > 0u) { // a drawn picture has no light from there
+    if (!sees_behind(path) || (AS_DRAWN && down && path.turns > 0u)) { // a drawn picture has no light from there
         path.phase = ENDED;
         return;
     }
@@ -117,10 +117,22 @@ void go_through(inout Path path, Point point, vec4 towards)
         path.phase = ENDED;
 }
 
+// The first pile: `light` has all light of the surface, or of the BSDF of an AOV.
+void begin_light(inout Path path)
+{
+    float of_surface = at_level.y < 1.0 ? 1.0 : 0.0;
+    keep_light(pixel_number(), vec3(0.0));
+    path.seen += path.weight * path.light;
+    path.light = vec3(0.0);
+    path.weight = vec3(of_surface);
+    path.share *= of_surface * float(PARTS);
+    path.through *= float(PARTS);
+}
+
 void enter_matter(inout Path path, Hit hit, Point point, vec4 towards)
 {
     if (path.turns == 0u)
-        path.weight = vec3(1.0); // `light` has the light of the whole pile
+        begin_light(path);
     path.place = hit;
     path.side = side_of(hit, path.direction);
     path.matter = at_level;

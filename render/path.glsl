@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path tracer around the function scatter() of a generated shader, which stands above, as do path_structs.glsl, fill_vertex_data(), keep_aovs(), light_aovs(),
-// TRACER_SET, AS_DRAWN (a path goes as a drawn picture has it), PICKS (so many paths in a row differ only in the closure that they pick where
+// keep_light(), TRACER_SET, AS_DRAWN (a path goes as a drawn picture has it), PARTS (one more than AOVs of BSDFs), PICKS (so many paths in a row differ only in the closure that they pick where
 // they hit first) and, where they hold, LIGHTS (lights are bound), TRANSPARENT (light may go through), MATTER (a surface is a pile of matter)
 // and DISPLACES (a program of its own, which moves the corners and traces nothing).
 //
@@ -418,11 +418,14 @@ const uint GOING = 0u, CROSSING = 1u, ENDED = 2u, IN_MATTER = 3u;
 // How it goes through matter: away from where it came in; as it is outside, where it enters a medium of index 1.5; out of a body.
 const uint DOWN = 1u, BENT = 2u, OUT = 4u;
 
-// Returns the most that AOVs take of light that comes to the first hit: `arrives` of it from the environment.
-mat3 count_turn(inout Path path, vec3 arrives)
+void count_turn(inout Path path)
 {
-    return path.turns++ == 0u ? keep_aovs(pixel_number(), path.number == 0u, arrives) : mat3(0.0);
+    if (path.turns++ == 0u)
+        keep_aovs(pixel_number(), path.number == 0u, path.share);
 }
+
+// False for the light of an AOV: what is behind the closure is not of that.
+bool sees_behind(Path path) { return path.turns > 0u || path.share > 0.0; }
 
 int fly(inout Path path, out Hit hit); // body.glsl
 #ifdef MATTER
@@ -456,7 +459,8 @@ void bounce(inout Path path, Point point, vec4 towards)
         path.light = vec3(0.0);
     } else
         path.light += path.through * out1.rgb;
-    mat3 most = count_turn(path, arrives);
+    mat3 most = is_first ? keep_light(pixel_number(), arrives) : mat3(0.0); // that AOVs take of light that comes here
+    count_turn(path);
     gather(path, point, towards.xyz, arrives, most, is_first);
     if (is_first)
         path.weight = is_light(weight.rgb) ? weight.rgb : vec3(0.0);
@@ -510,8 +514,12 @@ bool follow_ray(inout Path path)
     if (meet_boundary(path, hit))
         return true;
 #endif
+    if (!sees_behind(path)) {
+        path.phase = ENDED;
+        return true;
+    }
     vec4 towards = draw_environment(next_random());
-    at_level = vec2(-1.0, next_random().x);
+    at_level = vec2(-1.0, next_random().x * (path.turns == 0u ? float(PARTS) : 1.0));
     pick = path.turns == 0u ? path.number % PICKS : PICKS;
     Point point = shade(hit, path.direction, towards);
     pick = PICKS;
@@ -597,6 +605,7 @@ Path begin(uvec2 pixel, uint number)
     path.medium = no_medium();
     path.light = path.weight = path.seen = vec3(0.0);
     path.density = 0.0;
+    path.share = 1.0;
     path.turns = path.hits = path.num_shadows = path.waits = path.waits_for = path.side = path.around = 0u;
     path.phase = GOING;
     path.number = number;
@@ -627,8 +636,9 @@ void main()
             atomicAdd(waiting[path.waits_for], 1u);
             break;
         }
+        bool is_straight = path.turns == 0u && sees_behind(path);
         light += path.seen + path.weight * path.light;
-        if (path.turns > 0u)
+        if (!is_straight)
             light_aovs(index, BY_PATH, path.light);
         else
             through += path.through;

@@ -32,5 +32,6 @@ struct Path {
     Hit place; vec2 matter; float depth; uint goes; // of a path in matter: where, its level, of the level's thickness, and how
     uint side, waits_for, random, waits;            // side: where it came into the matter
     uint around;                     // so many media are around the medium
+    float share;                                    // of the surface in the first hit; 0: the path has the light of an AOV
     Shadow shadows[2];
 };

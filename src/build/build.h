@@ -156,7 +156,7 @@ void build_know_slabs(struct builder *builder);
  * hide them.
  */
 ir_ref build_without_hidden(struct builder *builder, ir_ref root);
-/* slabs_walk with the library's slabs. */
+/* slabs_walk with the library's slabs; for path tracers slabs_join_matter before it. */
 ir_ref build_walk_slabs(struct builder *builder, const struct closure_host *closures, ir_ref root);
 /* slabs_fill_sheet with the library's slabs; scratch as below. */
 void build_fill_sheet(struct builder *builder, const struct closure_host *closures,

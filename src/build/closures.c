@@ -69,15 +69,21 @@ static struct slabs_host slabs_host(struct builder *b, const struct closure_host
         .blurs = b->options->blurs && !(b->options->slab_features_off & 1u << SLAB_REFRACTION)};
 }
 
-ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, ir_ref root)
+/* Only the walk ends in storage. */
+static struct slabs_host walking_host(struct builder *b, const struct closure_host *closures)
 {
     struct slabs_host host = slabs_host(b, closures);
-    host.lobes = marked_lobes; /* only the walk ends in storage */
+    host.lobes = marked_lobes;
     if (!b->options->marks_slabs)
         host.blurred = blurred;
-    /* light walks through one pile of matter, not through a stack of surfaces */
-    if (host.walks && slabs_has_media(b->shader, root))
-        root = slabs_join_stacks(b->shader, &host, root);
+    return host;
+}
+
+ir_ref build_walk_slabs(struct builder *b, const struct closure_host *closures, ir_ref root)
+{
+    struct slabs_host host = walking_host(b, closures);
+    if (host.walks)
+        root = slabs_join_matter(b->shader, &host, root);
     return slabs_walk(b->shader, &host, root);
 }
 
@@ -101,8 +107,9 @@ void build_fill_sheet(struct builder *b, const struct closure_host *closures, st
 static ir_ref without_slabs(struct builder *b, ir_ref root)
 {
     struct closure_point point = {0};
-    struct closure_host host = build_closure_host(b, &point);
-    return build_walk_slabs(b, &host, root);
+    struct closure_host closures = build_closure_host(b, &point);
+    struct slabs_host host = walking_host(b, &closures);
+    return slabs_walk(b->shader, &host, root);
 }
 
 void build_know_slabs(struct builder *b)

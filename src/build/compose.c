@@ -149,15 +149,17 @@ static void put_slot(struct builder *b, const struct build_part *part, unsigned 
     unsigned mode = part->normal_mode + (part->is_vertical ? IR_SLOT_VERTICAL : 0u);
     args[0] = part->sides[side] ? part->sides[side] : part->sides[0];
     args[1] = weight;
-    args[2] = part->presence;
-    args[3] = part->normal;
-    args[4] = ir_const_int(b->graph, (int32_t)mode);
+    args[2] = part->mask ? part->mask : number(b, 1.0f);
+    args[3] = part->presence;
+    args[4] = part->normal;
+    args[5] = ir_const_int(b->graph, (int32_t)mode);
 }
 
 static ir_ref compose_side(struct builder *b, struct build_part *parts, uint32_t num, unsigned side)
 {
     ir_ref shape = shape_of(b, parts, num), through = number(b, 1.0f);
-    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, num * IR_SLOT_OPERANDS + 1u);
+    const uint32_t num_args = IR_SLOTS_FIRST + num * IR_SLOT_OPERANDS;
+    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, num_args);
     find_presences(b, parts, num, side);
     for (uint32_t i = num; i-- > 0;) {
         ir_ref mask = parts[i].mask ? parts[i].mask : number(b, 1.0f), weight = mask;
@@ -166,10 +168,11 @@ static ir_ref compose_side(struct builder *b, struct build_part *parts, uint32_t
             through = times(b, through, one_minus(b, parts[i].hides));
             name_value(b, weight, &parts[i], "weight");
         }
-        put_slot(b, &parts[i], side, weight, args + 1 + i * IR_SLOT_OPERANDS);
+        put_slot(b, &parts[i], side, weight, args + IR_SLOTS_FIRST + i * IR_SLOT_OPERANDS);
     }
     args[0] = times(b, one_minus(b, through), shape);
-    return ir_build(b->graph, IR_SLOTS, IR_TYPE_SURFACE, 0, args, num * IR_SLOT_OPERANDS + 1);
+    args[1] = shape;
+    return ir_build(b->graph, IR_SLOTS, IR_TYPE_SURFACE, 0, args, num_args);
 }
 
 /* ---- Displacement ---- */

@@ -25,6 +25,8 @@ static ir_ref operand_of(struct builder *b, ir_ref leaf, const char *name)
 {
     const struct ir_node *node = ir_get(b->graph, leaf);
     const char *input;
+    if (!leaf)
+        return 0;
     if (strcmp(name, "weight") == 0)
         return ir_arg(b->graph, leaf, 0);
     for (unsigned i = 0; (input = build_leaf_input(b, node->attr, i)); i++)

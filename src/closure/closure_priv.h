@@ -111,8 +111,9 @@ ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha);
 
 /* matter.c: the leaves of a closure as levels from above, which light goes through at random. */
 struct closure_level {
-    ir_ref leaf;
-    ir_ref is_here; /* a bool, by random; 0: always */
+    ir_ref leaf;     /* 0: an EDF, which lets all light through */
+    ir_ref emission; /* of an EDF: vec3 */
+    ir_ref is_here;  /* a bool, by random; 0: always */
     /*
      * of a medium: vec3, over its thickness, and a float. 0: the leaf is none. Of a body: over a
      * unit of the world; light goes on inside the mesh.
@@ -122,13 +123,16 @@ struct closure_level {
 };
 struct closure_pile {
     VEC(struct closure_level) levels;
+    ir_ref *is_part; /* bools: which of the closures light is in; NULL: there is one */
 };
 /*
- * False: no level is a medium that light walks through, or the closure is more than layers and
- * mixes of lobes that reflect. is_seen_through: clear media count, too.
+ * The matter of a surface, and behind it that of BSDFs for AOVs; the host chooses one. False: no
+ * level is a medium that light walks through, or a closure is more than layers and mixes of lobes
+ * that reflect. is_seen_through: clear media count, too.
  */
-bool closure_find_pile(struct shader *shader, const struct closure_host *host, ir_ref root,
-                       bool is_seen_through, struct closure_pile *out);
+bool closure_find_pile(struct shader *shader, const struct closure_host *host,
+                       const ir_ref *closures, uint32_t num_closures, bool is_seen_through,
+                       struct closure_pile *out);
 
 /* volume.c: a volume behind the shaded point. */
 struct closure_volume {

@@ -142,14 +142,41 @@ static ir_ref view_from(struct shader *shader, ir_ref point)
     return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_SUB, viewer, point));
 }
 
+/* The surface with the normal after displacement; moved 0: that of the stream. */
+static ir_ref shaded(struct shader *shader, ir_ref surface, ir_ref moved)
+{
+    struct ir_graph *g = shader->graph;
+    if (surface && ir_get(g, surface)->op == IR_SLOTS)
+        return closure_shade_slots(shader, surface, moved);
+    if (!surface || !moved)
+        return surface;
+    return ir_replace(g, surface, stream(shader, STR_normalWorld), moved, shader->arena);
+}
+
+/* Matter has the normals of layers already, over that of the stream. */
+static ir_ref shaded_matter(struct shader *shader, ir_ref matter, ir_ref moved)
+{
+    struct ir_graph *g = shader->graph;
+    const struct ir_node node = *ir_get(g, matter);
+    ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, node.num_args);
+    for (uint32_t i = 0; i < node.num_args; i++)
+        args[i] = shaded(shader, ir_arg(g, matter, i), moved);
+    return ir_build(g, IR_MATTER, node.type, 0, args, node.num_args);
+}
+
+static ir_ref shaded_root(struct shader *shader, ir_ref root, ir_ref moved)
+{
+    bool is_matter = root && ir_get(shader->graph, root)->op == IR_MATTER;
+    return is_matter ? shaded_matter(shader, root, moved) : shaded(shader, root, moved);
+}
+
 ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface,
                         ir_ref displacement)
 {
     struct ir_graph *g = shader->graph;
     ir_ref offset = displacement ? closure_offset(shader, displacement) : 0;
-    bool is_stack = surface && ir_get(g, surface)->op == IR_SLOTS;
     if (!offset)
-        return is_stack ? closure_shade_slots(shader, surface, 0) : surface;
+        return shaded_root(shader, surface, 0);
     shader->displaced = true;
     struct closure_point *point = host->point;
     ir_ref before = stream(shader, STR_positionWorld);
@@ -166,9 +193,5 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
         output_offset(shader, offset);
     else
         move_vertices(shader, point->position);
-    if (is_stack)
-        return closure_shade_slots(shader, surface, point->normal);
-    return surface ? ir_replace(g, surface, stream(shader, STR_normalWorld), point->normal,
-                                shader->arena)
-                   : 0;
+    return shaded_root(shader, surface, point->normal);
 }

@@ -8,6 +8,8 @@
  * The tracer asks for one level after the other:
  *
  *     matter = vec2(level, or below 0 the first one; random number)
+ *         the number is from 0 to below 1 for the surface, and k higher for the BSDF of the AOV k,
+ *         which is a pile of its own and has the weight 1 where its light is asked for
  *     a lobe: light from above is reflected by it, or goes on as it came:
  *         out2 = vec4(L, 2 where it goes on);  out3 = vec4(weight, density)
  *     a medium, where the extinction is not 0: the tracer walks through it, and lights it itself:
@@ -104,6 +106,27 @@ static bool add_leaf(struct finder *f, ir_ref leaf, ir_ref is_here)
     return true;
 }
 
+/* Light of a surface, as a level. */
+static void add_light(struct finder *f, ir_ref edf, ir_ref is_here)
+{
+    struct closure_level level = {.is_here = is_here};
+    struct closure_list list;
+    ir_ref at_rest = ir_const_float(f->graph, 0.0f);
+    level.emission = ir_const_splat(f->graph, IR_TYPE_VEC3, 0.0f);
+    closure_flatten(f->shader, f->host, edf, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct closure_leaf *leaf = &list.leaves.items[i];
+        ir_ref light = closure_call(f->shader, f->host, leaf->leaf, LEAF_EMISSION, NULL);
+        if (!light)
+            continue;
+        shader_add_closure(f->shader, leaf->leaf);
+        light = ir_op2(f->graph, IR_MUL, ir_convert(f->graph, IR_TYPE_VEC3, light),
+                       closure_weight(f->shader, leaf, at_rest));
+        level.emission = ir_op2(f->graph, IR_ADD, level.emission, light);
+    }
+    vec_push(f->shader->arena, &f->pile->levels, level);
+}
+
 /* Opens the operands of an operator, the first one last. False: it is none of a pile. */
 static bool open_operands(struct finder *f, struct operand of, struct operand out[2])
 {
@@ -124,10 +147,10 @@ static bool open_operands(struct finder *f, struct operand of, struct operand ou
     return true;
 }
 
-static bool find_levels(struct finder *f, ir_ref root)
+static bool find_levels(struct finder *f, struct operand root)
 {
     VEC(struct operand) open = {0};
-    vec_push(f->shader->arena, &open, ((struct operand){.ref = root}));
+    vec_push(f->shader->arena, &open, root);
     while (open.len) {
         struct operand at = vec_last(&open), operands[2];
         open.len--;
@@ -135,7 +158,10 @@ static bool find_levels(struct finder *f, ir_ref root)
         if (!at.ref)
             continue;
         ir_push_origin_of(f->graph, at.ref);
-        if (ir_get(f->graph, at.ref)->op == IR_LEAF) {
+        if (ir_type_of(f->graph, at.ref) == IR_TYPE_EDF) {
+            is_good = f->pile->levels.len < MAX_LEVELS;
+            add_light(f, at.ref, at.is_here);
+        } else if (ir_get(f->graph, at.ref)->op == IR_LEAF) {
             is_good = add_leaf(f, at.ref, at.is_here);
         } else if ((is_good = open_operands(f, at, operands))) {
             vec_push(f->shader->arena, &open, operands[0]);
@@ -161,14 +187,32 @@ static bool any_walks(const struct ir_graph *g, const struct closure_pile *pile,
     return false;
 }
 
-bool closure_find_pile(struct shader *shader, const struct closure_host *host, ir_ref root,
-                       bool is_seen_through, struct closure_pile *out)
+/* The number between the whole ones, and which of those it follows. */
+static void find_parts(struct finder *f, uint32_t num)
+{
+    struct ir_graph *g = f->graph;
+    ir_ref part = ir_op1(g, IR_FLOOR, f->number);
+    f->number = ir_op2(g, IR_SUB, f->number, part);
+    f->pile->is_part = ARENA_ARRAY(f->shader->arena, ir_ref, num);
+    for (uint32_t i = 0; i < num; i++)
+        f->pile->is_part[i] = ir_op2(g, IR_EQ, part, ir_const_float(g, (float)i));
+}
+
+bool closure_find_pile(struct shader *shader, const struct closure_host *host,
+                       const ir_ref *closures, uint32_t num_closures, bool is_seen_through,
+                       struct closure_pile *out)
 {
     struct finder f = {shader, shader->graph, host, out, 0};
     ir_ref matter = shader_stream(shader, STR_matter, IR_TYPE_VEC2);
-    f.number = ir_component(shader->graph, matter, 1);
     *out = (struct closure_pile){0};
-    return root && find_levels(&f, root) && any_walks(f.graph, out, is_seen_through);
+    f.number = ir_component(shader->graph, matter, 1);
+    if (num_closures > 1)
+        find_parts(&f, num_closures);
+    ir_ref number = f.number;
+    for (uint32_t i = 0; i < num_closures; i++, f.number = number)
+        if (!find_levels(&f, (struct operand){closures[i], out->is_part ? out->is_part[i] : 0}))
+            return false;
+    return any_walks(f.graph, out, is_seen_through);
 }
 
 /* ---- Values of levels ---- */
@@ -213,11 +257,18 @@ static ir_ref attenuation(struct closure_scatter *s, ir_ref depth, ir_ref slope)
     return ir_op1(s->graph, IR_EXP, ir_op1(s->graph, IR_NEG, scatter_op2(s, IR_MUL, depth, slope)));
 }
 
+static ir_ref throughput(struct closure_scatter *s, ir_ref leaf)
+{
+    ir_ref through = closure_call(s->shader, s->host, leaf, LEAF_THROUGHPUT, NULL);
+    return through ? ir_convert(s->graph, IR_TYPE_VEC3, through) : scatter_grey(s, 0.0f);
+}
+
 /* What a level lets through of light that goes straight on, towards the viewer. */
 static ir_ref straight(struct closure_scatter *s, const struct closure_level *level, ir_ref slope)
 {
-    ir_ref through = closure_call(s->shader, s->host, level->leaf, LEAF_THROUGHPUT, NULL);
-    through = through ? ir_convert(s->graph, IR_TYPE_VEC3, through) : scatter_grey(s, 0.0f);
+    if (!level->leaf)
+        return scatter_grey(s, 1.0f);
+    ir_ref through = throughput(s, level->leaf);
     if (!level->extinction)
         return where(s, s->enters, through, scatter_grey(s, 1.0f));
     ir_ref is_medium = has_extinction(s, level);
@@ -254,12 +305,6 @@ static ir_ref share_of_lobe(struct closure_scatter *s, ir_ref leaf)
     return scatter_op2(s, IR_ADD, albedo, scatter_number(s, 0.1f)); /* albedos are fits */
 }
 
-static ir_ref throughput(struct closure_scatter *s, ir_ref leaf)
-{
-    ir_ref through = closure_call(s->shader, s->host, leaf, LEAF_THROUGHPUT, NULL);
-    return through ? ir_convert(s->graph, IR_TYPE_VEC3, through) : scatter_grey(s, 0.0f);
-}
-
 struct choice {
     ir_ref through, lobe, passes, all; /* lobe, passes: shares of `all` */
 };
@@ -275,7 +320,7 @@ static struct choice choose(struct closure_scatter *s, ir_ref leaf)
 
 static bool scatters(const struct closure_scatter *s, ir_ref leaf)
 {
-    return closure_has(s->shader, s->host, leaf, LEAF_SAMPLE);
+    return leaf && closure_has(s->shader, s->host, leaf, LEAF_SAMPLE);
 }
 
 /* ---- Light ---- */
@@ -283,8 +328,9 @@ static bool scatters(const struct closure_scatter *s, ir_ref leaf)
 static ir_ref lobe_response(struct closure_scatter *s, ir_ref leaf, ir_ref direction,
                             ir_ref solid_angle)
 {
-    ir_ref value = closure_call(s->shader, s->host, leaf, LEAF_EVAL, &direction);
-    if (!value || !scatters(s, leaf))
+    ir_ref value =
+        scatters(s, leaf) ? closure_call(s->shader, s->host, leaf, LEAF_EVAL, &direction) : 0;
+    if (!value)
         return scatter_grey(s, 0.0f);
     value = ir_convert(s->graph, IR_TYPE_VEC3, value);
     if (!solid_angle)
@@ -369,8 +415,9 @@ static ir_ref emission_at_hand(struct closure_scatter *s)
 {
     ir_ref *values = new_values(s);
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
-        ir_ref leaf = level_of(s, i)->leaf;
-        values[i] = closure_call(s->shader, s->host, leaf, LEAF_EMISSION, NULL);
+        const struct closure_level *level = level_of(s, i);
+        values[i] = level->leaf ? closure_call(s->shader, s->host, level->leaf, LEAF_EMISSION, NULL)
+                                : level->emission;
     }
     return at_hand(s, values, scatter_grey(s, 0.0f));
 }
@@ -390,9 +437,13 @@ void matter_sample(struct closure_scatter *s)
     scatter_effect(s, EFFECT_ASSIGN, s->direction, on);
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside, scatter_number(s, 2.0f));
     scatter_effect(s, EFFECT_ASSIGN, s->parts[0].weight, scatter_grey(s, 1.0f));
+    for (uint32_t p = 1; p < s->num_parts; p++)
+        scatter_effect(s, EFFECT_ASSIGN, s->parts[p].weight,
+                       where(s, s->pile->is_part[p], scatter_grey(s, 1.0f), scatter_grey(s, 0.0f)));
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         ir_ref leaf = level_of(s, i)->leaf;
-        shader_add_closure(s->shader, leaf);
+        if (leaf)
+            shader_add_closure(s->shader, leaf);
         if (!scatters(s, leaf))
             continue;
         scatter_effect(s, EFFECT_IF, 0, is_at(s, i));

@@ -257,8 +257,8 @@ static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref directio
 {
     struct ir_graph *g = s->graph;
     ir_ref sum = scatter_grey(s, 0.0f);
-    if (s->pile)
-        return matter_response(s, direction, solid_angle);
+    if (s->pile) /* a path has the light of one part */
+        return part ? sum : matter_response(s, direction, solid_angle);
     for (uint32_t i = 0; i < s->leaves.len; i++) {
         const struct scattering *leaf = &s->leaves.items[i];
         if (!leaf->in[part])
@@ -455,12 +455,12 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
         s->parts[p].list = layer->aov_lists ? &layer->aov_lists[s->parts[p].aov] : none;
     s->scale = scale_of(s, layer->alpha);
     s->aovs = s->scale ? closure_aovs_scaled(s->graph, layer->aovs, s->scale) : layer->aovs;
-    s->emission = layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3,
-                                               closure_mul(s->graph, layer->emission, s->scale))
-                                  : scatter_grey(s, 0.0f);
     s->pile = layer->pile;
+    ir_ref scale = s->pile ? 0 : s->scale; /* light of a pile is not lit by chance */
+    s->emission = layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3,
+                                               closure_mul(s->graph, layer->emission, scale))
+                                  : scatter_grey(s, 0.0f);
     if (s->pile) {
-        assert(s->num_parts == 1);
         matter_sample(s);
         return;
     }

@@ -243,12 +243,15 @@ static struct closure_surface stack_of(const struct surfaces *s, ir_ref slots)
     return out;
 }
 
-/* A surface with another value of an AOV. */
+/* A surface with another value of an AOV. Closures of matter have its opacity, as the surface. */
 static struct closure_surface with_aov(const struct surfaces *s, ir_ref ref)
 {
     struct closure_surface out = s->known[ir_arg(s->graph, ref, 0)];
-    out.aovs = closure_aovs_with(s->graph, out.aovs, ir_get(s->graph, ref)->attr,
-                                 ir_arg(s->graph, ref, 1), out.premultiplied ? out.alpha : 0);
+    ir_ref value = ir_arg(s->graph, ref, 1);
+    bool is_closure = ir_type_is_closure(ir_type_of(s->graph, value));
+    bool has_alpha = out.premultiplied && !(out.is_matter && is_closure);
+    out.aovs = closure_aovs_with(s->graph, out.aovs, ir_get(s->graph, ref)->attr, value,
+                                 has_alpha ? out.alpha : 0);
     return out;
 }
 
@@ -289,6 +292,15 @@ static struct closure_surface leaf_of(const struct surfaces *s, ir_ref ref)
     return out;
 }
 
+/* A pile of matter has the opacity of its surface, and the light of its EDFs. */
+static struct closure_surface matter_of(const struct surfaces *s, ir_ref surface)
+{
+    struct closure_surface out = premultiplied(s->graph, s->known[surface]);
+    out.is_matter = true;
+    out.edf = 0;
+    return out;
+}
+
 static struct closure_surface parts_of(const struct surfaces *s, ir_ref ref)
 {
     struct ir_graph *g = s->graph;
@@ -302,6 +314,7 @@ static struct closure_surface parts_of(const struct surfaces *s, ir_ref ref)
     case IR_AOV: return with_aov(s, ref);
     case IR_SHADER_MIX: return mixed(s, known[args[0]], known[args[1]], args[2]);
     case IR_SLOTS: return stack_of(s, ref);
+    case IR_MATTER: return matter_of(s, args[0]);
     default: return (struct closure_surface){0};
     }
 }

@@ -82,14 +82,15 @@ ir_ref closure_shade_slots(struct shader *shader, ir_ref slots, ir_ref moved)
     find_everywhere(&n, slots);
     for (unsigned i = 0; i < ir_num_slots(g, slots); i++) {
         struct ir_slot slot = ir_slot(g, slots, i);
+        ir_ref *operands = args + IR_SLOTS_FIRST + i * IR_SLOT_OPERANDS;
         if (slot.normal && moved)
             slot.normal = ir_replace(g, slot.normal, n.stream, moved, shader->arena);
         add_normal(&n, &slot);
         ir_ref normal = n.everywhere ? unit_sum(g, n.current, n.everywhere) : n.current;
         bool is_plain = !moved && normal == n.own;
         if (slot.surface && !is_plain)
-            args[1 + i * IR_SLOT_OPERANDS] = shade(&n, slot.surface, normal);
-        args[1 + i * IR_SLOT_OPERANDS + 3] = 0;
+            operands[0] = shade(&n, slot.surface, normal);
+        operands[4] = 0;
     }
     return ir_build(g, IR_SLOTS, IR_TYPE_SURFACE, 0, args, num_args);
 }

@@ -199,39 +199,78 @@ void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
 {
     const struct closure_pile *pile = out->pile;
     *out = (struct closure_scatter_layer){.pile = pile};
-    emitter_flatten(e, s, &out->list);
+    if (!pile)
+        emitter_flatten(e, s, &out->list);
     out->emission = pile ? emission_on_top(e, s) : e->lit.base;
     out->alpha = s->premultiplied ? s->alpha : 0;
     out->aovs = s->aovs;
     out->aov_lists = ARENA_ARRAY(e->shader->arena, struct closure_list, s->aovs.num);
-    for (uint32_t i = 0; i < s->aovs.num; i++)
-        if (emitter_is_closure(e, s->aovs.items[i].value))
-            out->aovs.items[i].value =
-                find_scattering_of_aov(e, s->aovs.items[i].value, &out->aov_lists[i]);
+    for (uint32_t i = 0; i < s->aovs.num; i++) {
+        ir_ref *value = &out->aovs.items[i].value;
+        bool walks = pile && *value && ir_type_of(e->graph, *value) == IR_TYPE_BSDF;
+        if (walks) /* its light is that of levels */
+            *value = 0;
+        else if (emitter_is_closure(e, *value))
+            *value = find_scattering_of_aov(e, *value, &out->aov_lists[i]);
+    }
 }
 
-/* The BSDF of an AOV is a sum of lobes: light that walks has left no single one of them. */
-static bool shows_bsdf(const struct shader *shader)
+static enum ir_op op_of(const struct emitter *e, ir_ref root)
 {
-    for (uint32_t i = 0; i < shader->aovs.len; i++)
-        if (shader->aovs.items[i].is_output && shader->aovs.items[i].type == IR_TYPE_BSDF)
-            return true;
-    return false;
+    return root ? (enum ir_op)ir_get(e->graph, root)->op : IR_SURFACE_SHADER;
 }
 
-/* Light of a pile goes through it by itself, so its opacity is 1. */
-static void emit_scattering(struct emitter *e, const struct closure_surface *s)
+/* The closures that light walks through: that of the surface, and those of its AOVs. */
+static bool find_pile(struct emitter *e, ir_ref root, const struct closure_surface *s,
+                      struct closure_pile *out)
 {
+    const struct ir_graph *g = e->graph;
+    ir_ref *closures = ARENA_ARRAY(e->shader->arena, ir_ref, e->shader->aovs.len + 1);
+    bool is_whole = closure_is_opaque(g, s->alpha), is_joined = op_of(e, root) == IR_MATTER;
+    uint32_t num = 0;
+    closures[num++] = is_joined ? ir_arg(g, root, 1) : s->bsdf;
+    for (uint32_t i = 0; i < e->shader->aovs.len; i++)
+        if (emitter_is_output(e, i) && e->shader->aovs.items[i].type == IR_TYPE_BSDF)
+            closures[num++] = is_joined ? ir_arg(g, root, i + 2) : 0;
+    return !e->host->above && (s->is_matter || is_whole || !s->premultiplied)
+           && closure_find_pile(e->shader, e->host, closures, num, s->is_matter && !is_whole, out);
+}
+
+/* Light of a pile goes through it by itself, so its opacity is 1. False: there is no pile. */
+static bool emit_pile(struct emitter *e, ir_ref root)
+{
+    const struct closure_surface s = closure_surface_of(e->shader, e->host, root);
     struct closure_pile pile;
-    bool is_whole = closure_is_opaque(e->graph, s->alpha), is_matter = s->is_matter;
-    bool is_pile = !e->host->above && !shows_bsdf(e->shader)
-                   && (is_matter || is_whole || !s->premultiplied)
-                   && closure_find_pile(e->shader, e->host, s->bsdf, is_matter && !is_whole, &pile);
-    struct closure_scatter_layer layer = {.pile = is_pile ? &pile : NULL};
-    emitter_find_scattering(e, s, &layer);
+    if (!find_pile(e, root, &s, &pile))
+        return false;
+    struct closure_scatter_layer layer = {.pile = &pile};
+    emitter_find_scattering(e, &s, &layer);
     struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
     closure_scatter_layer(scatter, &layer);
-    closure_scatter_end(scatter, is_pile && is_matter ? 0 : s->alpha);
+    closure_scatter_end(scatter, s.is_matter ? 0 : s.alpha);
+    return true;
+}
+
+static void emit_lobes(struct emitter *e, ir_ref root)
+{
+    const struct closure_surface s = closure_surface_of(e->shader, e->host, root);
+    struct closure_scatter_layer layer = {.pile = NULL};
+    emitter_find_scattering(e, &s, &layer);
+    struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
+    closure_scatter_layer(scatter, &layer);
+    closure_scatter_end(scatter, s.alpha);
+}
+
+static void emit_scattering(struct emitter *e, ir_ref root)
+{
+    if (op_of(e, root) != IR_SLOTS && emit_pile(e, root))
+        return;
+    if (op_of(e, root) == IR_MATTER)
+        root = ir_arg(e->graph, root, 0);
+    if (op_of(e, root) == IR_SLOTS)
+        emitter_scatter_stack(e, root);
+    else
+        emit_lobes(e, root);
 }
 
 static void store_surface(struct emitter *e, const struct closure_surface *s, bool is_whole)
@@ -245,20 +284,15 @@ static void store_surface(struct emitter *e, const struct closure_surface *s, bo
 
 static void emit_surface(struct emitter *e, ir_ref root)
 {
-    bool is_stack = root && ir_get(e->graph, root)->op == IR_SLOTS;
-    if (is_stack && e->shader->scatters) {
-        emitter_scatter_stack(e, root);
+    if (e->shader->scatters) {
+        emit_scattering(e, root);
         return;
     }
-    if (is_stack && e->shader->picks) {
+    if (op_of(e, root) == IR_SLOTS && e->shader->picks) {
         emitter_pick_layer(e, root);
         return;
     }
     struct closure_surface s = closure_surface_of(e->shader, e->host, root);
-    if (e->shader->scatters) {
-        emit_scattering(e, &s);
-        return;
-    }
     if (e->host->only_cuts) {
         if (!draws_all(e, s.alpha))
             alpha_test(e, s.alpha);

@@ -17,19 +17,31 @@ static const struct operands {
     uint8_t op;
     const char *classes;
 } operand_classes[] = {
-    {IR_LAYER, "cc"},         {IR_CLOSURE_MIX, "ccn"},        {IR_CLOSURE_ADD, "oo"},
-    {IR_CLOSURE_SCALE, "on"}, {IR_SURFACE_SHADER, "ccnb"},    {IR_SURFACE_UNLIT, "nnn"},
-    {IR_VOLUME_SHADER, "cc"}, {IR_DISPLACEMENT_SHADER, "nn"}, {IR_LIGHT_SHADER, "cnn"},
-    {IR_SHADER_MIX, "ssn"},   {IR_MATERIAL, "ssss"},          {IR_SLAB_LAYER, "ccn"},
-    {IR_SLAB_SURFACE, "cbn"}, {IR_SUBSTANCE, "snnn"},         {IR_SLOTS, "nsnnnx"},
+    {IR_LAYER, "cc"},
+    {IR_CLOSURE_MIX, "ccn"},
+    {IR_CLOSURE_ADD, "oo"},
+    {IR_CLOSURE_SCALE, "on"},
+    {IR_SURFACE_SHADER, "ccnb"},
+    {IR_SURFACE_UNLIT, "nnn"},
+    {IR_VOLUME_SHADER, "cc"},
+    {IR_DISPLACEMENT_SHADER, "nn"},
+    {IR_LIGHT_SHADER, "cnn"},
+    {IR_SHADER_MIX, "ssn"},
+    {IR_MATERIAL, "ssss"},
+    {IR_SLAB_LAYER, "ccn"},
+    {IR_SLAB_SURFACE, "cbn"},
+    {IR_SUBSTANCE, "snnn"},
+    {IR_SLOTS, "nnsnnnnx"},
     {IR_AOV, "sx"},
+    {IR_MATTER, "sc"},
 };
 
-/* The class of an operand: the last ones repeat for each layer of a stack. */
+/* The class of an operand: the last ones repeat for each layer of a stack, and for each AOV. */
 static char class_of(const struct operands *operands, unsigned index)
 {
-    bool repeats = operands->op == IR_SLOTS && index;
-    return operands->classes[repeats ? 1 + (index - 1) % IR_SLOT_OPERANDS : index];
+    if (operands->op == IR_SLOTS && index >= IR_SLOTS_FIRST)
+        index = IR_SLOTS_FIRST + (index - IR_SLOTS_FIRST) % IR_SLOT_OPERANDS;
+    return operands->classes[operands->op == IR_MATTER && index ? 1 : index];
 }
 
 static bool is_of_class(ir_type_id type, char class)
@@ -239,7 +251,7 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
             return "the operand is no number of a light";
         break;
     case IR_SLOTS:
-        if (num_args % IR_SLOT_OPERANDS != 1)
+        if (num_args % IR_SLOT_OPERANDS != IR_SLOTS_FIRST)
             return "wrong number of operands";
         break;
     default: break;

@@ -295,24 +295,25 @@ static inline ir_ref ir_arg(const struct ir_graph *graph, ir_ref ref, unsigned i
     return ir_args(graph, ref)[i];
 }
 
-/* The operands of SLOTS for one layer, after the alpha. */
+/* The operands of SLOTS for one layer, after those of the stack. */
 struct ir_slot {
     ir_ref surface;  /* 0: none */
     ir_ref weight;   /* of its closures, before its own opacity; of a vertical layer its mask */
+    ir_ref mask;     /* from 0 to 1 */
     ir_ref presence; /* its share of the normal, opacity included */
     ir_ref normal;   /* vec3, unit, in the world; 0: the layer has none */
     ir_ref mode; /* an int constant: enum ir_slot_mode, + IR_SLOT_VERTICAL over the one before */
 };
-enum { IR_SLOT_OPERANDS = 5 };
+enum { IR_SLOTS_FIRST = 2, IR_SLOT_OPERANDS = 6 };
 enum ir_slot_mode { IR_SLOT_ADD, IR_SLOT_MIX, IR_SLOT_NONE, IR_SLOT_VERTICAL };
 static inline unsigned ir_num_slots(const struct ir_graph *graph, ir_ref slots)
 {
-    return (graph->nodes.items[slots].num_args - 1) / IR_SLOT_OPERANDS;
+    return (graph->nodes.items[slots].num_args - IR_SLOTS_FIRST) / IR_SLOT_OPERANDS;
 }
 static inline struct ir_slot ir_slot(const struct ir_graph *graph, ir_ref slots, unsigned i)
 {
-    const ir_ref *args = ir_args(graph, slots) + 1 + i * IR_SLOT_OPERANDS;
-    return (struct ir_slot){args[0], args[1], args[2], args[3], args[4]};
+    const ir_ref *args = ir_args(graph, slots) + IR_SLOTS_FIRST + i * IR_SLOT_OPERANDS;
+    return (struct ir_slot){args[0], args[1], args[2], args[3], args[4], args[5]};
 }
 /* The modes are small constants. */
 bool ir_slot_is_vertical(const struct ir_graph *graph, const struct ir_slot *slot);

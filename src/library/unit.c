@@ -29,7 +29,8 @@ static void add_unit(struct library *lib, elem_id element, str_id type)
     struct ir_value value;
     if (scale
         && doc_parse_value(DOC_TYPE_float, text_of(lib, scale), str_len(&lib->strings, scale), NULL,
-                           &value))
+                           &value)
+        && value.w[0].f > 0.0f)
         unit.scale = value.w[0].f;
     vec_push(lib->doc.arena, &lib->units, unit);
 }

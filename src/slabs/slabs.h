@@ -46,7 +46,7 @@ struct slabs_host {
      * no slab does.
      */
     ir_ref (*slab_of)(void *user_data, ir_ref leaf, bool is_top, bool loosely);
-    /* An opaque SLAB without an interface, with the mean roughness of a leaf. */
+    /* An opaque SLAB without an interface, with the mean roughness of a leaf; 0: of none. */
     ir_ref (*slab_like)(void *user_data, ir_ref leaf, ir_ref albedo);
     /*
      * Means of a texture by its variable: SLABS_TEXELS rows from the top, as many RGBA each. NULL:

@@ -382,41 +382,43 @@ static ir_ref opacity_of(struct walk *w, ir_ref lobes)
     return closure_one_minus(g, mean);
 }
 
+/* Where the closures of a surface lie. */
+static struct where place_of(struct walk *w, ir_ref surface)
+{
+    struct ir_graph *g = w->graph;
+    surface = closure_without_aovs(g, surface);
+    struct ir_value is_thin;
+    bool is_sheet = ir_get(g, surface)->op == IR_SLAB_SURFACE
+                    && ir_get_const(g, ir_arg(g, surface, 1), &is_thin) && is_thin.w[0].u;
+    return is_sheet ? (struct where){.thickness = ir_arg(g, surface, 2)} : body(w);
+}
+
 static ir_ref slab_surface(struct walk *w, ir_ref ref)
 {
     struct ir_graph *g = w->graph;
-    ir_ref thin = ir_arg(g, ref, 1);
-    struct ir_value is_thin;
-    bool is_sheet = ir_get_const(g, thin, &is_thin) && is_thin.w[0].u;
-    struct where sheet = {.thickness = ir_arg(g, ref, 2)};
-    ir_ref bsdf = ir_arg(g, ref, 0);
+    ir_ref bsdf = ir_arg(g, ref, 0), thin = ir_arg(g, ref, 1);
     if (has_slabs(w, bsdf))
-        bsdf = walk_closure(w, bsdf, is_sheet ? sheet : body(w));
+        bsdf = walk_closure(w, bsdf, place_of(w, ref));
     ir_ref args[4] = {bsdf, 0, opacity_of(w, bsdf), thin};
     return ir_build(g, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 1, args, 4);
 }
 
-static ir_ref with_args(struct walk *w, ir_ref ref, const ir_ref *replaced)
-{
-    struct ir_graph *g = w->graph;
-    const struct ir_node node = *ir_get(g, ref);
-    ir_ref *args = ARENA_ARRAY(w->shader->arena, ir_ref, node.num_args);
-    for (uint32_t i = 0; i < node.num_args; i++) {
-        ir_ref arg = ir_arg(g, ref, i);
-        args[i] = arg && replaced[arg] ? replaced[arg] : arg;
-    }
-    return ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
-}
-
-static ir_ref rewrite_root(struct walk *w, ir_ref ref, ir_ref *replaced)
+/* replaced: by surface below the root. */
+static ir_ref rewrite_root(struct walk *w, ir_ref ref, const ir_ref *replaced)
 {
     struct ir_graph *g = w->graph;
     const struct ir_node node = *ir_get(g, ref);
     if (node.op == IR_SLAB_SURFACE)
         return slab_surface(w, ref);
-    if (node.op == IR_SURFACE_SHADER && has_slabs(w, ir_arg(g, ref, 0)))
-        replaced[ir_arg(g, ref, 0)] = walk_closure(w, ir_arg(g, ref, 0), body(w));
-    return with_args(w, ref, replaced);
+    ir_ref *args = ARENA_ARRAY(w->shader->arena, ir_ref, node.num_args);
+    for (uint32_t i = 0; i < node.num_args; i++) {
+        args[i] = ir_arg(g, ref, i);
+        if (is_closure(w, args[i]) && has_slabs(w, args[i]))
+            args[i] = walk_closure(w, args[i], place_of(w, ref));
+        else if (args[i] && replaced[args[i]])
+            args[i] = replaced[args[i]];
+    }
+    return ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
 }
 
 /* Marks the nodes below the root that depend on a slab. */

@@ -1,5 +1,5 @@
 #version 450
-// wet_metal · slab_surface · mxgen 0.1 · glsl · reduced · 8 closures · 0 textures
+// wet_metal · slab_surface · mxgen 0.1 · glsl · reduced · 7 closures · 0 textures
 
 uniform int u_numActiveLightSources = 0;
 struct LightData {
@@ -235,13 +235,13 @@ void scatter()
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     vec3 coat_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(coat_reflection_albedo.y, 0.2),
         1e-8), vec3(0.04)) * (coat_reflection_albedo.x * coat_reflection_ggx_compensation);
-    vec3 coat_reflection_greater = max(vec3(1.0) - coat_reflection_slab_reflection_bsdf_albedo, 0.0);
+    vec3 coat_reflection_throughput = max(vec3(1.0) - coat_reflection_slab_reflection_bsdf_albedo, 0.0);
     float sum = dot(coat_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
-    float greater = max(dot(coat_reflection_greater, vec3(0.33333334)), 0.0);
+    float greater = max(dot(coat_reflection_throughput, vec3(0.33333334)), 0.0);
     float sum_2 = sum + greater;
     vec3 X = normalize(vd.tangentWorld);
     if (choice == 0.0) {
-        weight = coat_reflection_greater * (sum_2 / greater);
+        weight = coat_reflection_throughput * (sum_2 / greater);
         if (sum_2 * vd.random.w < sum) {
             vec3 coat_reflection_L, coat_reflection_weight;
             float coat_reflection_pdf;
@@ -437,7 +437,7 @@ void scatter()
     float choice_8 = drops_is_below && choice < 1.0 ? 1.0 : choice_7;
     float choice_9 = drops_is_below && choice < 0.0 ? 0.0 : choice_8;
     out10 = vec4(is_equal ? coat_medium_constant : is_equal_2 ? vec3(0.2) : vec3(0.0), choice_9);
-    vec3 choice_10 = drops_is_below ? (drops_is_below ? is_below ? coat_reflection_greater : vec3(1.0) : vec3(1.0))
+    vec3 choice_10 = drops_is_below ? (drops_is_below ? is_below ? coat_reflection_throughput : vec3(1.0) : vec3(1.0))
         * exp(-(way * coat_medium_constant)) : vec3(1.0);
     vec3 product_3 = choice_10 * (is_below ? milk_reflection_throughput : vec3(1.0)) * exp(-vec3(way * 0.2));
     float choice_11 = choice > 4.0 ? 4.0 : drops_is_below && choice > 1.0 ? 1.0 : -1.0;

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Slabs in the path tracer: means of drawn and traced pictures agree within 3 percent; light that walks through white media is all there,
-# also from behind a sheet; a clear sheet takes what Beer and Lambert say; and picks of a closure change the noise, not the mean.
+# also from behind a sheet; mixes of surfaces are as mixes of their slabs, and AOVs have the light of their closures; a clear sheet takes what
+# Beer and Lambert say; and picks of a closure change the noise, not the mean.
 # Arguments: mxgen, mxgen-render, mean_ratio, the root of the source tree.
 mxgen=$(realpath "$1") render=$(realpath "$2") mean_ratio=$(realpath "$3") root=$(realpath "$4")
 examples=$root/examples exr=$root/tests/programs/exr.py variance=$root/bench/variance.py
@@ -58,12 +59,17 @@ cat >white.mtlx <<'XML'
   <slab_surface name="Dense" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="dense"/><input name="thin" type="boolean" value="true"/></slab_surface>
   <oren_nayar_diffuse_bsdf name="paper" type="BSDF"><input name="color" type="color3" value="1, 1, 1"/></oren_nayar_diffuse_bsdf>
   <surface name="Paper" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="paper"/></surface>
+  <mix name="Sheets" type="surfaceshader"><input name="bg" type="surfaceshader" nodename="Stack"/><input name="fg" type="surfaceshader" nodename="Sheet"/>
+    <input name="mix" type="float" value="0.4"/></mix>
+  <surface name="Holes" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="paper"/><input name="opacity" type="float" value="0.6"/></surface>
+  <mix name="Mixed" type="surfaceshader"><input name="bg" type="surfaceshader" nodename="Sheets"/><input name="fg" type="surfaceshader" nodename="Holes"/>
+    <input name="mix" type="float" value="0.3"/></mix>
   <slab name="clear" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0, 0, 0"/>
     <input name="mean_free_path" type="vector3" value="0.01, 0.01, 0.01"/></slab>
   <slab_surface name="Clear" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="clear"/><input name="thin" type="boolean" value="true"/></slab_surface>
 </materialx>
 XML
-for element in Stack Sheet; do
+for element in Stack Sheet Mixed; do
     check "$element in even light" trace even.exr white.mtlx $element -m sphere --lights none --environment white.hdr --size 32 --paths 256 --bounces 64
     light=$(awk -v r="$(channel even.exr R)" -v g="$(channel even.exr G)" -v b="$(channel even.exr B)" -v a="$(channel even.exr A)" \
         'BEGIN { print (r + g + b) / 3 + 1 - a }')
@@ -86,6 +92,43 @@ check 'and all light of a lamp goes to one side or the other' \
 check 'a clear sheet' trace clear.exr white.mtlx Clear -m quad.obj --camera 0,0 --environment none --lights none --size 24 --paths 64
 check 'and paper' trace full.exr white.mtlx Paper -m quad.obj --camera 0,0 --environment none --lights none --size 24 --paths 16
 check 'it is seen through: exp(-1)' near "$(awk -v a="$(channel clear.exr A)" -v b="$(channel full.exr A)" 'BEGIN { print a / b }')" 0.632 0.01
+
+# A surface with holes beside a sheet, and the same as slabs of one surface. The metal is the AOV of its own definition.
+cat >mixed.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodedef name="ND_metal" node="metal"><output name="out" type="surfaceshader"/></nodedef>
+  <nodegraph name="NG_metal" nodedef="ND_metal">
+    <slab name="top" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.9, 0.8, 0.6"/><input name="mean_free_path" type="vector3" value="0.01, 0.02, 0.04"/></slab>
+    <slab name="base" type="BSDF"><input name="f0" type="color3" value="0.9, 0.7, 0.3"/><input name="roughness" type="float" value="0.3"/></slab>
+    <slab_layer name="coated" type="BSDF"><input name="top" type="BSDF" nodename="top"/><input name="base" type="BSDF" nodename="base"/></slab_layer>
+    <aov name="shown" type="BSDF"><input name="name" type="string" value="metal"/><input name="value" type="BSDF" nodename="coated"/></aov>
+    <surface name="surface" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="coated"/><input name="opacity" type="float" value="0.6"/></surface>
+    <output name="out" type="surfaceshader" nodename="surface"/>
+  </nodegraph>
+  <slab name="milk" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.9, 0.8, 0.6"/><input name="mean_free_path" type="vector3" value="0.01, 0.02, 0.04"/></slab>
+  <slab name="gold" type="BSDF"><input name="f0" type="color3" value="0.9, 0.7, 0.3"/><input name="roughness" type="float" value="0.3"/></slab>
+  <slab_layer name="coated" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="gold"/></slab_layer>
+  <slab_coverage name="holes" type="BSDF"><input name="in" type="BSDF" nodename="coated"/><input name="weight" type="float" value="0.6"/></slab_coverage>
+  <metal name="Metal" type="surfaceshader"/>
+  <slab_surface name="Sheet" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="milk"/><input name="thin" type="boolean" value="true"/>
+    <input name="surface_thickness" type="float" value="0.02"/></slab_surface>
+  <mix name="Mixed" type="surfaceshader"><input name="bg" type="surfaceshader" nodename="Metal"/><input name="fg" type="surfaceshader" nodename="Sheet"/>
+    <input name="mix" type="float" value="0.35"/></mix>
+  <slab_mix name="all" type="BSDF"><input name="bg" type="BSDF" nodename="holes"/><input name="fg" type="BSDF" nodename="milk"/><input name="mix" type="float" value="0.35"/></slab_mix>
+  <slab_surface name="One" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="all"/><input name="thin" type="boolean" value="true"/>
+    <input name="surface_thickness" type="float" value="0.02"/></slab_surface>
+  <slab_coverage name="some" type="BSDF"><input name="in" type="BSDF" nodename="holes"/><input name="weight" type="float" value="0.65"/></slab_coverage>
+  <slab_surface name="Some" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="some"/></slab_surface>
+</materialx>
+XML
+for element in Mixed One Some; do
+    check "$element on a quad" trace $element.exr mixed.mtlx $element -m quad.obj --camera 30,20 --lights none --size 24 --paths 1024
+done
+ratio() { awk -v a="$1" -v b="$2" 'BEGIN { print a / b }'; }
+check 'a mix of surfaces is a mix of slabs' near "$("$mean_ratio" Mixed.exr One.exr)" 1 0.01
+check 'and as much is seen through it' near "$(ratio "$(channel Mixed.exr A)" "$(channel One.exr A)")" 1 0.01
+check 'the AOV of a closure is its light' near "$(ratio "$(channel Mixed.exr metal.R)" "$(channel Some.exr R)")" 1 0.01
 
 # Picks of a closure.
 check 'one pick' trace one.exr "$examples/slabs.mtlx" CarPaint -m sphere --lights none --size 32 --paths 512

@@ -167,7 +167,17 @@ MEDIA = """<slab name="milk" type="BSDF"><input name="diffuse_albedo" type="colo
     <input name="mean_free_path" type="vector3" value="0.1, 0.05, 0.2"/></slab>
   <slab name="wax" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.9, 0.5, 0.2"/>
     <input name="mean_free_path" type="vector3" value="0.3, 0.2, 0.1"/></slab>
-  <slab name="gold" type="BSDF"><input name="f0" type="color3" value="0.9, 0.7, 0.3"/><input name="roughness" type="float" value="0.3"/></slab>"""
+  <slab name="gold" type="BSDF"><input name="f0" type="color3" value="0.9, 0.7, 0.3"/><input name="roughness" type="float" value="0.3"/></slab>
+  <slab name="lamp" type="BSDF"><input name="f0" type="color3" value="0.9, 0.7, 0.3"/><input name="roughness" type="float" value="0.3"/>
+    <input name="emission" type="color3" value="0.1, 0.2, 0.3"/></slab>
+  <uniform_edf name="light" type="EDF"><input name="color" type="color3" value="0.1, 0.2, 0.3"/></uniform_edf>"""
+# Surfaces that are not just a slab on a body.
+SURFACES = {
+    "foil": """<slab_surface name="surface_foil" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="milk"/>
+      <input name="thin" type="boolean" value="true"/><input name="surface_thickness" type="float" value="0.03"/></slab_surface>""",
+    "lit": """<surface name="surface_lit" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="gold"/>
+      <input name="edf" type="EDF" nodename="light"/></surface>""",
+}
 # By kind: the layers of a stack, and the slabs of one surface that mean the same.
 TRACED = {
     "a coat that scatters": ({"000": ("gold", 1), "000|010": ("milk", 0.7)}, """<slab_coverage name="some" type="BSDF">
@@ -177,18 +187,30 @@ TRACED = {
     "a body beside metal": ({"000": ("wax", 1), "010": ("gold", 0.4)}, """<slab_mix name="all" type="BSDF">
       <input name="fg" type="BSDF" nodename="gold"/><input name="bg" type="BSDF" nodename="wax"/>
       <input name="mix" type="float" value="0.4"/></slab_mix>"""),
+    "a sheet on metal": ({"000": ("gold", 1), "010": ("foil", 0.6)}, """<slab_coverage name="some" type="BSDF">
+      <input name="in" type="BSDF" nodename="milk"/><input name="weight" type="float" value="0.6"/></slab_coverage>
+      <slab_layer name="all" type="BSDF"><input name="top" type="BSDF" nodename="some"/><input name="base" type="BSDF" nodename="gold"/>
+      <input name="thickness" type="float" value="0.03"/></slab_layer>"""),
+    "a coat on light": ({"000": ("lit", 1), "000|010": ("milk", 0.7)}, """<slab_coverage name="some" type="BSDF">
+      <input name="in" type="BSDF" nodename="milk"/><input name="weight" type="float" value="0.7"/></slab_coverage>
+      <slab_layer name="all" type="BSDF"><input name="top" type="BSDF" nodename="some"/><input name="base" type="BSDF" nodename="lamp"/>
+      <input name="thickness" type="float" value="0.1"/></slab_layer>"""),
 }
+
+
+def slab_surface(name):
+    return f"""<slab_surface name="surface_{name}" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="{name}"/></slab_surface>"""
 
 
 def check_traced(folder, stage):
     """Light walks through the media of a stack as through those of one surface. Without that the coat is a fifth brighter."""
     for number, (kind, (layers, slabs_of_one)) in enumerate(TRACED.items()):
-        parts = [f"""<slab_surface name="surface_{name}" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="{name}"/></slab_surface>
-          <substance name="layer_{name}" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface_{name}"/>
+        parts = [SURFACES.get(name) or slab_surface(name) for name, _ in layers.values()]
+        parts += [f"""<substance name="layer_{name}" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface_{name}"/>
           <input name="mask" type="float" value="{mask}"/></substance>""" for name, mask in layers.values()]
         assigns = "".join(f'<materialassign slot="{slot}" material="layer_{name}" geom="/"/>' for slot, (name, _) in layers.items())
-        one = f"""{slabs_of_one}<slab_surface name="surface" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="all"/></slab_surface>
-          <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface"/></surfacematerial>"""
+        one = f"""{slabs_of_one}{slab_surface("all")}<surfacematerial name="M" type="material">
+          <input name="surfaceshader" type="surfaceshader" nodename="surface_all"/></surfacematerial>"""
         pictures = []
         for name, more, look in (("stack", "".join(parts), assigns), ("one", one, '<materialassign name="a" material="M" geom="/"/>')):
             path = folder / f"traced{number}{name}.mtlx"
