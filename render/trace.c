@@ -24,7 +24,7 @@ enum {
     NUM_BUFFERS,
     NUM_BINDINGS = NUM_BUFFERS + 1,
     RAYS = 3,        /* that media are around: those of a path and of its shadows */
-    MOST_AROUND = 7, /* media around one */
+    MOST_AROUND = 4, /* media around one */
     GROUP = 8,
     SAMPLES_AT_ONCE = 16
 };
@@ -144,7 +144,7 @@ static bool is_displaced(const struct tracer *tracer)
 static uint32_t most_around(const struct tracer *tracer)
 {
     uint32_t parts = 2 * tracer->num_objects;
-    return parts < MOST_AROUND + 1 ? parts - 1 : MOST_AROUND;
+    return parts - 1 < MOST_AROUND ? parts - 1 : MOST_AROUND;
 }
 
 static bool create_buffers(struct tracer *tracer)
