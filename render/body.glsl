@@ -77,7 +77,7 @@ int fly(inout Path path, out Hit hit)
         vec4 xi = vec4(0.0);
         vec3 chance = chance_of_channels(path), extinction = path.medium.extinction;
         bool may_collide = scatters(path.medium);
-        if (may_collide && rests(path))
+        if (rests(path))
             return MUCH;
         if (may_collide)
             xi = next_random();

@@ -33,7 +33,7 @@ bool collide(inout Path path, vec3 up, vec4 xi)
 void walk(inout Path path, vec3 up)
 {
     vec4 xi = next_random();
-    for (uint collisions = 1u; collide(path, up, xi); ++collisions, xi = next_random()) {
+    for (uint collisions = 1u; collide(path, up, xi); ++collisions, ++work, xi = next_random()) {
         if (collisions == 1u)
             count_turn(path);
         if (!goes_on(path, collisions))

@@ -84,7 +84,7 @@ void meet_triangle(uint triangle, vec3 origin, vec3 direction, inout Hit hit)
         hit = Hit(solution.z, triangle, solution.xy);
 }
 
-uint work = 0u; // so many boxes and triangles
+uint work = 0u; // rounds of loops
 
 bool find_hit(vec3 origin, vec3 direction, float limit, out Hit hit)
 {
@@ -133,6 +133,7 @@ uint find_sum(uint first, uint count, float x)
 {
     uint low = 0u, high = count - 1u;
     while (high - low > 1u) {
+        ++work;
         uint middle = (low + high) / 2u;
         if (sums[first + middle] <= x)
             low = middle;
@@ -271,6 +272,7 @@ Point shade(Hit hit, vec3 direction, vec4 light)
 {
     Corner a = corners[hit.triangle * 3u], b = corners[hit.triangle * 3u + 1u], c = corners[hit.triangle * 3u + 2u];
     Point point;
+    work += 32u; // about as many as a shader has
     point.position = mixed(a.position_s.xyz, b.position_s.xyz, c.position_s.xyz, hit.weights);
     point.facet = normalize(cross(b.position_s.xyz - a.position_s.xyz, c.position_s.xyz - a.position_s.xyz));
     vec3 normal = normalize(mixed(a.normal_t.xyz, b.normal_t.xyz, c.normal_t.xyz, hit.weights));

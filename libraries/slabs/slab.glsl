@@ -48,9 +48,8 @@ float mx_chan_share(float c, float g)
                           -0.0538, 0.0016, 2.0696, -0.4921);
     vec4 fit = FIT * vec4(1.0, c, c * c, c * c * c);
     vec2 bump = mx_chan_bump(g);
-    float even = 27.0 / 28.0 * mx_chan_even(c); // exact: the mean of (1 - x)^5 is 1/21
-    float albedo = mix(fit.x, even, mx_chan_smoothness(g)) + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c);
-    return 1.0 / (MX_PI * albedo);
+    float plain = mix(fit.x, 27.0 / 28.0 * mx_chan_even(c), mx_chan_smoothness(g)); // even: exactly, the mean of (1 - x)^5 is 1/21
+    return 1.0 / (MX_PI * (plain + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c)));
 }
 
 // The lobe for a light whose half vector is cos_d from V, times the directional albedo; `even` is what the viewer sees of a smooth surface.
@@ -257,8 +256,7 @@ vec3 mx_slab_medium_bsdf_eval(vec3 color, float roughness, vec3 mean_free_path, 
 vec3 mx_slab_medium_bsdf_albedo(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                 vec3 N, vec3 V)
 {
-    return mx_is_black(mean_free_path) ? color
-                                       : mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V));
+    return mx_is_black(mean_free_path) ? color : mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V));
 }
 
 // The closure of a renderer is Oren and Nayar's with the colour c of the albedo. With the light that bounces between facets its mean albedo is
@@ -298,9 +296,9 @@ vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free
                                    mx_lobe_random(sample_index), L, weight, pdf);
         return mx_lobe_light(L, weight, pdf);
     }
-    if (mx_is_black(mean_free_path))
-        return color * mx_environment_irradiance(mx_chan_axis(mx_chan_gloss(roughness), N, V));
-    return mx_medium_reflected(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V)) * mx_environment_irradiance(mx_facing(N, V));
+    vec3 light = mx_slab_medium_bsdf_albedo(color, roughness, mean_free_path, phase_anisotropy, thickness, below, N, V)
+               * mx_environment_irradiance(mx_is_black(mean_free_path) ? mx_chan_axis(mx_chan_gloss(roughness), N, V) : mx_facing(N, V));
+    return mx_is_black(color) ? vec3(0.0) : light; // without a branch, which would stand in the loop over samples
 }
 
 // Of light to the viewer, with what bounces between the medium and what lies below: 1 / (1 - below R).

@@ -120,8 +120,8 @@ static void add_light(struct finder *f, ir_ref edf, ir_ref is_here)
         if (!light)
             continue;
         shader_add_closure(f->shader, leaf->leaf);
-        light = ir_op2(f->graph, IR_MUL, ir_convert(f->graph, IR_TYPE_VEC3, light),
-                       closure_weight(f->shader, leaf, at_rest));
+        ir_ref weight = closure_weight(f->shader, leaf, at_rest);
+        light = ir_op2(f->graph, IR_MUL, ir_convert(f->graph, IR_TYPE_VEC3, light), weight);
         level.emission = ir_op2(f->graph, IR_ADD, level.emission, light);
     }
     vec_push(f->shader->arena, &f->pile->levels, level);
@@ -437,9 +437,10 @@ void matter_sample(struct closure_scatter *s)
     scatter_effect(s, EFFECT_ASSIGN, s->direction, on);
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside, scatter_number(s, 2.0f));
     scatter_effect(s, EFFECT_ASSIGN, s->parts[0].weight, scatter_grey(s, 1.0f));
+    ir_ref white = scatter_grey(s, 1.0f), black = scatter_grey(s, 0.0f);
     for (uint32_t p = 1; p < s->num_parts; p++)
         scatter_effect(s, EFFECT_ASSIGN, s->parts[p].weight,
-                       where(s, s->pile->is_part[p], scatter_grey(s, 1.0f), scatter_grey(s, 0.0f)));
+                       where(s, s->pile->is_part[p], white, black));
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         ir_ref leaf = level_of(s, i)->leaf;
         if (leaf)

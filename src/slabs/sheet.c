@@ -274,6 +274,7 @@ static bool is_unread(const struct slab_sheet *sheet, const struct slabs_host *h
     const char *semantic = variable->semantic ? str_text(shader->strings, variable->semantic) : "";
     return node->op == IR_UNIFORM
                ? !variable->path
+                     && variable->name != STR_u_viewPosition /* the estimate has views */
                : strncmp(semantic, "geomprop:", 9) == 0 || strncmp(semantic, "color:", 6) == 0;
 }
 

@@ -185,7 +185,8 @@ static struct piece mix_of(const struct joiner *j, ir_ref ref)
                        fg = alone(j, j->known[ir_arg(g, ref, 1)]);
     ir_ref mix = ir_arg(g, ref, 2), opacity = 0, share = mix;
     if (bg.opacity || fg.opacity) {
-        opacity = ir_op3(g, IR_MIX, one_or(j, bg.opacity), one_or(j, fg.opacity), mix);
+        ir_ref behind = one_or(j, bg.opacity), before = one_or(j, fg.opacity);
+        opacity = ir_op3(g, IR_MIX, behind, before, mix);
         ir_ref some = ir_op2(g, IR_MAX, opacity, ir_const_float(g, 1e-6f));
         share = ir_op2(g, IR_DIV, product(j, mix, fg.opacity), some);
     }
@@ -208,8 +209,10 @@ static void put_coat(const struct joiner *j, struct piece *base, const struct pi
                      ir_ref mask)
 {
     ir_ref share = product(j, mask, coat->opacity);
-    if (base->bsdf && coat->bsdf)
-        base->bsdf = layered(j, mixed(j, 0, coat->bsdf, share), base->bsdf, thickness_of(j, coat));
+    if (base->bsdf && coat->bsdf) {
+        ir_ref top = mixed(j, 0, coat->bsdf, share), thickness = thickness_of(j, coat);
+        base->bsdf = layered(j, top, base->bsdf, thickness);
+    }
     ir_ref *aovs = new_aovs(j);
     for (uint32_t i = 0; i < j->shader->aovs.len; i++)
         aovs[i] = coat->aovs[i] ? mixed(j, base->aovs[i], coat->aovs[i], share) : base->aovs[i];

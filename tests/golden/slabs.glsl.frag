@@ -261,7 +261,8 @@ void main()
     float product = greater * greater;
     mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, greater, vec3(0.0), vec2(0.01),
         sqrt(product * 0.9999 + 0.00010000001));
-    vec3 milk_medium_ratio = mx_medium_reflected(way) / vec3(0.10193972, 0.102937125, 0.103155464);
+    vec3 slab_medium_bsdf_albedo = mx_medium_reflected(way);
+    vec3 scaled_slab_medium_bsdf_albedo = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
     vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (greater + 0.25071993), greater);
     float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
@@ -270,8 +271,8 @@ void main()
         * blended_coat_bare_throughput_2;
     vec3 milk_medium_decay = clamp((milk_reflection_throughput * blended_coat_bare_throughput_2
         - milk_reflection_throughput * blended_coat_bare_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
-    vec3 milk_medium_ratio_2 = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
-    vec3 milk_medium_steady = milk_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio_2;
+    vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
+    vec3 milk_medium_steady = milk_reflection_throughput * blended_coat_bare_throughput - milk_medium_ratio;
     vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (greater + 0.29886922), greater);
     vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
         + vec3(1.0);
@@ -319,8 +320,8 @@ void main()
         vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
         float c_2 = dot(N, L);
         float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
-        vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio_2 * pow(milk_medium_decay, vec3(way_2));
-        vec3 milk_medium_response = milk_medium_ratio
+        vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
+        vec3 milk_medium_response = scaled_slab_medium_bsdf_albedo
             * (mx_medium_reflected(way_2) * (max(dot(L, N_2), 0.0) / 3.1415927 * milk_medium_weight));
         vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_ratio
             * pow(metal_reflection_decay, vec3(way_2));
@@ -335,9 +336,9 @@ void main()
     }
     // environment
     // milk_medium
-    vec3 milk_medium_product = milk_medium
+    vec3 milk_medium_product = slab_medium_bsdf_albedo
         * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N_2)), 0.0).xyz;
-    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio_2 * pow(milk_medium_decay, vec3(1.145898)))
+    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
         * milk_medium_product);
     // metal_reflection
     vec3 metal_reflection_product = metal_reflection_scale
