@@ -261,7 +261,10 @@ static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
     note_shared_masks(f);
 }
 
-/* What a host alone knows: textures that cannot be read, its uniforms, data of its vertices. */
+/*
+ * What a host alone knows: textures that cannot be read, its uniforms, data of its vertices. The
+ * estimate has views of its own, in which the spaces of object and world are the same.
+ */
 static bool is_unread(const struct slab_sheet *sheet, const struct slabs_host *host,
                       const struct ir_node *node)
 {
@@ -273,8 +276,8 @@ static bool is_unread(const struct slab_sheet *sheet, const struct slabs_host *h
     const struct shader_variable *variable = &shader->variables.items[node->attr];
     const char *semantic = variable->semantic ? str_text(shader->strings, variable->semantic) : "";
     return node->op == IR_UNIFORM
-               ? !variable->path
-                     && variable->name != STR_u_viewPosition /* the estimate has views */
+               ? !variable->path && variable->type != IR_TYPE_MAT4
+                     && variable->name != STR_u_viewPosition
                : strncmp(semantic, "geomprop:", 9) == 0 || strncmp(semantic, "color:", 6) == 0;
 }
 
