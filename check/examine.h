@@ -41,11 +41,11 @@ void examine_settings(struct examiner *examiner, const mxg_result *result,
 void examine_images(struct examiner *examiner, const mxg_result *result);
 void examine_picture(struct examiner *examiner, const mxg_document *document,
                      struct check_element *element);
-/* examine_slabs.c: the tree of slabs, of a material that has some or that options make slabs of. */
+/*
+ * examine_slabs.c: the tree of slabs, of a material that has some or that options make slabs of;
+ * with a budget its steps, without drawn errors.
+ */
 void examine_slabs(struct examiner *examiner, const mxg_document *document,
-                   struct check_element *element);
-/* examine_slabs.c: the steps of the budget of slabs, without drawn errors. */
-void examine_steps(struct examiner *examiner, const mxg_document *document,
                    struct check_element *element);
 
 /* Adds a message of the current document for a shader and copies its text. */

@@ -190,15 +190,16 @@ static void draw_steps(struct examiner *examiner, struct check_element *element,
 }
 
 /* The material without a budget, how far the picture is from it, and by which steps. */
-static void add_full(struct examiner *examiner, const mxg_document *document,
-                     struct check_element *element, const struct drawn *cheaper)
+static void add_full(struct examiner *examiner, struct check_element *element,
+                     const struct drawn *cheaper)
 {
     struct drawn full = draw(examiner, element->path, NO_STEPS);
     element->drawn_error = compare(examiner, element, &full, cheaper);
     if (full.png && *element->drawn_error) {
         element->full = picture_base64(&examiner->store, full.png, full.png_size);
-        examine_steps(examiner, document, element);
         draw_steps(examiner, element, &full);
+    } else {
+        element->num_steps = 0;
     }
     drop(&full);
 }
@@ -215,7 +216,7 @@ void examine_picture(struct examiner *examiner, const mxg_document *document,
         element->picture = picture_base64(&examiner->store, drawn.png, drawn.png_size);
         examine_slabs(examiner, document, element);
         if (cli_has_budget(examiner->cli))
-            add_full(examiner, document, element, &drawn);
+            add_full(examiner, element, &drawn);
     } else {
         fail(examiner, element, drawn.log);
     }

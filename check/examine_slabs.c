@@ -29,52 +29,76 @@ static void read_step(struct store *store, const json_t *from, struct check_step
 }
 
 static mxg_result *view(struct examiner *examiner, const mxg_document *document,
-                        const struct check_element *element, mxg_view view)
+                        const struct check_element *element, const mxg_options *options,
+                        mxg_view view)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     mxg_result *result = NULL;
     desc.target = element->shaders[0].target;
     desc.element = element->path;
-    desc.options = examiner->cli->options;
+    desc.options = options;
     mxg_inspect(examiner->cli->context, document, view, &desc, &result);
     return result;
 }
 
 static json_t *read_sheet(struct examiner *examiner, const mxg_document *document,
-                          const struct check_element *element)
+                          const struct check_element *element, const mxg_options *options)
 {
     size_t size = 0;
-    mxg_result *result = view(examiner, document, element, MXG_VIEW_SLABS_JSON);
+    mxg_result *result = view(examiner, document, element, options, MXG_VIEW_SLABS_JSON);
     const char *text = result ? mxg_result_text(result, &size) : NULL;
     json_t *sheet = text ? json_loadb(text, size, 0, NULL) : NULL;
     mxg_result_destroy(result);
     return sheet;
 }
 
-void examine_slabs(struct examiner *examiner, const mxg_document *document,
-                   struct check_element *element)
+static bool has_trees(const json_t *sheet)
 {
-    size_t size = 0;
-    json_t *sheet = read_sheet(examiner, document, element);
-    bool has =
-        json_array_size(json_object_get(sheet, "trees"))
-        && (cli_has_budget(examiner->cli) || !json_is_true(json_object_get(sheet, "recognised")));
-    mxg_result *result = has ? view(examiner, document, element, MXG_VIEW_SLABS_SVG) : NULL;
-    const char *svg = result ? mxg_result_text(result, &size) : NULL;
-    if (svg)
-        element->slabs = picture_base64(&examiner->store, svg, size);
-    mxg_result_destroy(result);
-    json_decref(sheet);
+    return json_array_size(json_object_get(sheet, "trees")) != 0;
 }
 
-void examine_steps(struct examiner *examiner, const mxg_document *document,
-                   struct check_element *element)
+/* True for slabs of the document's own. Without steps there are no estimates, which read textures.
+ */
+static bool has_own_slabs(struct examiner *examiner, const mxg_document *document,
+                          const struct check_element *element)
 {
-    json_t *sheet = read_sheet(examiner, document, element);
+    mxg_options *options = NULL;
+    json_t *sheet = NULL;
+    if (mxg_options_create(examiner->cli->context, &options) == MXG_OK
+        && mxg_options_set(options, "max-steps", "0") == MXG_OK)
+        sheet = read_sheet(examiner, document, element, options);
+    bool has = has_trees(sheet) && !json_is_true(json_object_get(sheet, "recognised"));
+    json_decref(sheet);
+    mxg_options_destroy(options);
+    return has;
+}
+
+/* Those of the budget. True if there are slabs. */
+static bool read_steps(struct examiner *examiner, const mxg_document *document,
+                       struct check_element *element)
+{
+    json_t *sheet = read_sheet(examiner, document, element, examiner->cli->options);
     const json_t *steps = json_object_get(sheet, "steps");
+    bool has = has_trees(sheet);
     element->num_steps = json_array_size(steps);
     element->steps = store_array(&examiner->store, element->num_steps, sizeof *element->steps);
     for (size_t i = 0; i < element->num_steps; ++i)
         read_step(&examiner->store, json_array_get(steps, i), &element->steps[i]);
     json_decref(sheet);
+    return has;
+}
+
+void examine_slabs(struct examiner *examiner, const mxg_document *document,
+                   struct check_element *element)
+{
+    size_t size = 0;
+    bool has = cli_has_budget(examiner->cli) ? read_steps(examiner, document, element)
+                                             : has_own_slabs(examiner, document, element);
+    mxg_result *result = NULL;
+    if (has)
+        result = view(examiner, document, element, examiner->cli->options, MXG_VIEW_SLABS_SVG);
+    const char *svg = result ? mxg_result_text(result, &size) : NULL;
+    if (svg)
+        element->slabs = picture_base64(&examiner->store, svg, size);
+    mxg_result_destroy(result);
 }

@@ -137,8 +137,7 @@ int command_inspect(const struct command *command, int argc, char **argv)
         {"format", 0, ARG_TEXT, "text|json|svg", "of --slabs (default: text)", &inspect.format},
         {"drawn", 0, ARG_FLAG, NULL,
          "of --slabs: draws the material, full and after each step, and shows the errors beside "
-         "the "
-         "estimates",
+         "the estimates",
          &inspect.is_drawn},
         {"element", 'e', ARG_TEXT, "PATH",
          "path of an element (default: the first renderable), or of a primitive of the stage",

@@ -79,10 +79,10 @@ static void write_error(struct text *out, float error)
 }
 
 /* Estimates may read textures, so they are made where a limit or a message needs them. */
-static bool needs_estimates(const struct generation *g)
+static bool needs_estimates(struct generation *g)
 {
     return g->options[OPTION_max_error].real >= 0.0f
-           || diag_is_shown(&g->result->object.diagnostics.list, DIAG_ID_budget_step);
+           || diag_is_shown(diags_of(g), DIAG_ID_budget_step);
 }
 
 static void report_step(struct generation *g, const struct slab_step *step)

@@ -36,10 +36,10 @@ struct blur {
     ir_ref in;
     ir_ref offsets[TAPS][2]; /* of texture coordinates, or along the axes of the surface */
     ir_ref skew;   /* of the axes: how much of x is in a step down the picture; 0: no surface */
-    ir_ref *moved; /* TAPS per node: 0 if it does not depend on texture coordinates */
+    ir_ref *moved; /* TAPS per node: 0 if it depends on nothing that moves */
     uint32_t num_moved;
-    bool is_unknown;  /* it depends on an argument of the function around it */
-    bool is_of_layer; /* it depends on another layer of an OSL network */
+    bool is_unknown; /* it depends on an argument of the function around it */
+    bool is_layered; /* it depends on another layer of an OSL network */
 };
 
 static const struct kernel *find_kernel(const struct builder *b, ir_ref filtertype)
@@ -70,14 +70,14 @@ static ir_ref *moved_of(const struct blur *blur, ir_ref ref)
     return &blur->moved[(size_t)ref * TAPS];
 }
 
-static bool is_moved(const struct blur *blur, const struct ir_node *node)
+/* A stream that moves: all of them on the surface, else texture coordinates. */
+static bool moves(const struct blur *blur, const struct ir_node *node)
 {
     const struct shader *shader = blur->b->shader;
-    if (node->op != IR_STREAM || blur->skew)
-        return node->op == IR_STREAM && ir_type_is_float(node->type);
-    return strncmp(str_text(shader->strings, shader->variables.items[node->attr].name), "texcoord_",
-                   9)
-           == 0;
+    if (node->op != IR_STREAM)
+        return false;
+    const char *name = str_text(shader->strings, shader->variables.items[node->attr].name);
+    return blur->skew ? ir_type_is_float(node->type) : strncmp(name, "texcoord_", 9) == 0;
 }
 
 static void move_texcoord(struct blur *blur, ir_ref ref)
@@ -167,22 +167,22 @@ static void move_node(struct blur *blur, ir_ref ref)
     }
 }
 
-static bool follows_texcoord(const struct blur *blur, ir_ref ref)
+static bool follows(const struct blur *blur, ir_ref ref)
 {
     const struct ir_node *node = ir_get(blur->b->graph, ref);
-    bool follows = is_moved(blur, node);
-    for (uint32_t i = 0; i < node->num_args && !follows; i++)
-        follows = moved_of(blur, ir_arg(blur->b->graph, ref, i))[0] != 0;
-    return follows;
+    bool any = moves(blur, node);
+    for (uint32_t i = 0; i < node->num_args && !any; i++)
+        any = moved_of(blur, ir_arg(blur->b->graph, ref, i))[0] != 0;
+    return any;
 }
 
 static void move(struct blur *blur, ir_ref ref)
 {
     const struct ir_node *node = ir_get(blur->b->graph, ref);
     blur->is_unknown |= node->op == IR_PARAM;
-    blur->is_of_layer |= node->op == IR_STREAM && blur->b->recorded
-                         && recorder_layer_of(blur->b->recorded, node->attr);
-    if (!follows_texcoord(blur, ref) || ++blur->num_moved > MAX_MOVED)
+    blur->is_layered |= node->op == IR_STREAM && blur->b->recorded
+                        && recorder_layer_of(blur->b->recorded, node->attr);
+    if (!follows(blur, ref) || ++blur->num_moved > MAX_MOVED)
         return;
     if (node->op == IR_STREAM && blur->skew)
         move_stream(blur, ref);
@@ -222,12 +222,13 @@ static ir_ref mean(struct blur *blur, const struct kernel *kernel, elem_id node)
 {
     struct builder *b = blur->b;
     ir_ref in = blur->in;
+    blur->is_layered = b->recorder != NULL;
     blur->needed = ir_mark(b->graph, &in, 1, b->arena);
     blur->moved = ARENA_ARRAY(b->arena, ir_ref, ((size_t)in + 1) * TAPS);
-    for (ir_ref ref = 1; ref <= in && blur->num_moved <= MAX_MOVED; ref++)
+    for (ir_ref ref = 1; ref <= in && blur->num_moved <= MAX_MOVED && !blur->is_layered; ref++)
         if (blur->needed[ref])
             move(blur, ref);
-    if (b->recorder || blur->is_of_layer)
+    if (blur->is_layered)
         return stay_sharp(b, in, node,
                           "a layer of an OSL network cannot evaluate it at other places");
     if (blur->num_moved > MAX_MOVED)

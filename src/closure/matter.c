@@ -396,8 +396,10 @@ static ir_ref medium_above(struct closure_scatter *s)
 static void sample_lobe(struct closure_scatter *s, ir_ref leaf)
 {
     struct choice c = choose(s, leaf);
-    ir_ref results[3]; /* direction, f cos / pdf, pdf */
-    ir_ref passing = scatter_op2(s, IR_MUL, c.through, scatter_op2(s, IR_DIV, c.all, c.passes));
+    ir_ref results[3];          /* direction, f cos / pdf, pdf */
+    ir_ref passing = c.through; /* where nothing passes, the lobe is picked */
+    if (!ir_const_is(s->graph, c.passes, 0.0f))
+        passing = scatter_op2(s, IR_MUL, c.through, scatter_op2(s, IR_DIV, c.all, c.passes));
     scatter_effect(s, EFFECT_ASSIGN, s->parts[0].weight, passing);
     closure_call_all(s->shader, s->host, leaf, LEAF_SAMPLE, NULL, results);
     ir_ref point = scatter_op2(s, IR_MUL, scatter_random_number(s->shader), c.all);

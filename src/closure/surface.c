@@ -236,41 +236,31 @@ static bool find_pile(struct emitter *e, ir_ref root, const struct closure_surfa
            && closure_find_pile(e->shader, e->host, closures, num, s->is_matter && !is_whole, out);
 }
 
-/* Light of a pile goes through it by itself, so its opacity is 1. False: there is no pile. */
-static bool emit_pile(struct emitter *e, ir_ref root)
+/* Light of a pile goes through it by itself, so its opacity is 1. pile NULL: there is none. */
+static void emit_layer(struct emitter *e, const struct closure_surface *s,
+                       const struct closure_pile *pile)
 {
-    const struct closure_surface s = closure_surface_of(e->shader, e->host, root);
-    struct closure_pile pile;
-    if (!find_pile(e, root, &s, &pile))
-        return false;
-    struct closure_scatter_layer layer = {.pile = &pile};
-    emitter_find_scattering(e, &s, &layer);
+    struct closure_scatter_layer layer = {.pile = pile};
+    emitter_find_scattering(e, s, &layer);
     struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
     closure_scatter_layer(scatter, &layer);
-    closure_scatter_end(scatter, s.is_matter ? 0 : s.alpha);
-    return true;
+    closure_scatter_end(scatter, pile && s->is_matter ? 0 : s->alpha);
 }
 
-static void emit_lobes(struct emitter *e, ir_ref root)
-{
-    const struct closure_surface s = closure_surface_of(e->shader, e->host, root);
-    struct closure_scatter_layer layer = {.pile = NULL};
-    emitter_find_scattering(e, &s, &layer);
-    struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
-    closure_scatter_layer(scatter, &layer);
-    closure_scatter_end(scatter, s.alpha);
-}
-
+/* Where MATTER is no pile, its surface is lit as others are. */
 static void emit_scattering(struct emitter *e, ir_ref root)
 {
-    if (op_of(e, root) != IR_SLOTS && emit_pile(e, root))
-        return;
-    if (op_of(e, root) == IR_MATTER)
-        root = ir_arg(e->graph, root, 0);
-    if (op_of(e, root) == IR_SLOTS)
+    struct closure_pile pile;
+    if (op_of(e, root) == IR_SLOTS) {
         emitter_scatter_stack(e, root);
+        return;
+    }
+    const struct closure_surface s = closure_surface_of(e->shader, e->host, root);
+    bool walks = find_pile(e, root, &s, &pile);
+    if (!walks && op_of(e, root) == IR_MATTER)
+        emit_scattering(e, ir_arg(e->graph, root, 0));
     else
-        emit_lobes(e, root);
+        emit_layer(e, &s, walks ? &pile : NULL);
 }
 
 static void store_surface(struct emitter *e, const struct closure_surface *s, bool is_whole)

@@ -327,7 +327,7 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
     out->before = out->after = s.cost;
     if (!s.cost.closures || (!slabs_is_asked(budget) && !find_asked(&s)))
         return s.root;
-    if (host->scratch)
+    if (host->scratch && goes_on(&s))
         slabs_look(shader, host, s.root, NULL, &s.whole);
     recognise(&s);
     blend_asked(&s);

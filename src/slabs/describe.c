@@ -107,7 +107,7 @@ static void write_steps(const struct slab_sheet *sheet, struct text *out)
         }
         text_char(out, '\n');
     }
-    for (uint32_t i = 0; i < sheet->unread.len && report->steps.len; i++) {
+    for (uint32_t i = 0; i < sheet->unread.len; i++) {
         text_str(out, i ? ", " : "  the estimate does not read ");
         text_str(out, slab_name(sheet, sheet->unread.items[i]));
         text_str(out, i + 1 == sheet->unread.len ? "\n" : "");

@@ -315,7 +315,8 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
     struct filler f = {.sheet = out, .shader = shader, .graph = g, .host = host};
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     f.is_written = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
-    note_unread(out, host, needed, root);
+    if (out->report.steps.len)
+        note_unread(out, host, needed, root);
     for (ir_ref ref = 1; ref <= root; ref++) {
         uint8_t op = ir_get(g, ref)->op;
         bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER;

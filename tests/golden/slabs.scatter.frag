@@ -336,7 +336,7 @@ void scatter()
         }
     }
     if (choice == 6.0) {
-        weight = vec3((0.0 / 0.0));
+        weight = vec3(0.0);
         if (vd.random.w * 0.1 < 0.1) {
             L = L_2;
             inside = 0.0;
