@@ -246,7 +246,7 @@ bool generation_start(struct generation *g)
     name_shader(g);
     name_variables(g);
     set_build_options(g);
-    return generation_slab_features(g, &g->build_options.slab_features_off);
+    return generation_slab_features(g);
 }
 
 /* ---- Build ---- */

@@ -62,6 +62,7 @@ struct generation {
     unsigned output;
     struct builder *builder;
     struct build_options build_options;
+    uint32_t slab_features_off; /* bits of enum slab_feature */
     struct closure_host closure_host;
     struct closure_point point;
     struct closure_lighting lighting;
@@ -105,8 +106,8 @@ void generation_start_closures(struct generation *g);
 bool generation_budget_slabs(struct generation *g);
 /* The budget of the options. */
 struct slab_budget generation_slab_budget(const struct generation *g);
-/* The option `features` as bits; false after a message about a word. */
-bool generation_slab_features(struct generation *g, uint32_t *out_off);
+/* Reads the option `features`; false after a message about a word. */
+bool generation_slab_features(struct generation *g);
 /* Replaces the slabs below the root by their lobes; needs the closures' host. */
 void generation_walk_slabs(struct generation *g);
 /* makes the effects of the stages; later steps cannot fail */

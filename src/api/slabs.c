@@ -43,15 +43,14 @@ static uint32_t feature_bit(struct generation *g, const char *word)
     return 0;
 }
 
-bool generation_slab_features(struct generation *g, uint32_t *out_off)
+bool generation_slab_features(struct generation *g)
 {
     const struct option_value *features = &g->options[OPTION_features];
-    *out_off = 0;
     for (uint32_t i = 0; i < features->list.len; i++) {
         uint32_t bit = feature_bit(g, features->list.items[i]);
         if (!bit)
             return false;
-        *out_off |= bit;
+        g->slab_features_off |= bit;
     }
     return true;
 }
@@ -62,7 +61,7 @@ struct slab_budget generation_slab_budget(const struct generation *g)
         .max_closures = generation_packs(g) ? 1 : (uint32_t)g->options[OPTION_max_closures].number,
         .max_bytes = (uint32_t)g->options[OPTION_max_bytes].number,
         .max_error = g->options[OPTION_max_error].real,
-        .off = g->build_options.slab_features_off,
+        .off = g->slab_features_off,
         .recognises = g->options[OPTION_slabs].number != 0 || generation_packs(g),
         .max_steps = generation_packs(g) ? -1 : (int32_t)g->options[OPTION_max_steps].number,
     };
@@ -78,13 +77,6 @@ static void write_error(struct text *out, float error)
         text_float(out, (float)(int)(error * 100.0f + 0.5f) / 100.0f);
 }
 
-/* Estimates may read textures, so they are made where a limit or a message needs them. */
-static bool needs_estimates(struct generation *g)
-{
-    return g->options[OPTION_max_error].real >= 0.0f
-           || diag_is_shown(diags_of(g), DIAG_ID_budget_step);
-}
-
 static void report_step(struct generation *g, const struct slab_step *step)
 {
     struct text what, error;
@@ -92,10 +84,7 @@ static void report_step(struct generation *g, const struct slab_step *step)
     text_init(&what, &g->scratch);
     text_init(&error, &g->scratch);
     slabs_describe_step(&g->result->shader, step, &what);
-    if (needs_estimates(g)) {
-        text_str(&error, ", estimated error ");
-        write_error(&error, step->error);
-    }
+    write_error(&error, step->error);
     diag_add(diags_of(g), DIAG_ID_budget_step, doc_place(doc, g->element), text_cstr(&what),
              (unsigned)step->before.closures, (unsigned)step->after.closures,
              (unsigned)step->before.bytes, (unsigned)step->after.bytes, text_cstr(&error));
@@ -121,16 +110,47 @@ static void report_failure(struct generation *g, const struct slab_budget *budge
              (unsigned)report->after.closures, (unsigned)report->after.bytes, text_cstr(&error));
 }
 
-/* The message of a budget that cannot be met has an estimate in any case. */
-static ir_ref spend_budget(struct generation *g, const struct slab_budget *budget)
+/* ---- Estimates ---- */
+
+static void spend_budget(struct generation *g, struct arena *estimates)
+{
+    const struct slab_budget budget = generation_slab_budget(g);
+    g->root = build_budget_slabs(g->builder, &g->closure_host, estimates, &budget, g->root,
+                                 &g->result->slabs);
+}
+
+static void estimate(struct generation *g)
+{
+    if (!generation_start(g) || !generation_build(g))
+        return;
+    generation_start_closures(g);
+    generation_hide_misfits(g);
+    spend_budget(g, &g->estimates);
+}
+
+/*
+ * Estimates for messages alone. They add nodes to a graph and may read textures, so a generation of
+ * their own makes them: a message that is shown does not change the shader.
+ */
+static void estimate_apart(struct generation *g)
 {
     struct slab_report *report = &g->result->slabs;
-    struct arena *scratch = needs_estimates(g) ? &g->estimates : NULL;
-    ir_ref root =
-        build_budget_slabs(g->builder, &g->closure_host, scratch, budget, g->root, report);
-    if (report->is_met || scratch)
-        return root;
-    return build_budget_slabs(g->builder, &g->closure_host, &g->estimates, budget, g->root, report);
+    mxg_result *apart = NULL;
+    if (generation_run(g->result->object.context, g->document, &g->desc, estimate, NULL, &apart)
+            == MXG_OK
+        && apart->slabs.steps.len == report->steps.len) {
+        report->error = apart->slabs.error;
+        for (uint32_t i = 0; i < report->steps.len; i++)
+            report->steps.items[i].error = apart->slabs.steps.items[i].error;
+    }
+    mxg_result_destroy(apart);
+}
+
+static bool is_error_shown(struct generation *g)
+{
+    const struct slab_report *report = &g->result->slabs;
+    return !report->is_met
+           || (report->steps.len && diag_is_shown(diags_of(g), DIAG_ID_budget_step));
 }
 
 bool generation_budget_slabs(struct generation *g)
@@ -139,8 +159,11 @@ bool generation_budget_slabs(struct generation *g)
         return true;
     struct slab_budget budget = generation_slab_budget(g);
     struct slab_report *report = &g->result->slabs;
-    g->root = spend_budget(g, &budget);
+    bool has_estimates = budget.max_error >= 0.0f;
+    spend_budget(g, has_estimates ? &g->estimates : NULL);
     ir_assert_valid(&g->result->graph, "after the budget of slabs");
+    if (!has_estimates && is_error_shown(g))
+        estimate_apart(g);
     for (uint32_t i = 0; i < report->steps.len; i++)
         report_step(g, &report->steps.items[i]);
     if (report->unblended)

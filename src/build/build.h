@@ -29,7 +29,6 @@ struct build_options {
     const str_id *targets;
     unsigned num_targets;
     enum build_interface interface;
-    uint32_t slab_features_off;       /* bits of enum slab_feature */
     const struct lang_syntax *syntax; /* of the target, whose words no uniform may have as name */
     /* patterns of element paths that become uniforms, or constants */
     bool publish_all; /* the option `publish` */

@@ -377,6 +377,8 @@ bool build_fits_slab(struct builder *b, ir_ref leaf);
 ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo);
 /* The origin of what is built, as far as it has an element of a document. */
 const struct ir_origin *build_element_origin(const struct ir_graph *graph);
+/* The attribute of a SLAB that the document describes. */
+uint32_t build_slab_lacks(const struct builder *b);
 /* The definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
 uint32_t build_slab_definition(const struct builder *b);
 

@@ -57,16 +57,13 @@ static ir_ref blurred(void *user_data, ir_ref value, ir_ref position, ir_ref dev
 
 static struct slabs_host slabs_host(struct builder *b, const struct closure_host *closures)
 {
-    return (struct slabs_host){
-        .user_data = b,
-        .lobes = slab_lobes,
-        .slab_of = slab_of,
-        .slab_like = slab_like,
-        .texels = texels,
-        .closures = closures,
-        .walks = b->shader->scatters,
-        .tracks_roughness = !(b->options->slab_features_off & 1u << SLAB_ROUGHNESS),
-        .blurs = b->options->blurs && !(b->options->slab_features_off & 1u << SLAB_REFRACTION)};
+    return (struct slabs_host){.user_data = b,
+                               .lobes = slab_lobes,
+                               .slab_of = slab_of,
+                               .slab_like = slab_like,
+                               .texels = texels,
+                               .closures = closures,
+                               .walks = b->shader->scatters};
 }
 
 /* Only the walk ends in storage. */

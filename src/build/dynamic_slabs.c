@@ -18,21 +18,13 @@ static bool is_off(const mxg_build *build, str_id input)
     return build_initial(b, ref, &value) && value.w[0].u == 0;
 }
 
-/*
- * False for a part that the document does not have, also behind a uniform, because its code is
- * long.
- */
-static bool has_part(const mxg_build *build, str_id input, enum slab_feature feature)
-{
-    return !(build->b->options->slab_features_off & 1u << feature) && !is_off(build, input);
-}
-
+/* The parts that the document does not have, also behind a uniform, because their code is long. */
 static void leave_out(const mxg_build *build, ir_ref *args)
 {
     ir_ref nothing = ir_const_float(build->b->graph, 0.0f);
-    if (!has_part(build, STR_glint_density, SLAB_GLINTS))
+    if (is_off(build, STR_glint_density))
         args[SLAB_glint_density] = nothing;
-    if (has_part(build, STR_specular_lut, SLAB_LUT))
+    if (!is_off(build, STR_specular_lut))
         return;
     args[SLAB_specular_lut] = 0;
     args[SLAB_specular_lut_weight] = nothing;
@@ -173,7 +165,7 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     args[SLAB_coverage] = ir_const_float(build->b->graph, 1.0f);
     leave_out(build, args);
     check_slab(build, names, args);
-    return finish(build, IR_SLAB, 0, args, NUM_SLAB_OPERANDS, results);
+    return finish(build, IR_SLAB, build_slab_lacks(build->b), args, NUM_SLAB_OPERANDS, results);
 }
 
 bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)

@@ -13,6 +13,11 @@ uint32_t build_slab_definition(const struct builder *b)
     return definition(b, "ND_slab_lobes");
 }
 
+uint32_t build_slab_lacks(const struct builder *b)
+{
+    return b->options->blurs ? 0 : 1u << SLAB_REFRACTION;
+}
+
 /* The value of an input of the graph; 0: neither the slab nor its place has it. */
 static ir_ref value_of(str_id input, const ir_ref *inputs, const struct slab_place *place)
 {

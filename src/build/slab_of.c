@@ -112,7 +112,7 @@ static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, i
         in[SLAB_diffuse_albedo] = albedo;
         in[SLAB_f0] = ir_const_splat(b->graph, IR_TYPE_VEC3, 0.0f);
     }
-    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
+    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, build_slab_lacks(b), in, NUM_SLAB_OPERANDS);
 }
 
 bool build_fits_slab(struct builder *b, ir_ref leaf)
@@ -154,5 +154,5 @@ ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo)
         return slab;
     memcpy(in, ir_args(b->graph, slab), sizeof in);
     in[SLAB_roughness] = roughness;
-    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
+    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, build_slab_lacks(b), in, NUM_SLAB_OPERANDS);
 }

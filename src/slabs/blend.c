@@ -25,6 +25,7 @@
 /* A part of the slab. */
 struct part {
     ir_ref in[NUM_SLAB_OPERANDS];
+    uint32_t lacks; /* features, as the attribute of a SLAB */
     ir_ref weight;  /* vec3: of its interface, where the slab is */
     ir_ref diffuse; /* vec3: light that its medium sends back */
     ir_ref fuzz;    /* float: its weight */
@@ -385,12 +386,12 @@ static ir_ref path_beside(struct ir_graph *g, const struct part *a, const struct
     return at_least(g, ir_op2(g, IR_DIV, spot->thickness, depth), 1e-6f);
 }
 
-static struct part whole_part(struct ir_graph *g, const ir_ref *in)
+static struct part whole_part(struct ir_graph *g, ir_ref slab)
 {
-    struct part part = {.weight = white(g)};
+    struct part part = {.weight = white(g), .lacks = ir_get(g, slab)->attr};
     part.glow = part.weight;
     part.fuzz = num(g, 1.0f);
-    memcpy(part.in, in, sizeof part.in);
+    memcpy(part.in, ir_args(g, slab), sizeof part.in);
     return part;
 }
 
@@ -514,7 +515,7 @@ static void blend_over(const struct slab_blend *blend, struct part *a, struct pa
                        ir_ref thickness, const struct slab_spot *spot, ir_ref *out)
 {
     struct ir_graph *g = blend->shader->graph;
-    if (blend->host->tracks_roughness)
+    if (!(a->lacks & 1u << SLAB_ROUGHNESS))
         slab_widen(g, slab_spread(g, a->in), b->in);
     struct top top = look_along_normal(blend, a, b, thickness);
     ir_ref coverage = a->in[SLAB_coverage], of_b = b->in[SLAB_coverage];
@@ -596,7 +597,7 @@ static struct part part_of(struct ir_graph *g, ir_ref ref)
         ir_ref mix = ir_arg(g, ref, 2);
         coverage = mul(g, coverage, ir_arg(g, ref, 0) ? closure_one_minus(g, mix) : mix);
     }
-    struct part part = whole_part(g, ir_args(g, slab));
+    struct part part = whole_part(g, slab);
     part.in[SLAB_coverage] = mul(g, part.in[SLAB_coverage], coverage);
     return part;
 }
@@ -607,16 +608,18 @@ ir_ref slab_blended(const struct slab_blend *blend, const struct slab_spot *spot
     const struct ir_node node = *ir_get(g, spot->ref);
     ir_ref first = ir_arg(g, spot->ref, 0), second = ir_arg(g, spot->ref, 1);
     ir_ref out[NUM_SLAB_OPERANDS];
+    struct part a;
     assert(slab_can_blend(g, spot->ref) && (first || second));
     ir_push_origin_of(g, spot->ref);
     if (node.op == IR_CLOSURE_SCALE) {
-        struct part a = part_of(g, first);
+        a = part_of(g, first);
         blend_scaled(g, &a, second, out);
     } else if (!first || !second) {
-        ir_ref only = node.op == IR_CLOSURE_MIX ? spot->ref : first ? first : second;
-        memcpy(out, part_of(g, only).in, sizeof out);
+        a = part_of(g, node.op == IR_CLOSURE_MIX ? spot->ref : first ? first : second);
+        memcpy(out, a.in, sizeof out);
     } else {
-        struct part a = part_of(g, first), b = part_of(g, second);
+        a = part_of(g, first);
+        struct part b = part_of(g, second);
         ir_ref third = node.num_args > 2 ? ir_arg(g, spot->ref, 2) : num(g, SLABS_LAYER_THICKNESS);
         if (is_layer(&node))
             blend_over(blend, &a, &b, third, spot, out);
@@ -624,8 +627,9 @@ ir_ref slab_blended(const struct slab_blend *blend, const struct slab_spot *spot
             blend_sum(blend, &a, &b, spot, out);
         else
             blend_beside(blend, &a, &b, third, spot, out);
+        a.lacks &= b.lacks;
     }
-    ir_ref slab = ir_build(g, IR_SLAB, IR_TYPE_BSDF, 0, out, NUM_SLAB_OPERANDS);
+    ir_ref slab = ir_build(g, IR_SLAB, IR_TYPE_BSDF, a.lacks, out, NUM_SLAB_OPERANDS);
     ir_pop_origin(g);
     return slab;
 }
@@ -656,8 +660,9 @@ ir_ref slab_without(struct ir_graph *g, const struct slab_spot *spot, uint32_t f
         in[SLAB_anisotropy] = num(g, 0.0f);
     if (gone & 1u << SLAB_SUBSURFACE)
         in[SLAB_mean_free_path] = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    uint32_t lacks = ir_get(g, spot->ref)->attr | (gone & SLAB_FEATURES_BELOW);
     ir_push_origin_of(g, spot->ref);
-    ir_ref slab = ir_build(g, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
+    ir_ref slab = ir_build(g, IR_SLAB, IR_TYPE_BSDF, lacks, in, NUM_SLAB_OPERANDS);
     ir_pop_origin(g);
     return slab;
 }

@@ -74,7 +74,6 @@ static enum slab_step_kind kind_of(const struct ir_graph *g, ir_ref ref)
     }
 }
 
-/* Another operator with the same operands is elsewhere, and needs them still. */
 static bool is_costlier(struct slab_cost a, struct slab_cost b)
 {
     return a.closures > b.closures || a.bytes > b.bytes;
@@ -127,7 +126,10 @@ static bool is_worth(enum choice choice, struct slab_cost after, struct slab_cos
     return choice == ASKED ? !is_costlier(after, before) : is_cheaper(after, before);
 }
 
-/* The deepest operator of a choice, at any cost or only where it is worth it. */
+/*
+ * The deepest operator of a choice, at any cost or only where it is worth it: another operator may
+ * need its slabs, too.
+ */
 static struct candidate deepest_of(struct saver *s, enum choice choice, bool at_any_cost)
 {
     struct candidate best = {.root = 0};
@@ -167,22 +169,49 @@ static struct candidate feature_step(const struct saver *s, enum slab_feature fe
     return c;
 }
 
-/* The first feature that the tree has. */
+static bool is_below(int feature)
+{
+    return SLAB_FEATURES_BELOW >> feature & 1u;
+}
+
+/* The first feature that the tree has and stores. */
 static struct candidate next_feature(const struct saver *s)
 {
     struct candidate c = {.root = 0};
     for (int feature = 0; feature < NUM_SLAB_FEATURES && !c.root; feature++)
-        c = feature_step(s, (enum slab_feature)feature);
+        if (!is_below(feature))
+            c = feature_step(s, (enum slab_feature)feature);
     return c;
+}
+
+/* The values that a tree computes after the walk. */
+static uint32_t count_walked(const struct saver *s, ir_ref root)
+{
+    root = slabs_walk(s->shader, s->host, root);
+    const uint8_t *needed = ir_mark(s->graph, &root, 1, s->shader->arena);
+    uint32_t num = 0;
+    for (ir_ref ref = 1; ref <= root; ref++)
+        num += needed[ref] && !ir_is_const(s->graph, ref);
+    return num;
+}
+
+/*
+ * A feature of what lies below saves nothing where the roughness there is a constant with it, too.
+ * All others save instructions at least.
+ */
+static bool saves(const struct saver *s, const struct candidate *c)
+{
+    struct slab_cost cost = cost_of(s, c->root);
+    if (c->step.kind != SLAB_STEP_FEATURE)
+        return is_cheaper(cost, s->cost);
+    return !is_costlier(cost, s->cost)
+           && (!is_below((int)c->step.feature)
+               || count_walked(s, c->root) < count_walked(s, s->root));
 }
 
 static void consider(struct saver *s, struct candidate c, struct candidate *best)
 {
-    if (!c.root)
-        return;
-    struct slab_cost cost = cost_of(s, c.root);
-    bool is_feature = c.step.kind == SLAB_STEP_FEATURE; /* saves instructions, too */
-    if (is_feature ? is_costlier(cost, s->cost) : !is_cheaper(cost, s->cost))
+    if (!c.root || !saves(s, &c))
         return;
     c.step.error = error_of(s, c.root);
     if (c.step.error >= 0.0f && (!best->root || c.step.error < best->step.error))
@@ -235,7 +264,7 @@ static struct candidate next_step(struct saver *s)
             return best;
     }
     struct candidate c = deepest_blend(s, CHEAPER);
-    return c.root || keeps_closures(s) ? (c.root ? c : next_feature(s)) : c;
+    return !c.root && keeps_closures(s) ? next_feature(s) : c;
 }
 
 static void meet_limits(struct saver *s)

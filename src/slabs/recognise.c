@@ -64,7 +64,7 @@ static ir_ref with(struct ir_graph *g, ir_ref slab, ir_ref from, const uint8_t *
     memcpy(in, ir_args(g, slab), sizeof in);
     for (unsigned i = 0; i < num_inputs; i++)
         in[inputs[i]] = ir_arg(g, from, inputs[i]);
-    return ir_build(g, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
+    return ir_build(g, IR_SLAB, IR_TYPE_BSDF, ir_get(g, slab)->attr, in, NUM_SLAB_OPERANDS);
 }
 
 /* The interface and the fuzz of one slab, the medium of the other. */
@@ -112,7 +112,7 @@ static ir_ref colored(struct ir_graph *g, ir_ref coat, ir_ref color)
     ir_ref in[NUM_SLAB_OPERANDS];
     memcpy(in, ir_args(g, coat), sizeof in);
     in[SLAB_mean_free_path] = path_of_color(g, color);
-    return ir_build(g, IR_SLAB, IR_TYPE_BSDF, 0, in, NUM_SLAB_OPERANDS);
+    return ir_build(g, IR_SLAB, IR_TYPE_BSDF, ir_get(g, coat)->attr, in, NUM_SLAB_OPERANDS);
 }
 
 static ir_ref layer(struct ir_graph *g, ir_ref top, ir_ref base)

@@ -33,7 +33,8 @@ struct filler {
     const struct ir_graph *graph;
     const struct slabs_host *host;
     struct slab_tree *tree;
-    uint8_t *is_written; /* per node */
+    struct slab_spots spots; /* of the tree */
+    uint8_t *is_written;     /* per node */
     struct line {
         ir_ref ref, thickness, above; /* above: vec3, what the tops let through */
         uint32_t depth;
@@ -138,9 +139,8 @@ static uint32_t bytes_of(const struct filler *f, const struct line *line)
 
 static void fill_slab(struct filler *f, const struct line *line, struct slab_row *row)
 {
-    struct slab_spot spot = {.ref = line->ref, .thickness = line->thickness};
     row->regime = regime_of(f->graph, line->ref, !line->thickness);
-    row->features = slab_features(f->graph, &spot);
+    row->features = slab_features(f->graph, slab_spot_at(&f->spots, line->ref, line->thickness));
     row->bytes = bytes_of(f, line);
     row->through = slabs_brightness(f->shader, f->host, line->above);
     f->tree->num_slabs++;
@@ -242,13 +242,12 @@ static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
 {
     struct ir_graph *g = f->shader->graph;
     struct ir_value thin = {.type = IR_TYPE_VOID};
-    struct slab_spots spots;
     vec_push(f->shader->arena, &f->sheet->trees, (struct slab_tree){.root = root});
     f->tree = &vec_last(&f->sheet->trees);
     f->tree->is_sheet = ir_get(g, root)->op == IR_SLAB_SURFACE
                         && ir_get_const(g, ir_arg(g, root, 1), &thin) && thin.w[0].u;
-    slabs_find_spots(f->shader, root, &spots);
-    f->tree->cost = slabs_cost(f->shader, &spots);
+    slabs_find_spots(f->shader, root, &f->spots);
+    f->tree->cost = slabs_cost(f->shader, &f->spots);
     f->bases.len = f->masks.len = 0;
     ir_ref white = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     push(f, &(struct line){.depth = 0}, bsdf, f->tree->is_sheet ? ir_arg(g, root, 2) : 0, white,

@@ -27,6 +27,12 @@ enum slab_feature {
     NUM_SLAB_FEATURES
 };
 
+/*
+ * The features of what lies below a slab, which no input of it tells: as bits of enum slab_feature,
+ * the attribute of a SLAB has those that it lacks.
+ */
+enum { SLAB_FEATURES_BELOW = 1u << SLAB_ROUGHNESS | 1u << SLAB_REFRACTION };
+
 /* Where a slab lies. */
 struct slab_place {
     ir_ref thickness; /* float, centimetres */
@@ -59,8 +65,6 @@ struct slabs_host {
      */
     ir_ref (*blurred)(void *user_data, ir_ref value, ir_ref position, ir_ref deviation);
     const struct closure_host *closures;
-    bool tracks_roughness; /* matter below a rough interface looks rougher */
-    bool blurs;            /* and is blurred */
     bool walks;            /* light walks through the meshes of bodies */
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };

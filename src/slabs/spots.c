@@ -2,24 +2,27 @@
 #include "slabs/spots.h"
 
 #include "slabs/bytes.h"
+#include "slabs/spread.h"
 
 static bool is_closure(const struct ir_graph *g, ir_ref ref)
 {
     return ref && ir_type_of(g, ref) == IR_TYPE_BSDF;
 }
 
-static void add_spot(const struct shader *shader, struct slab_spots *spots, ir_ref ref,
-                     ir_ref thickness, ir_ref root)
+static void add_spot(const struct shader *shader, struct slab_spots *spots, struct slab_spot spot)
 {
-    if (!is_closure(shader->graph, ref))
+    if (!is_closure(shader->graph, spot.ref))
         return;
-    for (uint32_t i = spots->first[ref]; i; i = spots->items.items[i - 1].next)
-        if (spots->items.items[i - 1].thickness == thickness
-            && spots->items.items[i - 1].root == root)
+    spot.next = spots->first[spot.ref];
+    for (uint32_t i = spot.next; i; i = spots->items.items[i - 1].next) {
+        struct slab_spot *known = &spots->items.items[i - 1];
+        if (known->thickness == spot.thickness && known->root == spot.root) {
+            known->is_over |= spot.is_over;
             return;
-    vec_push(shader->arena, &spots->items,
-             (struct slab_spot){ref, thickness, root, spots->first[ref]});
-    spots->first[ref] = spots->items.len;
+        }
+    }
+    vec_push(shader->arena, &spots->items, spot);
+    spots->first[spot.ref] = spots->items.len;
 }
 
 static bool is_sheet(const struct ir_graph *g, ir_ref surface)
@@ -37,15 +40,18 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
     const struct ir_node *node = ir_get(g, ref);
     bool is_layer = node->op == IR_LAYER || node->op == IR_SLAB_LAYER;
     for (uint32_t i = 0; i < node->num_args; i++) {
-        ir_ref arg = ir_arg(g, ref, i), thickness = spot->thickness;
-        if (is_layer && i == 0)
-            thickness = node->op == IR_SLAB_LAYER ? ir_arg(g, ref, 2)
-                                                  : ir_const_float(g, SLABS_LAYER_THICKNESS);
-        if (!is_closure(g, arg))
+        struct slab_spot at = *spot;
+        at.ref = ir_arg(g, ref, i);
+        if (is_layer && i == 0) {
+            at.thickness = node->op == IR_SLAB_LAYER ? ir_arg(g, ref, 2)
+                                                     : ir_const_float(g, SLABS_LAYER_THICKNESS);
+            at.is_over |= is_closure(g, ir_arg(g, ref, 1));
+        }
+        if (!is_closure(g, at.ref))
             continue;
-        if (spots->depth[arg] <= spots->depth[ref])
-            spots->depth[arg] = spots->depth[ref] + 1;
-        add_spot(shader, spots, arg, thickness, spot->root);
+        if (spots->depth[at.ref] <= spots->depth[ref])
+            spots->depth[at.ref] = spots->depth[ref] + 1;
+        add_spot(shader, spots, at);
     }
 }
 
@@ -58,16 +64,27 @@ void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spot
     if (!root)
         return;
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    add_spot(shader, out, root, 0, root);
+    add_spot(shader, out, (struct slab_spot){.ref = root, .root = root});
     for (ir_ref ref = root; ref; ref--) {
         uint8_t op = ir_get(g, ref)->op;
         if (needed[ref] && (op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER))
-            add_spot(shader, out, ir_arg(g, ref, 0), is_sheet(g, ref) ? ir_arg(g, ref, 2) : 0, ref);
+            add_spot(shader, out,
+                     (struct slab_spot){.ref = ir_arg(g, ref, 0),
+                                        .thickness = is_sheet(g, ref) ? ir_arg(g, ref, 2) : 0,
+                                        .root = ref});
         for (uint32_t i = out->first[ref]; i; i = out->items.items[i - 1].next) {
             const struct slab_spot spot = out->items.items[i - 1];
             spread(shader, out, ref, &spot);
         }
     }
+}
+
+const struct slab_spot *slab_spot_at(const struct slab_spots *spots, ir_ref ref, ir_ref thickness)
+{
+    for (uint32_t i = spots->first[ref]; i; i = spots->items.items[i - 1].next)
+        if (spots->items.items[i - 1].thickness == thickness)
+            return &spots->items.items[i - 1];
+    return NULL;
 }
 
 /* ---- Cost ---- */
@@ -100,6 +117,8 @@ uint32_t slab_features(const struct ir_graph *g, const struct slab_spot *spot)
     if (!spot->thickness && differs(g, spot->ref, SLAB_mean_free_path, 0.0f)
         && differs(g, spot->ref, SLAB_diffuse_albedo, 0.0f))
         bits |= 1u << SLAB_SUBSURFACE;
+    if (spot->is_over && slab_spreads(g, ir_args(g, spot->ref)))
+        bits |= SLAB_FEATURES_BELOW & ~ir_get(g, spot->ref)->attr;
     return bits;
 }
 
@@ -149,11 +168,11 @@ struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots
     for (uint32_t i = 0; i < spots->items.len; i++) {
         const struct slab_spot *spot = &spots->items.items[i];
         uint8_t op = ir_get(g, spot->ref)->op;
+        cost.features |= slab_features(g, spot);
         if ((op != IR_SLAB && op != IR_LEAF) || is_repeated(spots, spot))
             continue;
         cost.closures++;
         cost.others += op == IR_LEAF;
-        cost.features |= slab_features(g, spot);
         bool is_top = spot->ref == top.ref && !has_top;
         vec_push(shader->arena, &stored, slab_stored(g, spot->ref, is_top && top.is_whole));
         if (is_top) {

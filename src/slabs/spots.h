@@ -12,6 +12,7 @@ struct slab_spot {
     ir_ref ref;       /* a closure */
     ir_ref thickness; /* float; 0: of the body */
     ir_ref root;      /* the surface shader, or the closure at the top */
+    bool is_over;     /* other matter lies below it */
     uint32_t next;    /* of the same closure, + 1 */
 };
 
@@ -30,6 +31,9 @@ static inline const struct slab_spot *slab_spot_of(const struct slab_spots *spot
 {
     return &spots->items.items[spots->first[ref] - 1];
 }
+
+/* The first one at a thickness; NULL: there is none. */
+const struct slab_spot *slab_spot_at(const struct slab_spots *spots, ir_ref ref, ir_ref thickness);
 
 /* The closure on top of all others below a root; ref 0: there is none. */
 struct slab_top {

@@ -56,6 +56,15 @@ static ir_ref presence(struct ir_graph *g, const ir_ref *in)
     return ir_op3(g, IR_SELECT, is_open, bend, zero);
 }
 
+bool slab_spreads(const struct ir_graph *g, const ir_ref *in)
+{
+    bool is_smooth = ir_const_is(g, in[SLAB_roughness], 0.0f)
+                     && (ir_const_is(g, in[SLAB_second_roughness_weight], 0.0f)
+                         || ir_const_is(g, in[SLAB_second_roughness], 0.0f));
+    return !is_smooth && !ir_const_is(g, in[SLAB_f0], 0.0f)
+           && !ir_const_is(g, in[SLAB_mean_free_path], 0.0f);
+}
+
 /* Of both lobes. */
 static ir_ref mean_alpha(struct ir_graph *g, const ir_ref *in)
 {

@@ -19,6 +19,9 @@
 
 #include "slabs/slabs.h"
 
+/* False: the interface of a slab is smooth, absent or opaque, whatever lies below. */
+bool slab_spreads(const struct ir_graph *graph, const ir_ref *inputs);
+
 /* The spread of the interface of a slab, by its inputs: a float. */
 ir_ref slab_spread(struct ir_graph *graph, const ir_ref *inputs);
 /* Changes the roughness of both lobes, and of the diffuse reflection. spread 0: unchanged. */

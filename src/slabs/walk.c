@@ -454,17 +454,17 @@ static ir_ref variance_of_operator(struct walk *w, ir_ref ref, const ir_ref *var
     return ir_op3(g, IR_MIX, a ? a : nothing, b ? b : nothing, ir_arg(g, ref, 2));
 }
 
-/* The variances of all nodes: `of_slab` says those of slabs. All 0 if nobody asks. */
-static ir_ref *find_variances(struct walk *w, bool is_asked,
+/* The variances of all nodes: `of_slab` says those of slabs with a feature. */
+static ir_ref *find_variances(struct walk *w, enum slab_feature feature,
                               ir_ref (*of_slab)(struct ir_graph *graph, const ir_ref *inputs))
 {
     ir_ref *variances = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
-    for (ir_ref ref = 1; is_asked && ref < w->num_nodes; ref++) {
+    for (ir_ref ref = 1; ref < w->num_nodes; ref++) {
         if (!w->has_slabs[ref])
             continue;
         const struct ir_node node = *ir_get(w->graph, ref);
         bool is_layer = node.op == IR_SLAB_LAYER || node.op == IR_LAYER;
-        if (node.op == IR_SLAB) {
+        if (node.op == IR_SLAB && !(node.attr & 1u << feature)) {
             ir_ref in[NUM_SLAB_OPERANDS];
             memcpy(in, ir_args(w->graph, ref), sizeof in);
             variances[ref] = of_slab(w->graph, in);
@@ -498,8 +498,8 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
     w.has_slabs = find_slabs(shader, root);
     if (!root || !w.has_slabs[root])
         return root;
-    w.spreads = find_variances(&w, host->tracks_roughness, slab_spread);
-    w.slopes = find_variances(&w, host->blurs, slab_slope);
+    w.spreads = find_variances(&w, SLAB_ROUGHNESS, slab_spread);
+    w.slopes = find_variances(&w, SLAB_REFRACTION, slab_slope);
     if (ir_type_is_closure(ir_type_of(g, root)))
         return walk_closure(&w, root, body(&w));
     ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.num_nodes);

@@ -16,6 +16,10 @@ for closures in 1 2 3; do
 done
 check 'a budget is silent' eval 'exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -o made && test ! -s err'
 check 'steps' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -Wbudget-step -o made
+check 'a part less' exits 0 "$mxgen" "$examples/slab_blends.mtlx" -e Opal --features -roughness-tracking -o quiet
+check 'with a message' exits 0 "$mxgen" "$examples/slab_blends.mtlx" -e Opal --features -roughness-tracking -Wbudget-step -o told
+check 'is the same shader' eval 'says "no roughness of what lies below" && cmp -s quiet/Opal.frag told/Opal.frag'
+check 'steps again' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -Wbudget-step -o made
 check 'the mix is first' eval 'grep -F budget-step err | head -1 | grep -qE "the mix .paint.: closures 3 to 2, bytes 40 to 28, estimated error 0\.[0-9]+ "'
 check 'then the layer' eval 'grep -F budget-step err | tail -1 | grep -qE "the layer .coated.: closures 2 to 1, bytes 28 to 16"'
 check 'the first step' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 --max-steps 1 -Wbudget-step -o made
