@@ -78,9 +78,9 @@ ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
     str_id unit = doc_attr_value(doc, element, STR_unit);
     if (!unit || !ir_type_is_float(ir_type_of(b->graph, value)))
         return value;
-    str_id type = doc_attr_value(doc, element, STR_unittype);
+    str_id type = doc_attr_value(doc, port->element, STR_unittype);
     if (!type)
-        type = doc_attr_value(doc, port->element, STR_unittype);
+        type = doc_attr_value(doc, element, STR_unittype);
     if (!type)
         type = library_unit_type_of(b->lib, unit);
     /* The unit that the definition declares, else the option's unit (specification, "Units"). */

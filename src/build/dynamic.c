@@ -240,7 +240,8 @@ static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 static bool build_layer(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    dynamic_check_thickness(build, dynamic_arg(build, STR_top));
+    if (dynamic_needs_thickness(build, dynamic_arg(build, STR_top)))
+        dynamic_warn_of_thickness(build, "0.01 cm");
     return op_of(build, "layer", (const char *const[]){"top", "base"}, 2, results);
 }
 
@@ -287,7 +288,11 @@ static bool measured_edf(void *user_data, mxg_build *build, mxg_ref *results)
 
 static bool build_surface(void *user_data, mxg_build *build, mxg_ref *results)
 {
+    struct ir_value is_thin;
     (void)user_data;
+    if (dynamic_needs_thickness(build, dynamic_arg(build, STR_bsdf))
+        && build_initial(build->b, dynamic_arg(build, STR_thin_walled), &is_thin) && is_thin.w[0].u)
+        dynamic_warn_of_thickness(build, "that of a body, in spite of 'thin_walled'");
     return op_of(build, "surface", (const char *const[]){"bsdf", "edf", "opacity", "thin_walled"},
                  4, results);
 }

@@ -24,7 +24,9 @@ bool dynamic_slab_mix(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_slab_coverage(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_slab_select(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results);
-/* Warns of a <layer> with a slab in its top whose light depends on a thickness. */
-void dynamic_check_thickness(const mxg_build *build, ir_ref top);
+/* True if the light of a slab in a closure depends on the thickness that the closure gets. */
+bool dynamic_needs_thickness(const mxg_build *build, ir_ref closure);
+/* Warns that the node gives none. instead: what the thickness is, for the message: "0.01 cm". */
+void dynamic_warn_of_thickness(const mxg_build *build, const char *instead);
 
 #endif

@@ -76,13 +76,21 @@ static void check_slab(const mxg_build *build, const str_id *names, const ir_ref
         enum slab_operand input;
         enum bounds in;
     } checked[] = {
-        {SLAB_diffuse_albedo, SHARE},    {SLAB_f0, SHARE},
-        {SLAB_roughness, SHARE},         {SLAB_anisotropy, SIGNED},
-        {SLAB_second_roughness, SHARE},  {SLAB_second_roughness_weight, SHARE},
-        {SLAB_fuzz_amount, SHARE},       {SLAB_fuzz_color, SHARE},
-        {SLAB_fuzz_roughness, SIGNED},   {SLAB_mean_free_path, LENGTH},
-        {SLAB_phase_anisotropy, SIGNED}, {SLAB_emission, LENGTH},
-        {SLAB_glint_density, LENGTH},    {SLAB_specular_lut_weight, SHARE},
+        {SLAB_diffuse_albedo, SHARE},
+        {SLAB_f0, SHARE},
+        {SLAB_f90, LENGTH},
+        {SLAB_roughness, SHARE},
+        {SLAB_anisotropy, SIGNED},
+        {SLAB_second_roughness, SHARE},
+        {SLAB_second_roughness_weight, SHARE},
+        {SLAB_fuzz_amount, SHARE},
+        {SLAB_fuzz_color, SHARE},
+        {SLAB_fuzz_roughness, SIGNED},
+        {SLAB_mean_free_path, LENGTH},
+        {SLAB_phase_anisotropy, SIGNED},
+        {SLAB_emission, LENGTH},
+        {SLAB_glint_density, LENGTH},
+        {SLAB_specular_lut_weight, SHARE},
     };
     for (size_t i = 0; i < sizeof checked / sizeof *checked; i++)
         check_bounds(build, names[checked[i].input], args[checked[i].input], checked[i].in);
@@ -112,25 +120,30 @@ static unsigned operands_of(uint8_t op)
     }
 }
 
-void dynamic_check_thickness(const mxg_build *build, ir_ref top)
+bool dynamic_needs_thickness(const mxg_build *build, ir_ref closure)
 {
     enum { MAX_OPEN = 32, MAX_VISITS = 256 };
     struct builder *b = build->b;
-    ir_ref open[MAX_OPEN] = {top};
-    unsigned num = top ? 1 : 0;
+    ir_ref open[MAX_OPEN] = {closure};
+    unsigned num = closure ? 1 : 0;
     for (unsigned visits = 0; num && visits < MAX_VISITS; visits++) {
         ir_ref ref = open[--num];
         uint8_t op = ir_get(b->graph, ref)->op;
-        if (op == IR_SLAB && needs_thickness(b, ref)) {
-            diag_add(b->diags, DIAG_ID_slab_without_thickness,
-                     doc_place(&b->lib->doc, build->frame->node.element),
-                     build_text(b, build->def->node));
-            return;
-        }
+        if (op == IR_SLAB && needs_thickness(b, ref))
+            return true;
         for (unsigned i = 0, taken = operands_of(op); i < 2; i++)
             if (taken >> i & 1 && ir_arg(b->graph, ref, i) && num < MAX_OPEN)
                 open[num++] = ir_arg(b->graph, ref, i);
     }
+    return false;
+}
+
+void dynamic_warn_of_thickness(const mxg_build *build, const char *instead)
+{
+    struct builder *b = build->b;
+    diag_add(b->diags, DIAG_ID_slab_without_thickness,
+             doc_place(&b->lib->doc, build->frame->node.element), build_text(b, build->def->node),
+             instead);
 }
 
 /* ---- Nodes ---- */

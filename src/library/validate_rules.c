@@ -320,7 +320,7 @@ void validate_unit_type(struct validate *v, elem_id element)
 }
 
 /*
- * The input or the definition has the type of a unit; otherwise the first type with this unit
+ * The definition or the input has the type of a unit; otherwise the first type with this unit
  * applies.
  */
 void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input)
@@ -328,8 +328,8 @@ void validate_unit(struct validate *v, elem_id node, const struct port *port, el
     str_id unit = doc_attr_value(v->doc, input, STR_unit),
            type = doc_attr_value(v->doc, port->element, STR_unittype);
     float scale;
-    if (!unit || has(v, input, STR_unittype) || !can_have_unit(port->type)
-        || !library_unit_type_of(v->lib, unit))
+    bool is_known = unit && library_unit_type_of(v->lib, unit);
+    if (!is_known || !can_have_unit(port->type) || (!type && has(v, input, STR_unittype)))
         return; /* reported, or valid without a definition */
     if (!type)
         diag_add(v->diags, DIAG_ID_unit_without_type, doc_attr_place(v->doc, input, STR_unit),

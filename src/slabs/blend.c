@@ -352,9 +352,7 @@ static bool is_opaque(const struct ir_graph *g, const struct part *part)
  */
 static ir_ref ways_of(struct ir_graph *g, const struct slab_spot *spot)
 {
-    const struct ir_node *root = ir_get(g, spot->root);
-    bool is_sheet = root->op == IR_SLAB_SURFACE && ir_arg(g, spot->root, 2) == spot->thickness;
-    return num(g, is_sheet ? CLOSURE_MEAN_WAY : 2.0f * CLOSURE_MEAN_WAY);
+    return num(g, spot->is_sheet ? CLOSURE_MEAN_WAY : 2.0f * CLOSURE_MEAN_WAY);
 }
 
 /* exp(-ways thickness / path) */
@@ -562,11 +560,6 @@ static void blend_scaled(struct ir_graph *g, const struct part *a, ir_ref factor
 
 /* ---- Operators ---- */
 
-static bool is_layer(const struct ir_node *node)
-{
-    return node->op == IR_SLAB_LAYER || node->op == IR_LAYER;
-}
-
 /* The slab below coverages; 0: there is none. */
 static ir_ref covered_slab(const struct ir_graph *g, ir_ref ref)
 {
@@ -583,7 +576,7 @@ bool slab_can_blend(const struct ir_graph *g, ir_ref ref)
         return false;
     if (node->op == IR_CLOSURE_SCALE)
         return covered_slab(g, ir_arg(g, ref, 0)) != 0;
-    if (!is_layer(node) && node->op != IR_CLOSURE_MIX && node->op != IR_CLOSURE_ADD)
+    if (!slabs_is_layer(g, ref) && node->op != IR_CLOSURE_MIX && node->op != IR_CLOSURE_ADD)
         return false;
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
     return (!a || covered_slab(g, a)) && (!b || covered_slab(g, b));
@@ -620,13 +613,12 @@ ir_ref slab_blended(const struct slab_blend *blend, const struct slab_spot *spot
     } else {
         a = part_of(g, first);
         struct part b = part_of(g, second);
-        ir_ref third = node.num_args > 2 ? ir_arg(g, spot->ref, 2) : num(g, SLABS_LAYER_THICKNESS);
-        if (is_layer(&node))
-            blend_over(blend, &a, &b, third, spot, out);
+        if (slabs_is_layer(g, spot->ref))
+            blend_over(blend, &a, &b, slabs_layer_thickness(g, spot->ref), spot, out);
         else if (node.op == IR_CLOSURE_ADD)
             blend_sum(blend, &a, &b, spot, out);
         else
-            blend_beside(blend, &a, &b, third, spot, out);
+            blend_beside(blend, &a, &b, ir_arg(g, spot->ref, 2), spot, out);
         a.lacks &= b.lacks;
     }
     ir_ref slab = ir_build(g, IR_SLAB, IR_TYPE_BSDF, a.lacks, out, NUM_SLAB_OPERANDS);

@@ -134,8 +134,7 @@ static ir_ref recognised_layer(const struct recogniser *r, ir_ref top, ir_ref ba
         ir_ref matter = ir_arg(g, base, 0);
         return layer(g, colored(g, top, ir_arg(g, base, 1)), matter);
     }
-    bool is_over_coat = op == IR_LAYER || op == IR_SLAB_LAYER;
-    piece = is_over_coat ? one_piece(g, top, ir_arg(g, base, 0)) : 0;
+    piece = base && slabs_is_layer(g, base) ? one_piece(g, top, ir_arg(g, base, 0)) : 0;
     if (!piece)
         return layer(g, top, base);
     ir_ref args[3] = {piece, ir_arg(g, base, 1), op == IR_LAYER ? 0 : ir_arg(g, base, 2)};
@@ -150,7 +149,7 @@ static void find_tops(const struct recogniser *r, ir_ref root)
     const struct ir_graph *g = r->graph;
     for (ir_ref ref = root; ref; ref--) {
         const struct ir_node *node = ir_get(g, ref);
-        bool is_layer = node->op == IR_LAYER || node->op == IR_SLAB_LAYER;
+        bool is_layer = slabs_is_layer(g, ref);
         if (!r->needed[ref] || node->type != IR_TYPE_BSDF)
             continue;
         for (uint32_t i = 0; i < node->num_args; i++) {

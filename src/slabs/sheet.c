@@ -160,10 +160,8 @@ static void push(struct filler *f, const struct line *from, ir_ref ref, ir_ref t
 static void fill_layer(struct filler *f, const struct line *line)
 {
     struct ir_graph *g = f->shader->graph;
-    const struct ir_node *node = ir_get(g, line->ref);
     ir_ref top = ir_arg(g, line->ref, 0), base = ir_arg(g, line->ref, 1);
-    ir_ref thickness = node->op == IR_SLAB_LAYER ? ir_arg(g, line->ref, 2)
-                                                 : ir_const_float(g, SLABS_LAYER_THICKNESS);
+    ir_ref thickness = slabs_layer_thickness(g, line->ref);
     ir_ref through = top && base ? slabs_through(f->shader, f->host, top, thickness) : 0;
     ir_ref below = through ? ir_op2(g, IR_MUL, line->above, through) : line->above;
     push(f, line, base, line->thickness, below, "base");
@@ -241,17 +239,15 @@ static void note_shared_masks(struct filler *f)
 static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
 {
     struct ir_graph *g = f->shader->graph;
-    struct ir_value thin = {.type = IR_TYPE_VOID};
     vec_push(f->shader->arena, &f->sheet->trees, (struct slab_tree){.root = root});
     f->tree = &vec_last(&f->sheet->trees);
-    f->tree->is_sheet = ir_get(g, root)->op == IR_SLAB_SURFACE
-                        && ir_get_const(g, ir_arg(g, root, 1), &thin) && thin.w[0].u;
+    ir_ref thickness = slabs_sheet_thickness(g, root);
+    f->tree->is_sheet = thickness != 0;
     slabs_find_spots(f->shader, root, &f->spots);
     f->tree->cost = slabs_cost(f->shader, &f->spots);
     f->bases.len = f->masks.len = 0;
     ir_ref white = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
-    push(f, &(struct line){.depth = 0}, bsdf, f->tree->is_sheet ? ir_arg(g, root, 2) : 0, white,
-         "");
+    push(f, &(struct line){.depth = 0}, bsdf, thickness, white, "");
     while (f->open.len) {
         struct line line = vec_last(&f->open);
         f->open.len--;

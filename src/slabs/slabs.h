@@ -73,6 +73,13 @@ struct slabs_host {
 #define SLABS_LAYER_THICKNESS 0.01f /* centimetres, of a layer without an input for it */
 #define SLABS_CLEAR_PATH 1e6f       /* centimetres, of matter that is only an interface */
 
+/* place.c: where slabs lie. True for a layer of slabs or of any closures. */
+bool slabs_is_layer(const struct ir_graph *graph, ir_ref ref);
+/* The thickness of what is in the top of a layer. */
+ir_ref slabs_layer_thickness(struct ir_graph *graph, ir_ref layer);
+/* The thickness of a surface that is a sheet; 0: it is the boundary of a body, or no surface. */
+ir_ref slabs_sheet_thickness(const struct ir_graph *graph, ir_ref surface);
+
 /* True if a closure or shader has slabs. ref 0: it has none. */
 bool slabs_has(const struct shader *shader, ir_ref ref);
 /* True if light may go into one of its slabs. */

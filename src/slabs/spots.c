@@ -16,7 +16,8 @@ static void add_spot(const struct shader *shader, struct slab_spots *spots, stru
     spot.next = spots->first[spot.ref];
     for (uint32_t i = spot.next; i; i = spots->items.items[i - 1].next) {
         struct slab_spot *known = &spots->items.items[i - 1];
-        if (known->thickness == spot.thickness && known->root == spot.root) {
+        if (known->thickness == spot.thickness && known->is_sheet == spot.is_sheet
+            && known->root == spot.root) {
             known->is_over |= spot.is_over;
             return;
         }
@@ -25,26 +26,18 @@ static void add_spot(const struct shader *shader, struct slab_spots *spots, stru
     spots->first[spot.ref] = spots->items.len;
 }
 
-static bool is_sheet(const struct ir_graph *g, ir_ref surface)
-{
-    struct ir_value thin;
-    return ir_get(g, surface)->op == IR_SLAB_SURFACE
-           && ir_get_const(g, ir_arg(g, surface, 1), &thin) && thin.w[0].u;
-}
-
 /* The operands of an operator lie where it lies, but the top of a layer has its thickness. */
 static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref ref,
                    const struct slab_spot *spot)
 {
     struct ir_graph *g = shader->graph;
-    const struct ir_node *node = ir_get(g, ref);
-    bool is_layer = node->op == IR_LAYER || node->op == IR_SLAB_LAYER;
-    for (uint32_t i = 0; i < node->num_args; i++) {
+    uint32_t num_args = ir_get(g, ref)->num_args;
+    for (uint32_t i = 0; i < num_args; i++) {
         struct slab_spot at = *spot;
         at.ref = ir_arg(g, ref, i);
-        if (is_layer && i == 0) {
-            at.thickness = node->op == IR_SLAB_LAYER ? ir_arg(g, ref, 2)
-                                                     : ir_const_float(g, SLABS_LAYER_THICKNESS);
+        if (i == 0 && slabs_is_layer(g, ref)) {
+            at.thickness = slabs_layer_thickness(g, ref);
+            at.is_sheet = false;
             at.is_over |= is_closure(g, ir_arg(g, ref, 1));
         }
         if (!is_closure(g, at.ref))
@@ -57,7 +50,7 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
 
 void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spots *out)
 {
-    const struct ir_graph *g = shader->graph;
+    struct ir_graph *g = shader->graph;
     *out = (struct slab_spots){.num_nodes = root + 1};
     out->first = ARENA_ARRAY(shader->arena, uint32_t, root + 1);
     out->depth = ARENA_ARRAY(shader->arena, uint32_t, root + 1);
@@ -67,11 +60,14 @@ void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spot
     add_spot(shader, out, (struct slab_spot){.ref = root, .root = root});
     for (ir_ref ref = root; ref; ref--) {
         uint8_t op = ir_get(g, ref)->op;
-        if (needed[ref] && (op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER))
+        if (needed[ref] && (op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER)) {
+            ir_ref thickness = slabs_sheet_thickness(g, ref);
             add_spot(shader, out,
                      (struct slab_spot){.ref = ir_arg(g, ref, 0),
-                                        .thickness = is_sheet(g, ref) ? ir_arg(g, ref, 2) : 0,
+                                        .thickness = thickness,
+                                        .is_sheet = thickness != 0,
                                         .root = ref});
+        }
         for (uint32_t i = out->first[ref]; i; i = out->items.items[i - 1].next) {
             const struct slab_spot spot = out->items.items[i - 1];
             spread(shader, out, ref, &spot);

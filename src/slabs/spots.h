@@ -13,6 +13,7 @@ struct slab_spot {
     ir_ref thickness; /* float; 0: of the body */
     ir_ref root;      /* the surface shader, or the closure at the top */
     bool is_over;     /* other matter lies below it */
+    bool is_sheet;    /* the thickness is that of a sheet */
     uint32_t next;    /* of the same closure, + 1 */
 };
 

@@ -107,7 +107,7 @@ static bool is_open_below(const struct joiner *j, ir_ref bsdf)
     const struct ir_graph *g = j->graph;
     while (bsdf && ir_type_of(g, bsdf) == IR_TYPE_BSDF && ir_get(g, bsdf)->op != IR_LEAF) {
         uint8_t op = ir_get(g, bsdf)->op;
-        bool is_layer = op == IR_LAYER || op == IR_SLAB_LAYER;
+        bool is_layer = slabs_is_layer(g, bsdf);
         if (!is_layer && op != IR_CLOSURE_SCALE)
             return false;
         ir_ref base = is_layer ? ir_arg(g, bsdf, 1) : 0;

@@ -294,11 +294,8 @@ static struct way way_below(struct ir_graph *g, struct way way, ir_ref slope, ir
 static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *out_result)
 {
     struct ir_graph *g = w->graph;
-    const struct ir_node node = *ir_get(g, ref);
     ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
-    ir_ref thickness =
-        node.op == IR_SLAB_LAYER ? ir_arg(g, ref, 2) : ir_const_float(g, SLABS_LAYER_THICKNESS);
-    thickness = seen_at(w, thickness, &where);
+    ir_ref thickness = seen_at(w, slabs_layer_thickness(g, ref), &where);
     struct where below = where;
     below.spread = sum_of(g, where.spread, top ? w->spreads[top] : 0);
     below.way = way_below(g, where.way, top ? w->slopes[top] : 0, thickness);
@@ -342,7 +339,7 @@ static void step(struct walk *w)
     ir_push_origin_of(w->graph, visit.node);
     if (op == IR_SLAB)
         result = slab_at(w, visit.node, &visit.where);
-    else if (op == IR_LAYER || op == IR_SLAB_LAYER)
+    else if (slabs_is_layer(w->graph, visit.node))
         is_done = visit_layer(w, visit.node, visit.where, &result);
     else
         is_done = visit_operands(w, visit.node, visit.where, &result);
@@ -385,12 +382,8 @@ static ir_ref opacity_of(struct walk *w, ir_ref lobes)
 /* Where the closures of a surface lie. */
 static struct where place_of(struct walk *w, ir_ref surface)
 {
-    struct ir_graph *g = w->graph;
-    surface = closure_without_aovs(g, surface);
-    struct ir_value is_thin;
-    bool is_sheet = ir_get(g, surface)->op == IR_SLAB_SURFACE
-                    && ir_get_const(g, ir_arg(g, surface, 1), &is_thin) && is_thin.w[0].u;
-    return is_sheet ? (struct where){.thickness = ir_arg(g, surface, 2)} : body(w);
+    ir_ref thickness = slabs_sheet_thickness(w->graph, closure_without_aovs(w->graph, surface));
+    return thickness ? (struct where){.thickness = thickness} : body(w);
 }
 
 static ir_ref slab_surface(struct walk *w, ir_ref ref)
@@ -463,7 +456,7 @@ static ir_ref *find_variances(struct walk *w, enum slab_feature feature,
         if (!w->has_slabs[ref])
             continue;
         const struct ir_node node = *ir_get(w->graph, ref);
-        bool is_layer = node.op == IR_SLAB_LAYER || node.op == IR_LAYER;
+        bool is_layer = slabs_is_layer(w->graph, ref);
         if (node.op == IR_SLAB && !(node.attr & 1u << feature)) {
             ir_ref in[NUM_SLAB_OPERANDS];
             memcpy(in, ir_args(w->graph, ref), sizeof in);
