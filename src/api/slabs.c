@@ -5,6 +5,7 @@
 #include "base/json.h"
 #include "slabs/budget.h"
 #include "slabs/difference.h"
+#include "slabs/features.h"
 
 #include <assert.h>
 
@@ -22,22 +23,16 @@ static struct diag_list *diags_of(struct generation *g)
 
 /* ---- The options ---- */
 
-static const char *const feature_keys[NUM_SLAB_FEATURES] = {
-#define SLAB_FEATURE(id, key, doc) "-" key,
-#include "slabs/features.def"
-#undef SLAB_FEATURE
-};
-
 /* The bit of "-fuzz"; 0, after a message, for another word. */
 static uint32_t feature_bit(struct generation *g, const char *word)
 {
     struct text known;
     for (unsigned i = 0; i < NUM_SLAB_FEATURES; i++)
-        if (strcmp(feature_keys[i], word) == 0)
+        if (word[0] == '-' && strcmp(slab_feature_keys[i], word + 1) == 0)
             return 1u << i;
     text_init(&known, &g->scratch);
     for (unsigned i = 0; i < NUM_SLAB_FEATURES; i++)
-        text_fmt(&known, "%s%s", i ? ", " : "", feature_keys[i]);
+        text_fmt(&known, "%s-%s", i ? ", " : "", slab_feature_keys[i]);
     diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, word, option_key(OPTION_features),
              text_cstr(&known));
     return 0;

@@ -400,11 +400,39 @@ static void set_share(struct ir_graph *g, struct part *part, ir_ref share)
     part->diffuse = mul(g, scattered(g, part->in), share);
 }
 
+static bool is_zero_or_one(const struct ir_graph *g, ir_ref ref)
+{
+    return ir_const_is(g, ref, 0.0f) || ir_const_is(g, ref, 1.0f);
+}
+
+/* True where one of the parts is there alone, as <slab_select> has it. A slab has one table. */
+static bool is_either(const struct ir_graph *g, const struct part *bg, const struct part *fg,
+                      ir_ref mix)
+{
+    ir_ref of_bg = bg->in[SLAB_specular_lut], of_fg = fg->in[SLAB_specular_lut];
+    return ir_get(g, mix)->op == IR_SELECT && is_zero_or_one(g, ir_arg(g, mix, 1))
+           && is_zero_or_one(g, ir_arg(g, mix, 2)) && (!of_bg || !of_fg || of_bg == of_fg);
+}
+
+static void select_inputs(struct ir_graph *g, const struct part *bg, const struct part *fg,
+                          ir_ref mix, ir_ref *out)
+{
+    for (int i = 0; i < NUM_SLAB_OPERANDS; i++)
+        if (i != SLAB_specular_lut)
+            out[i] = mixed(g, bg->in[i], fg->in[i], mix);
+    bool has_fg = fg->in[SLAB_specular_lut] != 0;
+    out[SLAB_specular_lut] = has_fg ? fg->in[SLAB_specular_lut] : bg->in[SLAB_specular_lut];
+}
+
 static void blend_beside(const struct slab_blend *blend, struct part *bg, struct part *fg,
                          ir_ref mix, const struct slab_spot *spot, ir_ref *out)
 {
     struct ir_graph *g = blend->shader->graph;
     ir_ref share = mix;
+    if (is_either(g, bg, fg, mix)) {
+        select_inputs(g, bg, fg, mix, out);
+        return;
+    }
     out[SLAB_coverage] = bg->in[SLAB_coverage];
     if (bg->in[SLAB_coverage] != fg->in[SLAB_coverage]) {
         ir_ref of_bg = mul(g, closure_one_minus(g, mix), bg->in[SLAB_coverage]),
@@ -622,39 +650,6 @@ ir_ref slab_blended(const struct slab_blend *blend, const struct slab_spot *spot
         a.lacks &= b.lacks;
     }
     ir_ref slab = ir_build(g, IR_SLAB, IR_TYPE_BSDF, a.lacks, out, NUM_SLAB_OPERANDS);
-    ir_pop_origin(g);
-    return slab;
-}
-
-/* ---- Features ---- */
-
-ir_ref slab_without(struct ir_graph *g, const struct slab_spot *spot, uint32_t features)
-{
-    ir_ref in[NUM_SLAB_OPERANDS];
-    uint32_t gone = slab_features(g, spot) & features;
-    memcpy(in, ir_args(g, spot->ref), sizeof in);
-    if (gone & 1u << SLAB_SECOND_LOBE) {
-        in[SLAB_roughness] = mixed(g, in[SLAB_roughness], in[SLAB_second_roughness],
-                                   in[SLAB_second_roughness_weight]);
-        in[SLAB_second_roughness_weight] = num(g, 0.0f);
-    }
-    if (gone & 1u << SLAB_GLINTS)
-        in[SLAB_glint_density] = num(g, 0.0f);
-    if (gone & 1u << SLAB_LUT) {
-        in[SLAB_specular_lut] = 0;
-        in[SLAB_specular_lut_weight] = num(g, 0.0f);
-    }
-    if (gone & 1u << SLAB_FUZZ)
-        in[SLAB_fuzz_amount] = num(g, 0.0f);
-    if (gone & 1u << SLAB_F90)
-        in[SLAB_f90] = white(g);
-    if (gone & 1u << SLAB_ANISOTROPY)
-        in[SLAB_anisotropy] = num(g, 0.0f);
-    if (gone & 1u << SLAB_SUBSURFACE)
-        in[SLAB_mean_free_path] = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-    uint32_t lacks = ir_get(g, spot->ref)->attr | (gone & SLAB_FEATURES_BELOW);
-    ir_push_origin_of(g, spot->ref);
-    ir_ref slab = ir_build(g, IR_SLAB, IR_TYPE_BSDF, lacks, in, NUM_SLAB_OPERANDS);
     ir_pop_origin(g);
     return slab;
 }

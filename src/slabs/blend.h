@@ -20,7 +20,4 @@ bool slab_can_blend(const struct ir_graph *graph, ir_ref ref);
  */
 ir_ref slab_blended(const struct slab_blend *blend, const struct slab_spot *spot);
 
-/* The slab without features, as bits; the mean roughness replaces the second lobe. */
-ir_ref slab_without(struct ir_graph *graph, const struct slab_spot *spot, uint32_t features);
-
 #endif

@@ -21,12 +21,6 @@ const char *const slab_row_names[] = {[SLAB_ROW_SLAB] = "slab",
                                       [SLAB_ROW_COVERAGE] = "coverage",
                                       [SLAB_ROW_OTHER] = "no slab"};
 
-const char *const slab_feature_names[NUM_SLAB_FEATURES] = {
-#define SLAB_FEATURE(id, key, doc) doc,
-#include "slabs/features.def"
-#undef SLAB_FEATURE
-};
-
 struct filler {
     struct slab_sheet *sheet;
     struct shader *shader;

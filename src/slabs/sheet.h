@@ -7,6 +7,7 @@
 #define MXG_SLABS_SHEET_H
 
 #include "slabs/budget.h"
+#include "slabs/features.h"
 
 enum slab_row_kind {
     SLAB_ROW_SLAB,
@@ -67,7 +68,6 @@ struct slab_shown {
 extern const struct slab_shown slab_shown[];
 extern const unsigned num_slab_shown;
 extern const char *const slab_row_names[]; /* by enum slab_row_kind */
-extern const char *const slab_feature_names[NUM_SLAB_FEATURES];
 
 /* sheet.c: a number with four digits. */
 void slab_write_number(float value, struct text *out);

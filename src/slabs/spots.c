@@ -2,7 +2,7 @@
 #include "slabs/spots.h"
 
 #include "slabs/bytes.h"
-#include "slabs/spread.h"
+#include "slabs/features.h"
 
 static bool is_closure(const struct ir_graph *g, ir_ref ref)
 {
@@ -84,39 +84,6 @@ const struct slab_spot *slab_spot_at(const struct slab_spots *spots, ir_ref ref,
 }
 
 /* ---- Cost ---- */
-
-static bool differs(const struct ir_graph *g, ir_ref slab, enum slab_operand input, float off)
-{
-    return !ir_const_is(g, ir_arg(g, slab, input), off);
-}
-
-uint32_t slab_features(const struct ir_graph *g, const struct slab_spot *spot)
-{
-    static const struct {
-        enum slab_feature feature;
-        enum slab_operand input;
-        float off; /* its value without the feature */
-    } features[] = {
-        {SLAB_GLINTS, SLAB_glint_density, 0.0f},
-        {SLAB_LUT, SLAB_specular_lut_weight, 0.0f},
-        {SLAB_SECOND_LOBE, SLAB_second_roughness_weight, 0.0f},
-        {SLAB_FUZZ, SLAB_fuzz_amount, 0.0f},
-        {SLAB_F90, SLAB_f90, 1.0f},
-        {SLAB_ANISOTROPY, SLAB_anisotropy, 0.0f},
-    };
-    uint32_t bits = 0;
-    if (ir_get(g, spot->ref)->op != IR_SLAB)
-        return 0;
-    for (size_t i = 0; i < sizeof features / sizeof *features; i++)
-        bits |= (uint32_t)differs(g, spot->ref, features[i].input, features[i].off)
-                << features[i].feature;
-    if (!spot->thickness && differs(g, spot->ref, SLAB_mean_free_path, 0.0f)
-        && differs(g, spot->ref, SLAB_diffuse_albedo, 0.0f))
-        bits |= 1u << SLAB_SUBSURFACE;
-    if (spot->is_over && slab_spreads(g, ir_args(g, spot->ref)))
-        bits |= SLAB_FEATURES_BELOW & ~ir_get(g, spot->ref)->attr;
-    return bits;
-}
 
 /* True where another spot of the list before has the closure at the same thickness. */
 static bool is_repeated(const struct slab_spots *spots, const struct slab_spot *spot)

@@ -43,9 +43,6 @@ struct slab_top {
 };
 struct slab_top slabs_top(const struct ir_graph *graph, ir_ref root);
 
-/* The features of a slab, as bits of enum slab_feature. */
-uint32_t slab_features(const struct ir_graph *graph, const struct slab_spot *spot);
-
 /* What the closures below a root cost. */
 struct slab_cost {
     uint32_t closures; /* slabs and other BSDFs, each at each thickness */

@@ -37,6 +37,13 @@ check 'too' says '1 closures, an error of 0.01'
 check 'no number' exits 2 "$mxgen" "$slabs" --max-error much -o made
 check 'is an error' says "expected a number of 0..100"
 
+check 'within an error' exits 0 "$mxgen" "$slabs" -e DustyFibre --max-closures 1 --max-error 1.55 -Wbudget-step -o made
+check 'blends alone' eval '[ "$(grep -cF budget-step err)" = 2 ] && says "bytes 48 to 24"'
+check 'nobody estimates glints' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e FlakePaint --features -glints -Wbudget-step -o made
+check 'so their error is unknown' says 'no glints: closures 2 to 2, bytes 40 to 24, estimated error unknown'
+check 'an error keeps them' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e FlakePaint --max-error 50 -Wbudget-step -o made
+check 'whatever it is' eval '! says "no glints"'
+
 # Features
 check 'a part that does not exist' exits 1 "$mxgen" "$slabs" --features -glimmer -o made
 check 'is named' says "-glints, -lut, -fuzz"

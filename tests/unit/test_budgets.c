@@ -258,6 +258,72 @@ static void save_error(struct generation *g)
     REQUIRE(loose.after.bytes <= tight.after.bytes);
 }
 
+/* ---- The smallest within an error ---- */
+
+enum { MAX_FIXED = 1024 };
+
+/* What budgets of closures and features lead to. */
+struct fixed {
+    struct slab_report reports[MAX_FIXED];
+    unsigned num;
+};
+
+static void spend(struct generation *g, const struct slab_budget *budget, struct slab_report *out)
+{
+    build_budget_slabs(g->builder, &g->closure_host, &g->estimates, budget, g->root, out);
+}
+
+static void spend_all(struct generation *g, struct fixed *out)
+{
+    struct slab_spots spots;
+    slabs_find_spots(&g->result->shader, g->root, &spots);
+    struct slab_cost whole = slabs_cost(&g->result->shader, &spots);
+    for (uint32_t off = 0; off < 1u << NUM_SLAB_FEATURES; off++)
+        for (uint32_t num = whole.closures; num && !(off & ~whole.features); num--) {
+            struct slab_budget budget = {
+                .max_closures = num, .max_error = -1.0f, .off = off, .max_steps = -1};
+            if (REQUIRE(out->num < MAX_FIXED))
+                spend(g, &budget, &out->reports[out->num++]);
+        }
+}
+
+static bool is_smaller(struct slab_cost a, struct slab_cost b)
+{
+    return a.closures != b.closures ? a.closures < b.closures : a.bytes < b.bytes;
+}
+
+/* No budget of closures and features within an error is smaller than what the error gives. */
+static void save_most(struct generation *g)
+{
+    static const float errors[] = {0.2f, 0.7f, 1.52f, 3.0f, 6.0f};
+    static struct fixed fixed;
+    fixed.num = 0;
+    if (!begin(g))
+        return;
+    spend_all(g, &fixed);
+    for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
+        struct slab_budget budget = {.max_error = errors[i], .max_steps = -1};
+        struct slab_report report;
+        spend(g, &budget, &report);
+        check_steps(&report);
+        REQUIRE(report.is_met && report.error <= errors[i]);
+        for (unsigned k = 0; k < fixed.num; k++) {
+            const struct slab_report *other = &fixed.reports[k];
+            bool is_within = other->is_met && other->error >= 0.0f && other->error <= errors[i];
+            REQUIRE(!is_within || !is_smaller(other->after, report.after));
+        }
+    }
+}
+
+static void test_errors(struct run *run, char **paths)
+{
+    for (size_t i = 0; i < NUM_EXAMPLES; i++) {
+        mxg_document *document = load(run, paths[examples[i].path]);
+        with_document(run, document, examples[i].element, save_most);
+        mxg_document_destroy(document);
+    }
+}
+
 /* Features go where blending is not enough; nothing keeps to 8 bytes. */
 static void save_bytes(struct generation *g)
 {
@@ -432,6 +498,7 @@ int main(int argc, char **argv)
     mxg_document *document = load(&run, argv[1]);
     test_code(&run);
     test_closures(&run, argv);
+    test_errors(&run, argv);
     with_document(&run, document, "CarPaint", save_error);
     with_document(&run, document, "WrappedSilk", save_bytes);
     with_document(&run, document, "CarPaint", save_nothing);

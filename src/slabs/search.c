@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A beam search: of the trees after n steps, those with the least errors go on. Errors need not
+ * grow from step to step, so a tree beyond the limit may lead to one within it; MARGIN says how far
+ * beyond. Steps in another order often lead to the same tree, which the graph has once.
+ */
+#include "slabs/search.h"
+
+enum { WIDTH = 3 }; /* trees that go on, for each number of steps */
+#define MARGIN 1.5f
+
+/* A tree, and the step that leads to it. */
+struct state {
+    struct slab_candidate by;
+    struct slab_cost cost;
+    float error;
+    uint32_t parent; /* index of the tree before; of the first tree its own */
+    bool is_open;    /* no step from it has been tried */
+};
+
+struct search {
+    struct slab_saver saver; /* at any tree */
+    const struct slab_budget *limits;
+    VEC(struct state) states;
+};
+
+/* ---- Ends ---- */
+
+enum fault { NONE, TOO_FAR, TOO_LARGE };
+
+static bool keeps(uint32_t value, uint32_t limit)
+{
+    return !limit || value <= limit;
+}
+
+static enum fault fault_of(const struct search *s, const struct state *state)
+{
+    if (!keeps(state->cost.closures, s->limits->max_closures)
+        || !keeps(state->cost.bytes, s->limits->max_bytes))
+        return TOO_LARGE;
+    return state->error <= s->limits->max_error ? NONE : TOO_FAR;
+}
+
+static uint32_t num_features(const struct state *state)
+{
+    uint32_t num = 0;
+    for (uint32_t bits = state->cost.features; bits; bits &= bits - 1)
+        num++;
+    return num;
+}
+
+/* True if a is the better end. */
+static bool is_better(const struct search *s, const struct state *a, const struct state *b)
+{
+    enum fault of_a = fault_of(s, a), of_b = fault_of(s, b);
+    const uint32_t sizes[][2] = {{of_a, of_b},
+                                 {a->cost.closures, b->cost.closures},
+                                 {a->cost.bytes, b->cost.bytes},
+                                 {num_features(a), num_features(b)}};
+    size_t num_sizes = of_a == TOO_FAR ? 1 : sizeof sizes / sizeof *sizes;
+    for (size_t i = 0; i < num_sizes; i++)
+        if (sizes[i][0] != sizes[i][1])
+            return sizes[i][0] < sizes[i][1];
+    return a->error < b->error;
+}
+
+/* ---- Levels ---- */
+
+static bool is_new(const struct search *s, ir_ref root)
+{
+    for (uint32_t i = 0; i < s->states.len; i++)
+        if (s->states.items[i].by.root == root)
+            return false;
+    return true;
+}
+
+static void expand(struct search *s, uint32_t from)
+{
+    struct slab_candidates steps = {0};
+    slab_saver_set_root(&s->saver, s->states.items[from].by.root);
+    slab_find_steps(&s->saver, &steps);
+    for (uint32_t i = 0; i < steps.items.len; i++) {
+        struct state next = {.by = steps.items.items[i], .parent = from, .is_open = true};
+        if (!is_new(s, next.by.root))
+            continue;
+        next.error = slab_saver_error(&s->saver, next.by.root);
+        next.cost = slab_saver_cost(&s->saver, next.by.root);
+        if (next.error >= 0.0f)
+            vec_push(s->saver.shader->arena, &s->states, next);
+    }
+}
+
+/* The open tree with the least error from `first` on; the number of trees: there is none. */
+static uint32_t next_open(const struct search *s, uint32_t first, uint32_t end)
+{
+    uint32_t best = end;
+    for (uint32_t i = first; i < end; i++) {
+        const struct state *state = &s->states.items[i];
+        bool is_lost =
+            fault_of(s, state) == TOO_FAR && state->error > MARGIN * s->limits->max_error;
+        if (state->is_open && !is_lost
+            && (best == end || state->error < s->states.items[best].error))
+            best = i;
+    }
+    return best;
+}
+
+static void search_levels(struct search *s)
+{
+    for (uint32_t first = 0, end = s->states.len; first < end;) {
+        for (int i = 0; i < WIDTH; i++) {
+            uint32_t at = next_open(s, first, end);
+            if (at == end)
+                break;
+            s->states.items[at].is_open = false;
+            expand(s, at);
+        }
+        first = end;
+        end = s->states.len;
+    }
+}
+
+void slabs_search(const struct slab_saver *saver, const struct slab_budget *limits,
+                  struct slab_candidates *out)
+{
+    struct search s = {.saver = *saver, .limits = limits};
+    struct arena *arena = saver->shader->arena;
+    struct state start = {.by.root = saver->root, .cost = saver->cost, .is_open = true};
+    start.error = slab_saver_error(&s.saver, saver->root);
+    vec_push(arena, &s.states, start);
+    search_levels(&s);
+    uint32_t best = 0, num = 0;
+    for (uint32_t i = 1; i < s.states.len; i++)
+        if (is_better(&s, &s.states.items[i], &s.states.items[best]))
+            best = i;
+    for (uint32_t i = best; i != 0; i = s.states.items[i].parent, num++)
+        vec_push(arena, &out->items, s.states.items[i].by);
+    for (uint32_t i = 0; i < num / 2; i++) {
+        struct slab_candidate last = out->items.items[num - 1 - i];
+        out->items.items[num - 1 - i] = out->items.items[i];
+        out->items.items[i] = last;
+    }
+}

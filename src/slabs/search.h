@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/* search.c: the steps that lead to the smallest tree of slabs within an error. */
+#ifndef MXG_SLABS_SEARCH_H
+#define MXG_SLABS_SEARCH_H
+
+#include "slabs/steps.h"
+
+/*
+ * Finds the steps, the first one first, from the saver's tree to the smallest one that keeps to the
+ * limits of a budget: with the fewest closures, then bytes, then features, then the least error.
+ * Where none does, to the nearest one that keeps to closures and bytes, or else to the smallest
+ * one. The host has estimates; the caller gives an empty vector.
+ */
+void slabs_search(const struct slab_saver *saver, const struct slab_budget *limits,
+                  struct slab_candidates *out_steps);
+
+#endif
