@@ -14,7 +14,11 @@
  */
 #include "closure/closure_priv.h"
 
+#include "base/hash.h"
+#include "base/table.h"
+
 #include <assert.h>
+#include <stdlib.h>
 
 struct weight {
     ir_ref scalar, color; /* scalar 0: the node is not reached */
@@ -22,15 +26,20 @@ struct weight {
     ir_ref decay;         /* of closure_throughput */
 };
 
+/* A closure of the tree. */
+struct closure_node {
+    ir_ref ref;
+    struct weight weight;
+    ir_ref throughput; /* 0: no layer needs it */
+    ir_ref decay;      /* how the throughput depends on ways through media */
+    bool is_wanted;    /* a layer needs its throughput */
+};
+
 struct flattener {
     struct shader *shader;
     struct ir_graph *graph;
     const struct closure_host *host;
-    ir_ref root;
-    struct weight *weights; /* per node */
-    ir_ref *throughputs;    /* per node; 0: no layer needs it */
-    ir_ref *decays;         /* per node: how throughputs depend on ways through media */
-    uint8_t *wanted;        /* per node: a layer needs its throughput */
+    VEC(struct closure_node) nodes; /* by ref, so operands come first */
 };
 
 static bool is_operator(const struct ir_node *node)
@@ -55,12 +64,71 @@ static ir_ref modified_base(const struct flattener *f, ir_ref ref)
     return ir_arg(f->graph, ref, node->num_args - 1);
 }
 
+/* ---- nodes ---- */
+
+static int compare_nodes(const void *a, const void *b)
+{
+    ir_ref x = ((const struct closure_node *)a)->ref, y = ((const struct closure_node *)b)->ref;
+    return (x > y) - (x < y);
+}
+
+/* Of a closure below the root. */
+static struct closure_node *node_of(const struct flattener *f, ir_ref ref)
+{
+    const struct closure_node key = {.ref = ref};
+    return bsearch(&key, f->nodes.items, f->nodes.len, sizeof key, compare_nodes);
+}
+
+/* The closures that a closure needs; 0 where there is none. */
+static void find_operands(const struct flattener *f, ir_ref ref, ir_ref out[2])
+{
+    const struct ir_node *node = ir_get(f->graph, ref);
+    bool is_pair = is_operator(node) && node->op != IR_CLOSURE_SCALE;
+    out[0] = is_operator(node) ? ir_arg(f->graph, ref, 0) : modified_base(f, ref);
+    out[1] = is_pair ? ir_arg(f->graph, ref, 1) : 0;
+}
+
+static bool is_known(const struct flattener *f, const struct table *known, ir_ref ref)
+{
+    for (uint32_t at = hash_pair(ref, 0), found;
+         (found = table_next(known, hash_pair(ref, 0), &at));)
+        if (f->nodes.items[found - 1].ref == ref)
+            return true;
+    return false;
+}
+
+/* A stack takes the place of recursion. */
+static void find_nodes(struct flattener *f, ir_ref root)
+{
+    struct arena *arena = f->shader->arena;
+    struct table known = {0};
+    VEC(ir_ref) open = {0};
+    vec_push(arena, &open, root);
+    while (open.len) {
+        ir_ref ref = vec_last(&open), operands[2];
+        open.len--;
+        if (!ref || is_known(f, &known, ref))
+            continue;
+        vec_push(arena, &f->nodes, (struct closure_node){.ref = ref});
+        table_add(&known, arena, hash_pair(ref, 0), f->nodes.len);
+        find_operands(f, ref, operands);
+        vec_push(arena, &open, operands[0]);
+        vec_push(arena, &open, operands[1]);
+    }
+    qsort(f->nodes.items, f->nodes.len, sizeof *f->nodes.items, compare_nodes);
+}
+
 /* ---- throughput, upwards ---- */
 
 static ir_ref through_of(const struct flattener *f, ir_ref ref)
 {
-    return ref && f->throughputs[ref] ? f->throughputs[ref]
-                                      : ir_const_splat(f->graph, IR_TYPE_VEC3, 1.0f);
+    ir_ref throughput = ref ? node_of(f, ref)->throughput : 0;
+    return throughput ? throughput : ir_const_splat(f->graph, IR_TYPE_VEC3, 1.0f);
+}
+
+static ir_ref decay_of(const struct flattener *f, ir_ref ref)
+{
+    return ref ? node_of(f, ref)->decay : 0;
 }
 
 static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
@@ -78,78 +146,75 @@ static ir_ref operator_decay(const struct flattener *f, ir_ref ref)
     const struct ir_node *node = ir_get(f->graph, ref);
     ir_ref a = ir_arg(f->graph, ref, 0),
            b = node->op == IR_CLOSURE_SCALE ? a : ir_arg(f->graph, ref, 1);
-    ir_ref of_a = a ? f->decays[a] : 0, of_b = b ? f->decays[b] : 0;
+    ir_ref of_a = decay_of(f, a), of_b = decay_of(f, b);
     if (node->op == IR_LAYER)
         return closure_both_decays(f->graph, of_a, of_b);
     bool keeps = node->op != IR_CLOSURE_ADD || !of_a;
     return of_a == of_b && keeps ? of_a : CLOSURE_MIXED;
 }
 
-/* Marks the operands of the top of each layer: their throughputs are needed. */
-static void want_throughputs(struct flattener *f, uint32_t num_nodes)
+/* Marks what is in the top of each layer: its throughputs are needed. */
+static void want_throughputs(struct flattener *f)
 {
-    for (ir_ref ref = num_nodes; ref-- > 1;) {
-        const struct ir_node *node = ir_get(f->graph, ref);
-        if (!f->weights[ref].scalar && !f->wanted[ref])
-            continue;
-        ir_ref base = modified_base(f, ref);
-        assert(base < ref);
-        if (base) {
-            f->wanted[base] |= f->wanted[ref];
-            f->weights[base].scalar |= f->weights[ref].scalar;
-        }
-        if (!is_operator(node))
-            continue;
-        const ir_ref *args = ir_args(f->graph, ref);
-        unsigned closures = node->op == IR_CLOSURE_SCALE ? 1 : 2;
-        for (unsigned i = 0; i < closures; i++) {
-            if (args[i] && f->weights[ref].scalar)
-                f->weights[args[i]].scalar = 1; /* reached; the weight comes later */
-            if (args[i] && (f->wanted[ref] || (node->op == IR_LAYER && i == 0)))
-                f->wanted[args[i]] = 1;
-        }
+    for (uint32_t i = f->nodes.len; i-- > 0;) {
+        const struct closure_node *node = &f->nodes.items[i];
+        ir_ref operands[2];
+        find_operands(f, node->ref, operands);
+        for (int k = 0; k < 2; k++)
+            if (operands[k])
+                node_of(f, operands[k])->is_wanted |=
+                    node->is_wanted || (k == 0 && ir_get(f->graph, node->ref)->op == IR_LAYER);
     }
 }
 
-static void find_throughputs(struct flattener *f, uint32_t num_nodes)
+static void find_throughput(struct flattener *f, struct closure_node *node)
 {
-    for (ir_ref ref = 1; ref < num_nodes; ref++) {
-        if (!f->wanted[ref])
+    ir_ref base = modified_base(f, node->ref);
+    if (base) { /* a modifier has the throughput of its base */
+        node->throughput = node_of(f, base)->throughput;
+        node->decay = node_of(f, base)->decay;
+    } else if (ir_get(f->graph, node->ref)->op == IR_LEAF) {
+        node->throughput = closure_leaf_throughput(f->shader, f->host, node->ref, &node->decay);
+    } else if (is_operator(ir_get(f->graph, node->ref))) {
+        node->throughput = operator_throughput(f, node->ref);
+        node->decay = operator_decay(f, node->ref);
+    }
+    closure_name(f->shader, node->throughput, node->ref, "throughput");
+}
+
+static void find_throughputs(struct flattener *f)
+{
+    for (uint32_t i = 0; i < f->nodes.len; i++) {
+        struct closure_node *node = &f->nodes.items[i];
+        if (!node->is_wanted)
             continue;
-        uint8_t op = ir_get(f->graph, ref)->op;
-        ir_push_origin_of(f->graph, ref);
-        if (modified_base(f, ref)) { /* a modifier has the throughput of its base */
-            f->throughputs[ref] = f->throughputs[modified_base(f, ref)];
-            f->decays[ref] = f->decays[modified_base(f, ref)];
-        } else if (op == IR_LEAF) {
-            f->throughputs[ref] = closure_leaf_throughput(f->shader, f->host, ref, &f->decays[ref]);
-        } else if (is_operator(ir_get(f->graph, ref))) {
-            f->throughputs[ref] = operator_throughput(f, ref);
-            f->decays[ref] = operator_decay(f, ref);
-        }
-        closure_name(f->shader, f->throughputs[ref], ref, "throughput");
+        ir_push_origin_of(f->graph, node->ref);
+        find_throughput(f, node);
         ir_pop_origin(f->graph);
     }
 }
 
 /*
- * Multiplies weights by the throughput for incoming light, which is the throughput for a viewer in
- * the light's direction. The product ignores light that bounces between layers, so it is a lower
- * bound.
+ * Multiplies throughputs by those for incoming light, which are the throughputs for a viewer in the
+ * light's direction. The product ignores light that bounces between layers, so it is a lower bound.
  */
-static void add_way_in(struct flattener *f, uint32_t num_nodes)
+static void add_way_in(struct flattener *f)
 {
-    ir_ref *both = f->throughputs, *decays = f->decays, view = f->host->point->view;
-    f->throughputs = ARENA_ARRAY(f->shader->arena, ir_ref, num_nodes);
-    f->decays = ARENA_ARRAY(f->shader->arena, ir_ref, num_nodes);
+    struct flattener in = {.shader = f->shader, .graph = f->graph, .host = f->host};
+    ir_ref view = f->host->point->view;
+    for (uint32_t i = 0; i < f->nodes.len; i++)
+        vec_push(f->shader->arena, &in.nodes,
+                 (struct closure_node){.ref = f->nodes.items[i].ref,
+                                       .is_wanted = f->nodes.items[i].is_wanted});
     f->host->point->view = *f->host->way_in;
-    find_throughputs(f, num_nodes);
+    find_throughputs(&in);
     f->host->point->view = view;
-    for (ir_ref ref = 1; ref < num_nodes; ref++)
-        if (both[ref] && !decays[ref]) /* a decay is the way in through media */
-            both[ref] = ir_op2(f->graph, IR_MUL, both[ref], f->throughputs[ref]);
-    f->throughputs = both;
-    f->decays = decays;
+    for (uint32_t i = 0; i < f->nodes.len; i++) {
+        struct closure_node *node = &f->nodes.items[i];
+        if (node->throughput && !node->decay) /* a decay is the way in through media */
+            node->throughput =
+                ir_op2(f->graph, IR_MUL, node->throughput, in.nodes.items[i].throughput);
+    }
 }
 
 /* ---- weights, downwards ---- */
@@ -173,8 +238,8 @@ static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
     ir_ref scalar = add.scalar, color = add.color;
     if (!ref || ir_const_is(g, scalar, 0.0f) || (color && ir_const_is(g, color, 0.0f)))
         return;
-    assert(ref <= f->root && ir_get(g, ref)->flags & IR_NODE_CLOSURE);
-    struct weight *w = &f->weights[ref];
+    assert(ir_get(g, ref)->flags & IR_NODE_CLOSURE);
+    struct weight *w = &node_of(f, ref)->weight;
     if (!w->scalar) {
         *w = add;
         return;
@@ -221,10 +286,9 @@ static ir_ref medium_of(struct flattener *f, ir_ref volume)
     return sum ? ir_op1(g, IR_EXP, ir_op1(g, IR_NEG, sum)) : 0;
 }
 
-static void spread(struct flattener *f, ir_ref ref)
+static void spread(struct flattener *f, ir_ref ref, struct weight w)
 {
     struct ir_graph *g = f->graph;
-    struct weight w = f->weights[ref];
     uint8_t op = ir_get(g, ref)->op;
     assert(w.scalar && ir_type_of(g, w.scalar) == IR_TYPE_FLOAT);
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
@@ -235,7 +299,7 @@ static void spread(struct flattener *f, ir_ref ref)
             w.medium = closure_mul(g, w.medium, medium_of(f, b));
         else if (b) {
             struct weight below = w;
-            below.decay = closure_both_decays(g, w.decay, a ? f->decays[a] : 0);
+            below.decay = closure_both_decays(g, w.decay, decay_of(f, a));
             add_scaled(f, b, below, through_of(f, a));
         }
         add_weight(f, a, w);
@@ -289,10 +353,9 @@ static void merge_leaf(struct flattener *f, struct closure_list *out, ir_ref lea
                                    .decay = w.decay});
 }
 
-static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
+static void take_leaf(struct flattener *f, ir_ref ref, struct weight w, struct closure_list *out)
 {
     struct ir_graph *g = f->graph;
-    struct weight w = f->weights[ref];
     ir_ref base = modified_base(f, ref);
     assert(w.scalar && (!base || base < ref));
     if (base) {
@@ -312,18 +375,13 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
 static struct flattener find_all_throughputs(struct shader *shader, const struct closure_host *host,
                                              ir_ref root, bool whole)
 {
-    uint32_t num_nodes = root + 1;
-    struct flattener f = {.shader = shader, .graph = shader->graph, .host = host, .root = root};
-    f.weights = ARENA_ARRAY(shader->arena, struct weight, num_nodes);
-    f.throughputs = ARENA_ARRAY(shader->arena, ir_ref, num_nodes);
-    f.decays = ARENA_ARRAY(shader->arena, ir_ref, num_nodes);
-    f.wanted = ARENA_ARRAY(shader->arena, uint8_t, num_nodes);
-    f.weights[root].scalar = 1;
-    f.wanted[root] = whole;
-    want_throughputs(&f, num_nodes);
-    find_throughputs(&f, num_nodes);
+    struct flattener f = {.shader = shader, .graph = shader->graph, .host = host};
+    find_nodes(&f, root);
+    vec_last(&f.nodes).is_wanted = whole;
+    want_throughputs(&f);
+    find_throughputs(&f);
     if (host->way_in)
-        add_way_in(&f, num_nodes);
+        add_way_in(&f);
     return f;
 }
 
@@ -334,8 +392,8 @@ static struct closure_leaf whole_throughput(struct shader *shader, const struct 
     struct flattener f = find_all_throughputs(shader, host, root, true);
     return (struct closure_leaf){.leaf = root,
                                  .scalar = ir_const_float(shader->graph, 1.0f),
-                                 .color = f.throughputs[root],
-                                 .decay = f.decays[root]};
+                                 .color = vec_last(&f.nodes).throughput,
+                                 .decay = vec_last(&f.nodes).decay};
 }
 
 ir_ref closure_throughput(struct shader *shader, const struct closure_host *host, ir_ref root,
@@ -357,23 +415,22 @@ ir_ref closure_throughput(struct shader *shader, const struct closure_host *host
 static void flatten_along(struct shader *shader, const struct closure_host *host, ir_ref root,
                           struct closure_list *out)
 {
-    uint32_t num_nodes = root + 1;
     struct flattener f = find_all_throughputs(shader, host, root, false);
     memset(out, 0, sizeof *out);
-    memset(f.weights, 0, num_nodes * sizeof *f.weights);
-    f.weights[root].scalar = ir_const_float(shader->graph, 1.0f);
-    for (ir_ref ref = num_nodes; ref-- > 1;) {
-        if (!f.weights[ref].scalar)
+    vec_last(&f.nodes).weight.scalar = ir_const_float(shader->graph, 1.0f);
+    for (uint32_t i = f.nodes.len; i-- > 0;) {
+        const struct closure_node node = f.nodes.items[i];
+        if (!node.weight.scalar)
             continue;
         /* a weight gets the name of the operator that makes it */
-        ir_push_origin_of(f.graph, ref);
-        if (is_operator(ir_get(f.graph, ref)))
-            spread(&f, ref);
-        else if (ir_get(f.graph, ref)->op == IR_LEAF)
-            take_leaf(&f, ref, out);
+        ir_push_origin_of(f.graph, node.ref);
+        if (is_operator(ir_get(f.graph, node.ref)))
+            spread(&f, node.ref, node.weight);
+        else if (ir_get(f.graph, node.ref)->op == IR_LEAF)
+            take_leaf(&f, node.ref, node.weight, out);
         ir_pop_origin(f.graph);
     }
-    assert(out->leaves.len < num_nodes);
+    assert(out->leaves.len <= f.nodes.len);
 }
 
 static bool any_mixed(const struct closure_list *list)

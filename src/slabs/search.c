@@ -6,7 +6,8 @@
  */
 #include "slabs/search.h"
 
-enum { WIDTH = 3 }; /* trees that go on, for each number of steps */
+/* Trees that go on for each number of steps: large trees take longer, and have more steps. */
+enum { WIDTH = 3, WIDTH_OF_LARGE = 1, LARGE = 8 /* closures */ };
 #define MARGIN 1.5f
 
 /* A tree, and the step that leads to it. */
@@ -107,8 +108,9 @@ static uint32_t next_open(const struct search *s, uint32_t first, uint32_t end)
 
 static void search_levels(struct search *s)
 {
+    int width = s->saver.cost.closures > LARGE ? WIDTH_OF_LARGE : WIDTH;
     for (uint32_t first = 0, end = s->states.len; first < end;) {
-        for (int i = 0; i < WIDTH; i++) {
+        for (int i = 0; i < width; i++) {
             uint32_t at = next_open(s, first, end);
             if (at == end)
                 break;
