@@ -7,7 +7,11 @@
 
 /* passes.c: writes lines of texts.h. */
 void deferred_write_lines(const char *const *lines, struct text *out);
-/* Writes the place of the resources and record.glsl, the first part of every pass. */
+/* Writes the numbers that C and the texts share, and record.glsl: the first part of every pass. */
 void deferred_write_storage(const struct deferred_layout *layout, struct text *out);
+
+/* resources.c: declares a resource for those who read or write it. */
+void deferred_declare(enum deferred_binding binding, const struct deferred_layout *layout,
+                      bool reads, bool writes, struct text *out);
 
 #endif

@@ -169,8 +169,7 @@ static struct closure_list marks_of(const struct shader *shader, ir_ref bsdf,
 /* ---- Sizes ---- */
 
 enum {
-    NUM_TARGET_WORDS = 3, /* that are render targets */
-    WHOLE_WORDS = 47      /* of a closure in whole floats: as many as mx_put_whole writes */
+    WHOLE_WORDS = 47 /* of a closure in whole floats: as many as mx_put_whole writes */
 };
 
 static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
@@ -206,9 +205,9 @@ static uint32_t count_words(const struct ir_graph *g, const struct stored_slab *
                             enum deferred_storage storage)
 {
     if (storage == STORAGE_FLOAT)
-        return NUM_TARGET_WORDS + WHOLE_WORDS * num;
+        return DEFERRED_TARGET_WORDS + WHOLE_WORDS * num;
     uint32_t words = slab_stored_pixel(g, slabs, num);
-    return words > NUM_TARGET_WORDS ? words : NUM_TARGET_WORDS;
+    return words > DEFERRED_TARGET_WORDS ? words : DEFERRED_TARGET_WORDS;
 }
 
 /* The classes that mx_class_of and mx_finish_closures may choose, as bits. */
@@ -304,6 +303,8 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
     text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->stored_words);
+    if (!layout->is_payload && shader->stored_words > DEFERRED_TARGET_WORDS)
+        deferred_declare(RESOURCE_WORDS, layout, false, true, &text);
     deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
     deferred_write_lines(deferred_store_closure, &text);
     uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),

@@ -1,10 +1,5 @@
 // The closures of a pixel, from the top down.
 
-layout(MX_WORD_0, r32ui) uniform readonly restrict uimage2D mx_word_0;
-layout(MX_WORD_1, r32ui) uniform readonly restrict uimage2D mx_word_1;
-layout(MX_WORD_2, r32ui) uniform readonly restrict uimage2D mx_word_2;
-layout(MX_STORED_IMAGE, r32ui) uniform readonly restrict uimage2DArray mx_words;
-
 struct MxReader
 {
     ivec2 pixel;
@@ -34,9 +29,9 @@ MxReader mx_open(ivec2 pixel)
 {
     MxReader reader;
     reader.pixel = pixel;
-    reader.core = imageLoad(mx_word_0, pixel).x;
-    reader.body = imageLoad(mx_word_1, pixel).x;
-    reader.top = imageLoad(mx_word_2, pixel).x;
+    reader.core = imageLoad(mx_word0, pixel).x;
+    reader.body = imageLoad(mx_word1, pixel).x;
+    reader.top = imageLoad(mx_word2, pixel).x;
     reader.class_ = mx_class(reader.core);
     reader.num_closures = reader.class_ == MX_EMPTY ? 0u : (reader.body >> 28u) + 1u;
     reader.next = 0u;
