@@ -141,6 +141,20 @@ check "is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction
 check "and lights itself" eval '! grep -q mx_word0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
 check "glass in a budget" as_slabs -e Glass --interface reduced --max-closures 4
 check "is stored" eval 'grep -q mx_word0 models/Glass.frag && ! grep -q drawn-forward out'
+cat >absent.mtlx <<'X'
+<materialx version="1.39">
+  <oren_nayar_diffuse_bsdf name="none" type="BSDF"><input name="weight" type="float" value="0"/></oren_nayar_diffuse_bsdf>
+  <oren_nayar_diffuse_bsdf name="red" type="BSDF"><input name="color" type="color3" value="0.75, 0.125, 0.25"/></oren_nayar_diffuse_bsdf>
+  <layer name="both" type="BSDF"><input name="top" type="BSDF" nodename="none"/><input name="base" type="BSDF" nodename="red"/></layer>
+  <surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></surface>
+</materialx>
+X
+stores_red() {
+    "$mxgen" absent.mtlx --target vulkan --pipeline deferred --interface reduced --slabs -o absent "$@" >out &&
+        grep -q 'mx_store_closure(stored, vec3(0.75, 0.125, 0.25)' absent/SR.frag
+}
+check "a top of weight 0 hides nothing" stores_red
+check "but all with --layering occluding" eval '! stores_red --layering occluding && test -s absent/SR.frag'
 check "what only glows" as_slabs -e Flat --interface reduced
 check "passes do not become slabs" "$mxgen" pipeline slabs --slabs --max-closures 1
 check "but stay as they are" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'
