@@ -189,12 +189,13 @@ void deferred_write_storage(const struct deferred_layout *layout, struct text *o
     define("MX_PAYLOAD_WORDS", DEFERRED_PAYLOAD_WORDS, out);
     for (uint32_t i = 0; i < NUM_CLASSES; i++)
         define(classes[i].macro, i, out);
+    deferred_write_struct(out);
     deferred_write_lines(deferred_record, out);
 }
 
 uint32_t deferred_layout_number(const struct deferred_layout *layout)
 {
-    uint64_t h = HASH_STABLE_SEED;
+    uint64_t h = deferred_hash_values(HASH_STABLE_SEED);
     uint32_t storage = (uint32_t)layout->storage | (uint32_t)layout->is_payload << 8
                        | (uint32_t)layout->diffuses << 9 | (uint32_t)layout->blurs << 10;
     for (const char *const *line = deferred_record; *line; line++)
@@ -266,6 +267,8 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
         if (surface && is_last)
             write_fill(surface, out);
         deferred_write_lines(passes[pass].texts[i], out);
+        if (passes[pass].texts[i] == deferred_read && layout->storage == STORAGE_FLOAT)
+            deferred_write_get(out);
     }
 }
 

@@ -1,24 +1,6 @@
 // The storage of closures (docs/deferred.md): how values become bits, for those who write and those who read. MX_STORAGE: 0 rounds with
 // dither, 1 rounds, 2 keeps whole floats. MX_BLUR: 1 where rough interfaces blur what lies below.
 
-// A slab, with what lies above it: light on a way x through media weighs steady + color * pow(decay, x).
-struct MxClosure
-{
-    vec3 diffuse_albedo, f0, f90;
-    float roughness, anisotropy;
-    vec3 normal, tangent;
-    float second_roughness, second_roughness_weight, fuzz_amount;
-    vec3 fuzz_color;
-    float fuzz_roughness;
-    vec3 free_path; // over the thickness of the medium, or over the radius of the surface of a body
-    float phase_anisotropy, is_thick, glint_density;
-    vec2 glint_uv, glint_extent; // the latter: how far a pixel goes along each
-    float tint_index, tint_weight;
-    float blur; // deviation on the surface, in the world
-    vec3 steady, color, decay;
-    float spreads;
-};
-
 // What a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
 const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FUZZ = 8u, MX_HAS_ANISOTROPY = 16u;
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less

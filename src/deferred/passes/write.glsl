@@ -30,6 +30,12 @@ void mx_put(float value)
     mx_put(floatBitsToUint(value));
 }
 
+void mx_put(vec2 value)
+{
+    mx_put(value.x);
+    mx_put(value.y);
+}
+
 void mx_put(vec3 value)
 {
     mx_put(value.x);
@@ -63,36 +69,7 @@ void mx_put_features(MxRecord r)
 }
 
 #if MX_STORAGE == 2
-void mx_put_whole(MxClosure c)
-{
-    mx_put(c.diffuse_albedo);
-    mx_put(c.f0);
-    mx_put(c.f90);
-    mx_put(c.roughness);
-    mx_put(c.anisotropy);
-    mx_put(c.normal);
-    mx_put(c.tangent);
-    mx_put(c.second_roughness);
-    mx_put(c.second_roughness_weight);
-    mx_put(c.fuzz_amount);
-    mx_put(c.fuzz_color);
-    mx_put(c.fuzz_roughness);
-    mx_put(c.free_path);
-    mx_put(c.phase_anisotropy);
-    mx_put(c.is_thick);
-    mx_put(c.glint_density);
-    mx_put(c.glint_uv.x);
-    mx_put(c.glint_uv.y);
-    mx_put(c.glint_extent.x);
-    mx_put(c.glint_extent.y);
-    mx_put(c.tint_index);
-    mx_put(c.tint_weight);
-    mx_put(c.blur);
-    mx_put(c.steady);
-    mx_put(c.color);
-    mx_put(c.decay);
-    mx_put(c.spreads);
-}
+void mx_put_whole(MxClosure c);
 #endif
 
 // Writes the pending closure, below which another one lies.
