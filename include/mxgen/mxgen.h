@@ -537,8 +537,8 @@ MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *docume
  * The passes of the deferred pipeline that belong to no material (docs/deferred.md), in their
  * order. Their texts depend on the options alone. A pass is a result with one source, of a compute
  * stage, in the place of the pixel stage; a lighting pass has variables, as a surface has. A pass
- * that the options do not ask for ("diffuse", "blur") has no source. `desc` names a target and
- * options only.
+ * that the options do not ask for ("diffuse", "blur") has no source and no reflection. `desc` names
+ * a target and options only.
  */
 MXG_API uint32_t mxg_num_passes(void);
 MXG_API const char *mxg_pass_name(uint32_t index); /* NULL: there is no such pass */

@@ -44,7 +44,8 @@ static void write_pass(struct generation *g, enum deferred_pass pass)
     struct text text;
     const char *version = g->options[OPTION_version].text;
     result->storage = generation_storage(g->options, result->target, g->lights_rays);
-    if (!deferred_has_pass(pass, &result->storage))
+    result->has_shader = deferred_has_pass(pass, &result->storage);
+    if (!result->has_shader)
         return;
     text_init(&text, &result->object.arena);
     deferred_write_pass(pass, &result->storage, *version ? version : result->target->versions[0],
@@ -93,7 +94,8 @@ mxg_status mxg_generate_pass(mxg_context *context, uint32_t index, const mxg_gen
         *out_result = NULL;
     mxg_generate_desc full;
     if (!context || index >= NUM_PASSES || !generation_names_target(desc)
-        || !struct_read(&full, sizeof full, desc) || full.element || full.bindings)
+        || !struct_read(&full, sizeof full, desc) || full.element || full.bindings
+        || full.without_source)
         return MXG_ERROR_ARGUMENT;
     enum deferred_pass pass = (enum deferred_pass)index;
     mxg_document *document;
