@@ -33,8 +33,9 @@ static bool write_pass(struct cli *cli, uint32_t index, const char *target, cons
         const char *name = mxg_pass_name(index),
                    *text = mxg_result_source(result, MXG_STAGE_PIXEL, &size),
                    *json = mxg_result_reflection_json(result, &json_size);
-        good = write_file(&cli->report, folder, name, "comp", text, size)
-               && write_file(&cli->report, folder, name, "json", json, json_size);
+        good = !text /* the options do not ask for it */
+               || (write_file(&cli->report, folder, name, "comp", text, size)
+                   && write_file(&cli->report, folder, name, "json", json, json_size));
     }
     mxg_result_destroy(result);
     return good;

@@ -58,9 +58,11 @@ static bool add_pass(struct passes *passes, const struct passes_setup *setup,
            || fail(passes, setup->gpu->id, setup->gpu->reason);
 }
 
-/* False for a pass over classes that no material has. */
+/* False for a pass that the options do not ask for, or over classes that no material has. */
 static bool is_needed(const struct passes_setup *setup, const mxg_result *pass)
 {
+    if (!mxg_result_source(pass, MXG_STAGE_PIXEL, NULL))
+        return false;
     mxg_shader_info info = {sizeof info};
     mxg_result_info(pass, &info);
     return !info.stored_classes || info.stored_classes & setup->classes;

@@ -40,7 +40,7 @@ static const VkDescriptorType types[NUM_BINDINGS] = {
 
 struct frame { /* as the passes declare it */
     float to_world[16];
-    uint32_t size[4], shown[4];
+    uint32_t size[2], tiles_per_row, num_tiles, shown, unused[3];
 };
 
 struct pass {
@@ -310,9 +310,9 @@ void stored_update(struct stored *stored, const struct stored_frame *from)
     memcpy(frame->to_world, from->to_world, sizeof frame->to_world);
     frame->size[0] = stored->width;
     frame->size[1] = stored->height;
-    frame->size[2] = stored->tiles_x;
-    frame->size[3] = stored->tiles_x * stored->tiles_y;
-    frame->shown[0] = from->shown;
+    frame->tiles_per_row = stored->tiles_x;
+    frame->num_tiles = stored->tiles_x * stored->tiles_y;
+    frame->shown = from->shown;
     for (uint32_t i = 0; i < stored->num_passes; ++i)
         inputs_update(stored->passes[i].source.draw, &stored->passes[i].inputs);
 }

@@ -536,8 +536,9 @@ MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *docume
 /*
  * The passes of the deferred pipeline that belong to no material (docs/deferred.md), in their
  * order. Their texts depend on the options alone. A pass is a result with one source, of a compute
- * stage, in the place of the pixel stage; a lighting pass has variables, as a surface has. `desc`
- * names a target and options only.
+ * stage, in the place of the pixel stage; a lighting pass has variables, as a surface has. A pass
+ * that the options do not ask for ("diffuse", "blur") has no source and no reflection. `desc` names
+ * a target and options only.
  */
 MXG_API uint32_t mxg_num_passes(void);
 MXG_API const char *mxg_pass_name(uint32_t index); /* NULL: there is no such pass */
@@ -546,17 +547,50 @@ MXG_API mxg_status mxg_generate_pass(mxg_context *context, uint32_t index,
 
 /*
  * A resource that the passes share, and material passes write, in descriptor set binding-set + 1 of
- * the target vulkan. Its binding is its index.
+ * the target vulkan. Its binding is its index. The JSON of a pass has the same.
  */
 typedef struct mxg_pass_resource {
-    size_t size;        /* in */
-    const char *name;   /* "words" */
-    const char *kind;   /* "image2D", "image2DArray", "sampler2D", "buffer" or "uniform" */
-    const char *format; /* "r32ui", "std430"; "": any */
+    size_t size;      /* in */
+    const char *name; /* "words" */
+    const char *kind; /* "image2D", "image2DArray", "sampler2D", "buffer" or "uniform" */
+    /* "r32ui"; "any": every format of floats; "std430", "std140": of buffers; "": of samplers */
+    const char *format;
     const char *doc;
+    uint32_t num_layers;  /* of "image2DArray"; 0 of "words": as many as the materials need */
+    uint32_t byte_size;   /* of a buffer, without its arrays per tile or pixel */
+    uint32_t num_members; /* of a buffer */
 } mxg_pass_resource;
 MXG_API uint32_t mxg_num_pass_resources(void);
 MXG_API mxg_status mxg_get_pass_resource(uint32_t index, mxg_pass_resource *out);
+
+/* A member of a buffer. */
+typedef struct mxg_pass_member {
+    size_t size;        /* in */
+    const char *name;   /* as in the source: "mx_to_world" */
+    const char *type;   /* "mat4", or the name of a struct */
+    const char *values; /* the words of its numbers, from 0, separated by '|'; "": any number */
+    const char *doc;
+    const char *per; /* "tile" or "pixel": the array is as long for each of them; "": one array */
+    uint32_t offset; /* in bytes, from the buffer or the struct */
+    uint32_t array_length, array_stride; /* 0: no array */
+    uint32_t matrix_stride;              /* 0: no matrix */
+    bool
+        is_nested; /* in the struct that is the type of the last member before that is not nested */
+} mxg_pass_member;
+MXG_API mxg_status mxg_get_pass_member(uint32_t resource, uint32_t index, mxg_pass_member *out);
+
+/* How a pass runs. */
+typedef struct mxg_pass {
+    size_t size; /* in */
+    const char *name;
+    uint32_t group_size[3]; /* invocations of a group, which covers a tile of as many pixels */
+    bool
+        is_indirect; /* the buffer `tiles` has the command of its dispatch; else a group per tile */
+    uint32_t dispatch_offset; /* of that command, in bytes */
+    uint32_t reads, writes;   /* bits of resources, by their index */
+} mxg_pass;
+/* MXG_ERROR_ARGUMENT: the result is no pass. */
+MXG_API mxg_status mxg_result_pass(const mxg_result *result, mxg_pass *out);
 MXG_API void mxg_result_destroy(mxg_result *result);
 
 /*

@@ -278,20 +278,21 @@ export class Context extends Owner {
     // ---- The deferred pipeline ----
 
     /**
-     * The passes of the deferred pipeline that belong to no material (docs/deferred.md): [{ name, shader }] in their order. The source of a
-     * pass is that of `shader.pixel`, a compute stage. Throws DocumentError.
+     * The passes of the deferred pipeline that belong to no material (docs/deferred.md): [{ name, shader }] in their order, as far as the
+     * options ask for them. The source of a pass is that of `shader.pixel`, a compute stage. Throws DocumentError.
      */
     passes(target, { options = null } = {}) {
         const native = this._native, { lib } = native;
         return native.using(() => withOptions(this, options, made => {
             const desc = native.newStruct("mxg_generate_desc", { target: native.newText(target, "target"), options: made });
-            return Array.from({ length: lib.mxg_num_passes() }, (_, index) => {
+            const all = Array.from({ length: lib.mxg_num_passes() }, (_, index) => {
                 const { handle, status } = this._make("mxg_generate_pass", "mxg_result_destroy", [], out => [index, desc, out]);
                 const shader = new Shader(native, handle);
                 if (status === STATUS.errorDocument)
                     throw new DocumentError(shader.diagnostics);
                 return { name: native.text(lib.mxg_pass_name(index)), shader };
             });
+            return all.filter(({ shader }) => shader.pixel !== null);
         }));
     }
 

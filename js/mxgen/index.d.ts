@@ -143,7 +143,7 @@ export class Context extends Owner {
     loadScene(path: string, request?: { purpose?: string | null }): Scene;
     /** The materials in a USD scene as a document. Throws DocumentError. */
     sceneMaterials(scene: Scene, request?: { library?: Library | null }): Document;
-    /** The passes of the deferred pipeline that belong to no material, in their order. Their source is `shader.pixel`. Throws DocumentError. */
+    /** The passes of the deferred pipeline that belong to no material, in their order, as far as the options ask for them. Their source is `shader.pixel`. Throws DocumentError. */
     passes(target: string, request?: { options?: Record<string, boolean | number | string | string[]> | null }): { name: string; shader: Shader }[];
     /** Reads a document and writes it again. `text` null: reads the file `name`. */
     rewrite(rewriting: Rewriting, name: string, text?: string | ArrayBuffer | ArrayBufferView | null): { text: string; diagnostics: Diagnostics };
@@ -437,9 +437,51 @@ export interface Fact {
 export interface PassResource {
     name: string;
     kind: "image2D" | "image2DArray" | "sampler2D" | "buffer" | "uniform";
-    /** "r32ui", "std430"; "": any */
+    /** "r32ui"; "any": every format of floats; "std430", "std140": of buffers; "": of samplers */
     format: string;
     doc: string;
+    /** of "image2DArray"; 0 of "words": as many as the materials need */
+    numLayers: number;
+    /** of a buffer, without its arrays per tile or pixel */
+    byteSize: number;
+    /** of a buffer */
+    members: PassMember[];
+}
+
+/** A member of a buffer of the deferred pipeline. */
+export interface PassMember {
+    /** as in the source: "mx_to_world" */
+    name: string;
+    /** "mat4", or the name of a struct */
+    type: string;
+    /** the words of its numbers, from 0, separated by '|'; "": any number */
+    values: string;
+    doc: string;
+    /** the array is as long for each of them; "": one array */
+    per: "tile" | "pixel" | "";
+    /** in bytes, from the buffer or the struct */
+    offset: number;
+    /** 0: no array */
+    arrayLength: number;
+    arrayStride: number;
+    /** 0: no matrix */
+    matrixStride: number;
+    /** in the struct that is the type of the last member before that is not nested */
+    isNested: boolean;
+}
+
+/** How a pass of the deferred pipeline runs. */
+export interface PassInfo {
+    name: string;
+    /** invocations of a group, which covers a tile of as many pixels */
+    groupSize: [number, number, number];
+    /** the buffer "tiles" has the command of its dispatch; else a group per tile */
+    isIndirect: boolean;
+    /** of that command, in bytes */
+    dispatchOffset: number;
+    /** bits of resources, by their place in `passResources` */
+    reads: number;
+    writes: number;
 }
 
 /** A layer of a primitive (docs/slots.md). */
@@ -561,6 +603,8 @@ export interface ShaderInfo {
     /** words of 32 bits that a material of the deferred pipeline stores; 0: the shader lights itself */
     storedWords: number;
     layout: number;
+    /** classes of pixels, as bits, that a material may store or a lighting pass lights */
+    storedClasses: number;
 }
 
 /** An input whose value is compiled in. */
@@ -619,6 +663,7 @@ export class Shader extends Owner {
     readonly files: string[];
     readonly diagnostics: Diagnostics;
     readonly info: ShaderInfo;
+    readonly passInfo: PassInfo | null;
     readonly variables: Variable[];
     findVariable(path: string): Variable | null;
     textureFile(variable: Pick<Variable, "index">, request?: { tile?: number; frame?: number }): string | null;

@@ -51,7 +51,9 @@ export class Mxgen {
     /** The resources that the passes of the deferred pipeline share; the place in the list is the binding. */
     get passResources() {
         const { lib } = this.#native;
-        return this.#native.records("mxg_pass_resource", lib.mxg_num_pass_resources(), (index, out) => lib.mxg_get_pass_resource(index, out));
+        const found = this.#native.records("mxg_pass_resource", lib.mxg_num_pass_resources(), (index, out) => lib.mxg_get_pass_resource(index, out));
+        return found.map(({ numMembers, ...resource }, binding) => ({ ...resource,
+            members: this.#native.records("mxg_pass_member", numMembers, (index, out) => lib.mxg_get_pass_member(binding, index, out)) }));
     }
 
     /** Whether an option has a meaning for a target, which ignores the others. */

@@ -84,6 +84,11 @@ export class Shader extends Owner {
         return info;
     }
 
+    /** How the pass of the deferred pipeline runs; null for a shader that is none. */
+    get passInfo() {
+        return this._native.record("mxg_pass", out => this._native.lib.mxg_result_pass(this._pointer, out));
+    }
+
     #variable(index) {
         const { lib } = this._native, variable = this._native.record("mxg_variable", out => lib.mxg_result_variable(this._pointer, index, out));
         variable.index = index;

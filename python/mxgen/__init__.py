@@ -8,7 +8,7 @@
     print(shader.pixel)
 
 docs/python.md is the guide; the C library's header, include/mxgen/mxgen.h, has every detail."""
-from .catalogue import Option, OptionType, PassResource, Target, option_applies, options, pass_resources, targets
+from .catalogue import Option, OptionType, PassMember, PassResource, Target, option_applies, options, pass_resources, targets
 from .context import Context, File, ListFolder, Resolver, Rewriting, Rewritten
 from .definition import Library, NodeDef, Port
 from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, color_difference, diagnostic_kinds, library_version
@@ -17,8 +17,8 @@ from .edit import Draft, Edit, NewValue
 from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, OutOfMemoryError
 from .scene import (Bindings, BindingsFormat, Fact, FactKind, Layer, LayerKind, NewPrimitive, Primitive, Property, Scene, SlotBinding,
                     Stack, decode_slot, encode_slot)
-from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, Place, Semantic, Shader,
-                     ShaderInfo, Stage, Tile, Variable, View, semantics)
+from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, PassInfo, Place, Semantic,
+                     Shader, ShaderInfo, Stage, Tile, Variable, View, semantics)
 
 __version__ = library_version()
 
@@ -26,7 +26,7 @@ __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "Blo
            "CompiledInput", "Connection", "Context", "Diagnostic", "DiagnosticKind", "Diagnostics", "Document",
            "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "Fact", "FactKind", "File", "InputState", "InternalError",
            "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewPrimitive", "NewValue", "NodeDef", "Option", "OptionType",
-           "OptionValue", "OutOfMemoryError", "Part", "PassResource", "Place", "Port", "Primitive", "Property", "Renderable",
-           "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding", "Stack",
+           "OptionValue", "OutOfMemoryError", "Part", "PassInfo", "PassMember", "PassResource", "Place", "Port", "Primitive", "Property",
+           "Renderable", "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding", "Stack",
            "Stage", "Target", "Tile", "Value", "Variable", "View", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
            "equal", "library_version", "option_applies", "options", "pass_resources", "semantics", "targets"]

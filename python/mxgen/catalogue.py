@@ -45,15 +45,54 @@ class Option:
 
 
 @dataclass(frozen=True)
+class PassMember:
+    """A member of a buffer of the deferred pipeline."""
+
+    #: as in the source: "mx_to_world"
+    name: str
+    #: "mat4", or the name of a struct
+    type: str
+    #: the words of its numbers, from 0, separated by '|'; "": any number
+    values: str
+    doc: str
+    #: "tile" or "pixel": the array is as long for each of them; "": one array
+    per: str
+    #: in bytes, from the buffer or the struct
+    offset: int
+    #: 0: no array
+    array_length: int
+    array_stride: int
+    #: 0: no matrix
+    matrix_stride: int
+    #: in the struct that is the type of the last member before that is not nested
+    is_nested: bool
+
+
+@dataclass(frozen=True)
 class PassResource:
     """A resource that the passes of the deferred pipeline share; its binding is its place in `pass_resources()`."""
 
     name: str
     #: "image2D", "image2DArray", "sampler2D", "buffer" or "uniform"
     kind: str
-    #: "r32ui", "std430"; "": any
+    #: "r32ui"; "any": every format of floats; "std430", "std140": of buffers; "": of samplers
     format: str
     doc: str
+    #: of "image2DArray"; 0 of "words": as many as the materials need
+    num_layers: int
+    #: of a buffer, without its arrays per tile or pixel
+    byte_size: int
+    #: of a buffer
+    members: tuple[PassMember, ...]
+
+
+def _pass_members(resource: int, count: int) -> tuple[PassMember, ...]:
+    found = []
+    for index in range(count):
+        values = record("mxg_pass_member", lib.mxg_get_pass_member, resource, index)
+        assert values is not None
+        found.append(PassMember(**values))
+    return tuple(found)
 
 
 def pass_resources() -> tuple[PassResource, ...]:
@@ -62,6 +101,7 @@ def pass_resources() -> tuple[PassResource, ...]:
     for index in range(lib.mxg_num_pass_resources()):
         values = record("mxg_pass_resource", lib.mxg_get_pass_resource, index)
         assert values is not None
+        values["members"] = _pass_members(index, values.pop("num_members"))
         found.append(PassResource(**values))
     return tuple(found)
 

@@ -260,8 +260,8 @@ class Context(Native):
     # ---- Passes ----
 
     def passes(self, target: str, *, options: Mapping[str, OptionValue] | None = None) -> dict[str, Shader]:
-        """The passes of the deferred pipeline that belong to no material (docs/deferred.md), by name, in their order. The source of a
-        pass is that of `Shader.pixel`, a compute stage. Raises DocumentError."""
+        """The passes of the deferred pipeline that belong to no material (docs/deferred.md), by name, in their order, as far
+        as the options ask for them. The source of a pass is that of `Shader.pixel`, a compute stage. Raises DocumentError."""
         found = {}
         for index in range(lib.mxg_num_passes()):
             keep: list[Any] = []
@@ -274,7 +274,8 @@ class Context(Native):
             shader = Shader(handle)
             if status != lib.MXG_OK:
                 raise DocumentError(shader.diagnostics)
-            found[py_text(lib.mxg_pass_name(index))] = shader
+            if shader.pixel is not None:
+                found[py_text(lib.mxg_pass_name(index))] = shader
         return found
 
     # ---- Libraries ----

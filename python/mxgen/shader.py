@@ -296,6 +296,22 @@ class ShaderInfo:
     stored_classes: int
 
 
+@dataclass(frozen=True)
+class PassInfo:
+    """How a pass of the deferred pipeline runs."""
+
+    name: str
+    #: invocations of a group, which covers a tile of as many pixels
+    group_size: tuple[int, int, int]
+    #: the buffer "tiles" has the command of its dispatch; else a group per tile
+    is_indirect: bool
+    #: of that command, in bytes
+    dispatch_offset: int
+    #: bits of resources, by their place in `pass_resources()`
+    reads: int
+    writes: int
+
+
 class Shader(Native):
     """A generated shader; immutable. `Document.generate` gives shaders."""
 
@@ -373,6 +389,12 @@ class Shader(Native):
             raise ArgumentError("the call made diagnostics only")
         values["alpha"] = Alpha(values["alpha"])
         return ShaderInfo(**values)
+
+    @property
+    def pass_info(self) -> PassInfo | None:
+        """How the pass runs; None for a shader that is none."""
+        values = record("mxg_pass", lib.mxg_result_pass, self._handle.pointer)
+        return None if values is None else PassInfo(**values)
 
     def _variable(self, index: int) -> Variable:
         values = record("mxg_variable", lib.mxg_result_variable, self._handle.pointer, index)

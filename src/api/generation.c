@@ -173,6 +173,15 @@ static void name_element(struct generation *g)
     shader->value_type = value_type(g);
 }
 
+/* The surface of a lighting pass has the name of the pass. */
+static void name_pass(struct generation *g)
+{
+    struct shader *shader = &g->result->shader;
+    shader->name = str_intern_z(shader->strings, deferred_pass_name(g->result->pass));
+    shader->element_type = str_intern_z(shader->strings, "pass");
+    shader->path = 0;
+}
+
 static void name_stack(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
@@ -189,6 +198,8 @@ static void name_shader(struct generation *g)
         name_stack(g);
     else
         name_element(g);
+    if (g->is_pass)
+        name_pass(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
     lang_style_init(shader->style, g->result->target->syntax, shader->arena);
     for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
@@ -583,7 +594,7 @@ struct spell_options generation_spell_options(const struct generation *g)
     return (struct spell_options){
         .version = version_of(g),
         .generator = GENERATOR_NAME,
-        .interface = g->options[OPTION_interface].text,
+        .interface = g->is_pass ? NULL : g->options[OPTION_interface].text,
         .colorspace = g->options[OPTION_colorspace].text,
         .metadata = (int)g->options[OPTION_metadata].number,
         .vulkan_attributes = g->options[OPTION_hlsl_vulkan].number,

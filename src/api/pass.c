@@ -17,6 +17,25 @@ const char *mxg_pass_name(uint32_t index)
     return index < NUM_PASSES ? deferred_pass_name((enum deferred_pass)index) : NULL;
 }
 
+static bool is_bound(int block)
+{
+    return block != BLOCK_APP_DATA && block != BLOCK_VERTEX_DATA && block != BLOCK_OUTPUTS;
+}
+
+/* What remains of the surface is what the host binds. */
+static void leave_bindings(struct shader *shader)
+{
+    uint32_t kept = 0;
+    for (int block = 0; block < NUM_BLOCKS; block++) {
+        uint32_t first = shader->first_of_block[block], end = shader->first_of_block[block + 1];
+        shader->first_of_block[block] = kept;
+        for (uint32_t i = first; i < end && is_bound(block); i++)
+            shader->interface.items[kept++] = shader->interface.items[i];
+    }
+    shader->first_of_block[NUM_BLOCKS] = shader->interface.len = kept;
+    shader->closures.len = shader->compiled.len = 0;
+}
+
 /* Replaces the source of the surface by the text of the pass. */
 static void write_pass(struct generation *g, enum deferred_pass pass)
 {
@@ -24,12 +43,14 @@ static void write_pass(struct generation *g, enum deferred_pass pass)
     struct stage_source *stage = &result->stages[STAGE_PIXEL];
     struct text text;
     const char *version = g->options[OPTION_version].text;
-    result->is_pass = true;
-    result->pass = pass;
     result->storage = generation_storage(g->options, result->target, g->lights_rays);
+    result->has_shader = deferred_has_pass(pass, &result->storage);
+    if (!result->has_shader)
+        return;
     text_init(&text, &result->object.arena);
     deferred_write_pass(pass, &result->storage, *version ? version : result->target->versions[0],
                         g->stored ? &result->shader : NULL, stage->text, &text);
+    leave_bindings(&result->shader);
     stage->text = text_cstr(&text);
     stage->size = text.len;
     source_find_lines(stage, &result->object.arena);
@@ -38,7 +59,8 @@ static void write_pass(struct generation *g, enum deferred_pass pass)
 static void generate(struct generation *g)
 {
     const enum deferred_pass pass = *(const enum deferred_pass *)g->user_data;
-    g->is_pass = true;
+    g->is_pass = g->result->is_pass = true;
+    g->result->pass = pass;
     g->stored = deferred_pass_class(pass);
     g->lights_rays = pass == PASS_LIGHT_RAYS;
     if (g->stored)
@@ -72,7 +94,8 @@ mxg_status mxg_generate_pass(mxg_context *context, uint32_t index, const mxg_gen
         *out_result = NULL;
     mxg_generate_desc full;
     if (!context || index >= NUM_PASSES || !generation_names_target(desc)
-        || !struct_read(&full, sizeof full, desc) || full.element || full.bindings)
+        || !struct_read(&full, sizeof full, desc) || full.element || full.bindings
+        || full.without_source)
         return MXG_ERROR_ARGUMENT;
     enum deferred_pass pass = (enum deferred_pass)index;
     mxg_document *document;

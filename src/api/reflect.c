@@ -225,11 +225,20 @@ static uint64_t network_topology(const mxg_result *result)
     return result->shader.codes ? hash_mix(topology, result->shader.codes) : topology;
 }
 
+/* Passes differ in texts of their own. */
+static uint64_t topology_of(const mxg_result *result, struct arena *scratch)
+{
+    const struct stage_source *source = &result->stages[STAGE_PIXEL];
+    if (result->is_pass)
+        return hash_stable(HASH_STABLE_SEED, source->text, source->size);
+    return result->network.arena ? network_topology(result)
+                                 : shader_topology(&result->shader, scratch);
+}
+
 static void write_topology(const struct object *object, struct text *out)
 {
     const mxg_result *result = (const mxg_result *)object;
-    uint64_t topology = result->network.arena ? network_topology(result)
-                                              : shader_topology(&result->shader, out->arena);
+    uint64_t topology = topology_of(result, out->arena);
     text_mem(out, (const char *)&topology, sizeof topology);
 }
 
@@ -281,6 +290,8 @@ static void write_json(const struct object *object, struct text *out)
     struct shader_reflect_options options = {
         .target = result->target->name,
         .generator = GENERATOR_NAME,
+        .topology = topology_of(result, out->arena),
+        .is_pass = result->is_pass,
         .user_data = (void *)(uintptr_t)result,
         .ui = result_ui,
         .compiled = result_compiled,
@@ -288,7 +299,6 @@ static void write_json(const struct object *object, struct text *out)
     };
     if (result->network.arena) {
         options.network = &result->network;
-        options.network_topology = network_topology(result);
         options.reflect_network = result->target->network->reflect;
     }
     shader_reflect_json(&result->shader, &options, out);

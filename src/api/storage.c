@@ -7,39 +7,119 @@
 
 uint32_t mxg_num_pass_resources(void)
 {
-    struct deferred_resource resource;
-    uint32_t count = 0;
-    while (deferred_resource(count, &resource))
-        count++;
-    return count;
+    return NUM_RESOURCES;
 }
 
 mxg_status mxg_get_pass_resource(uint32_t index, mxg_pass_resource *out)
 {
-    struct deferred_resource resource;
-    if (!deferred_resource(index, &resource))
+    if (index >= NUM_RESOURCES)
         return MXG_ERROR_ARGUMENT;
-    mxg_pass_resource full = {.name = resource.name,
-                              .kind = resource.kind,
-                              .format = resource.format,
-                              .doc = resource.doc};
+    const struct deferred_resource *r = deferred_resource((enum deferred_binding)index);
+    mxg_pass_resource full = {.name = r->name,
+                              .kind = r->kind,
+                              .format = r->format,
+                              .doc = r->doc,
+                              .num_layers = r->layers,
+                              .byte_size = r->size,
+                              .num_members = r->num_members};
+    return struct_write(out, &full, sizeof full);
+}
+
+mxg_status mxg_get_pass_member(uint32_t resource, uint32_t index, mxg_pass_member *out)
+{
+    if (resource >= NUM_RESOURCES
+        || index >= deferred_resource((enum deferred_binding)resource)->num_members)
+        return MXG_ERROR_ARGUMENT;
+    const struct deferred_member *m =
+        &deferred_resource((enum deferred_binding)resource)->members[index];
+    mxg_pass_member full = {.name = m->name,
+                            .type = m->type,
+                            .values = m->values ? m->values : "",
+                            .doc = m->doc,
+                            .offset = m->offset,
+                            .array_length = m->array_length,
+                            .array_stride = m->array_stride,
+                            .matrix_stride = m->matrix_stride,
+                            .per = m->per ? m->per : "",
+                            .is_nested = m->is_nested};
+    return struct_write(out, &full, sizeof full);
+}
+
+mxg_status mxg_result_pass(const mxg_result *result, mxg_pass *out)
+{
+    if (!result || !result->has_shader || !result->is_pass)
+        return MXG_ERROR_ARGUMENT;
+    mxg_pass full = {.name = deferred_pass_name(result->pass),
+                     .group_size = {DEFERRED_TILE, DEFERRED_TILE, 1},
+                     .is_indirect = deferred_is_indirect(result->pass),
+                     .reads = deferred_reads(result->pass, &result->storage),
+                     .writes = deferred_writes(result->pass, &result->storage)};
+    if (full.is_indirect)
+        full.dispatch_offset = deferred_dispatch_offset(result->pass);
     return struct_write(out, &full, sizeof full);
 }
 
 /* ---- Reflection ---- */
 
-static void put_resource(const mxg_result *result, uint32_t index, struct json *json)
+static void put_member(const struct deferred_member *m, struct json *json)
 {
-    struct deferred_resource resource;
-    deferred_resource(index, &resource);
+    json_put_text(json, "name", m->name);
+    json_put_text(json, "type", m->type);
+    json_put_number(json, "offset", m->offset);
+    json_put_nonzero(json, "arrayLength", m->array_length);
+    json_put_nonzero(json, "arrayStride", m->array_stride);
+    json_put_text(json, "per", m->per);
+    json_put_nonzero(json, "matrixStride", m->matrix_stride);
+    json_put_text(json, "values", m->values);
+    json_put_text(json, "doc", m->doc);
+}
+
+/* Members from `first` on: of the buffer, or of a struct. Returns the first that is not among them.
+ */
+static uint32_t put_members(const struct deferred_resource *r, uint32_t first, struct json *json)
+{
+    uint32_t i = first;
+    bool is_nested = r->members[first].is_nested;
+    json_key(json, "members");
+    json_open(json, '[');
+    while (i < r->num_members && r->members[i].is_nested == is_nested) {
+        json_item(json);
+        json_open_flat(json, '{');
+        put_member(&r->members[i++], json);
+        if (!is_nested && i < r->num_members && r->members[i].is_nested)
+            i = put_members(r, i, json);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    return i;
+}
+
+/* The same for all who use it. */
+static void put_storage(const struct deferred_layout *layout, enum deferred_binding binding,
+                        struct json *json)
+{
+    const struct deferred_resource *r = deferred_resource(binding);
+    json_put_text(json, "name", r->name);
+    json_put_text(json, "kind", r->kind);
+    json_put_text(json, "format", r->format);
+    if (layout->sets)
+        json_put_number(json, "set", layout->set);
+    json_put_number(json, "binding", binding);
+    json_put_nonzero(json, "layers", r->layers);
+    json_put_nonzero(json, "size", r->size);
+}
+
+static void put_resource(const struct deferred_layout *layout, enum deferred_binding binding,
+                         bool reads, bool writes, struct json *json)
+{
+    const struct deferred_resource *r = deferred_resource(binding);
     json_item(json);
-    json_open_flat(json, '{');
-    json_put_text(json, "name", resource.name);
-    json_put_text(json, "kind", resource.kind);
-    json_put_text(json, "format", resource.format);
-    if (result->storage.sets)
-        json_put_number(json, "set", result->storage.set);
-    json_put_number(json, "binding", index);
+    json_open(json, '{');
+    put_storage(layout, binding, json);
+    json_put_text(json, "access", !writes ? "read" : !reads ? "write" : "read-write");
+    json_put_text(json, "doc", r->doc);
+    if (r->num_members)
+        put_members(r, 0, json);
     json_close(json, '}');
 }
 
@@ -48,13 +128,6 @@ static const char *name_of(const mxg_result *result)
     if (result->is_pass)
         return deferred_pass_name(result->pass);
     return result->storage.is_payload ? "payload" : "material";
-}
-
-/* A material writes the first one, and a payload is handed on by the host. */
-static bool has_resource(const mxg_result *result, uint32_t index)
-{
-    return result->is_pass ? deferred_reads(result->pass, &result->storage, index)
-                           : index == 0 && !result->storage.is_payload;
 }
 
 uint32_t result_classes(const mxg_result *result)
@@ -79,6 +152,52 @@ static void put_classes(uint32_t classes, struct json *json)
     json_close(json, ']');
 }
 
+/* What a pass reads and writes. A material writes its further words, if it has any. */
+static void put_resources(const mxg_result *result, struct json *json)
+{
+    const struct deferred_layout *layout = &result->storage;
+    bool has_layers = !layout->is_payload && result->shader.stored_words > DEFERRED_TARGET_WORDS;
+    uint32_t reads = result->is_pass ? deferred_reads(result->pass, layout) : 0,
+             writes = result->is_pass ? deferred_writes(result->pass, layout)
+                      : has_layers    ? 1u << RESOURCE_WORDS
+                                      : 0;
+    json_key(json, "resources");
+    json_open(json, '[');
+    for (uint32_t i = 0; i < NUM_RESOURCES; i++)
+        if ((reads | writes) >> i & 1)
+            put_resource(layout, (enum deferred_binding)i, reads >> i & 1, writes >> i & 1, json);
+    json_close(json, ']');
+}
+
+/* The resources that are targets of a material, by location. */
+static void put_targets(struct json *json)
+{
+    static const enum deferred_binding stored[] = {RESOURCE_COLOR, RESOURCE_WORD0, RESOURCE_WORD1,
+                                                   RESOURCE_WORD2};
+    json_key(json, "targets");
+    json_open(json, '[');
+    for (uint32_t i = 0; i < sizeof stored / sizeof *stored; i++) {
+        const struct deferred_resource *r = deferred_resource(stored[i]);
+        json_item(json);
+        json_open_flat(json, '{');
+        json_put_text(json, "name", r->name);
+        json_put_text(json, "format", r->format);
+        json_put_number(json, "location", i);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
+static void put_pass(enum deferred_pass pass, struct json *json)
+{
+    json_key(json, "groupSize");
+    text_fmt(json->out, "[%u, %u, 1]", (unsigned)DEFERRED_TILE, (unsigned)DEFERRED_TILE);
+    if (!deferred_is_indirect(pass))
+        return;
+    json_put_text(json, "class", deferred_element(deferred_pass_class(pass)));
+    json_put_number(json, "dispatchOffset", deferred_dispatch_offset(pass));
+}
+
 void result_storage(void *user_data, struct json *json)
 {
     const mxg_result *result = user_data;
@@ -89,16 +208,13 @@ void result_storage(void *user_data, struct json *json)
     json_open(json, '{');
     json_put_text(json, "pass", name_of(result));
     json_put_number(json, "layout", deferred_layout_number(&result->storage));
-    if (result->is_pass && deferred_is_indirect(result->pass))
-        json_put_text(json, "class", deferred_element(deferred_pass_class(result->pass)));
+    if (result->is_pass)
+        put_pass(result->pass, json);
     json_put_nonzero(json, "words", words);
-    if (!result->is_pass && !result->storage.is_payload)
+    if (!result->is_pass && !result->storage.is_payload) {
         put_classes(result->shader.stored_classes, json);
-    json_key(json, "resources");
-    json_open(json, '[');
-    for (uint32_t i = 0; i < mxg_num_pass_resources(); i++)
-        if (has_resource(result, i))
-            put_resource(result, i, json);
-    json_close(json, ']');
+        put_targets(json);
+    }
+    put_resources(result, json);
     json_close(json, '}');
 }

@@ -12,8 +12,10 @@
 #include "closure/closure.h"
 
 enum {
-    DEFERRED_MAX_CLOSURES = 16, /* of a pixel: word 1 has four bits for their number */
-    DEFERRED_PAYLOAD_WORDS = 16 /* of a ray: MX_PAYLOAD_WORDS in passes/record.glsl */
+    DEFERRED_MAX_CLOSURES = 16,  /* of a pixel: word 1 has four bits for their number */
+    DEFERRED_PAYLOAD_WORDS = 16, /* of a ray */
+    DEFERRED_TARGET_WORDS = 3,   /* of a pixel: they are render targets */
+    DEFERRED_TILE = 8            /* pixels across a tile, which a group of a pass covers */
 };
 
 /* The option `pipeline`. */
@@ -49,13 +51,11 @@ ir_ref deferred_misfit(const struct shader *shader, ir_ref root);
 /* What lies above a closure from storage, for closure_host.above. */
 struct closure_above deferred_above(struct shader *shader);
 
-/* The classes with a lighting pass, by number. */
+/* The classes of pixels. */
 enum deferred_class {
-    CLASS_EMPTY,
-    CLASS_SIMPLE,
-    CLASS_SINGLE,
-    CLASS_COMPLEX,
-    CLASS_SPECIAL,
+#define CLASS(id, name) CLASS_##id,
+#include "deferred/classes.def"
+#undef CLASS
     NUM_CLASSES
 };
 
@@ -77,17 +77,57 @@ const char *deferred_pass_name(enum deferred_pass pass);
 /* The class of a lighting pass; CLASS_EMPTY: it is none. */
 enum deferred_class deferred_pass_class(enum deferred_pass pass);
 
-/* A resource of the passes beside uniforms and textures of lights; its binding is its number. */
-struct deferred_resource {
-    const char *name, *kind; /* "image2D", "sampler2D", "buffer"… */
-    const char *format;      /* "" : any */
-    const char *doc;
-};
-bool deferred_resource(uint32_t index, struct deferred_resource *out); /* false: none */
-bool deferred_reads(enum deferred_pass pass, const struct deferred_layout *layout,
-                    uint32_t resource);
+/* True if the options ask for the pass. */
+bool deferred_has_pass(enum deferred_pass pass, const struct deferred_layout *layout);
 /* True if the buffer `tiles` has the command of its dispatch; false: a group per tile. */
 bool deferred_is_indirect(enum deferred_pass pass);
+/* Where that command stands in the buffer, in bytes. */
+uint32_t deferred_dispatch_offset(enum deferred_pass pass);
+
+/* The resources of the passes beside uniforms and textures of lights, by binding. */
+enum deferred_binding {
+    RESOURCE_WORDS,
+    RESOURCE_WORD0,
+    RESOURCE_WORD1,
+    RESOURCE_WORD2,
+    RESOURCE_DEPTH,
+    RESOURCE_COLOR,
+    RESOURCE_LIT,
+    RESOURCE_TILES,
+    RESOURCE_FRAME,
+    RESOURCE_PAYLOADS,
+    RESOURCE_RAYS,
+    RESOURCE_SCATTERED,
+    RESOURCE_BELOW,
+    NUM_RESOURCES
+};
+
+#define DEFERRED_ANY_FORMAT "any"
+
+/* A member of a buffer, or of the struct that is the type of the member before. */
+struct deferred_member {
+    const char *name, *type;
+    uint32_t offset;
+    uint32_t array_length, array_stride, matrix_stride; /* 0: no array, no matrix */
+    const char *per;    /* "tile", "pixel": the array is as long for each; NULL: one array */
+    const char *values; /* the words of its numbers, as in options.def; NULL: any number */
+    const char *doc;
+    bool is_nested; /* in the struct */
+};
+
+struct deferred_resource {
+    const char *name, *kind; /* "image2D", "sampler2D", "buffer"… */
+    const char *format; /* "r32ui"; "any": every format of floats; "std430"…; "": of a sampler */
+    uint32_t layers;    /* of an array of images; 0: none, or as many as materials need */
+    uint32_t size;      /* in bytes, of a buffer without arrays per tile or pixel */
+    const struct deferred_member *members; /* of a buffer */
+    uint32_t num_members;
+    const char *doc;
+};
+const struct deferred_resource *deferred_resource(enum deferred_binding binding);
+/* The resources of a pass, as bits by binding. */
+uint32_t deferred_reads(enum deferred_pass pass, const struct deferred_layout *layout);
+uint32_t deferred_writes(enum deferred_pass pass, const struct deferred_layout *layout);
 
 /*
  * Writes the text of a pass. surface: of a lighting pass, the shader of its function, with the
@@ -100,7 +140,7 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
 /* The document with the surfaces of the lighting passes. */
 size_t deferred_closures_size(void);
 void deferred_copy_closures(char *out); /* without a terminator */
-/* The name of a class, and of its element in the document. */
+/* The name of a class, and of its element in that document. */
 const char *deferred_element(enum deferred_class which);
 
 #endif

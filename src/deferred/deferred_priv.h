@@ -7,7 +7,21 @@
 
 /* passes.c: writes lines of texts.h. */
 void deferred_write_lines(const char *const *lines, struct text *out);
-/* Writes the place of the resources and record.glsl, the first part of every pass. */
+/* Writes the numbers that C and the texts share, and record.glsl: the first part of every pass. */
 void deferred_write_storage(const struct deferred_layout *layout, struct text *out);
+
+/* closure.c, for record.glsl: the struct MxClosure. */
+void deferred_write_struct(struct text *out);
+/* For write.glsl and read.glsl with whole floats: mx_put_whole and mx_get_whole. */
+void deferred_write_put(struct text *out);
+void deferred_write_get(struct text *out);
+/* After store.glsl: mx_store_closure. */
+void deferred_write_store(struct text *out);
+/* Types and names of the values join a hash. */
+uint64_t deferred_hash_values(uint64_t hash);
+
+/* resources.c: declares a resource for those who read or write it. */
+void deferred_declare(enum deferred_binding binding, const struct deferred_layout *layout,
+                      bool reads, bool writes, struct text *out);
 
 #endif

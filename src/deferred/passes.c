@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The texts of the passes that belong to no material, from the files of src/deferred/passes. */
+/*
+ * The texts of the passes that belong to no material: numbers that C shares with them, record.glsl,
+ * declarations of resources, and files of src/deferred/passes.
+ */
 #include "deferred/deferred_priv.h"
 #include "deferred/texts.h"
 
@@ -7,92 +10,116 @@
 
 #include <assert.h>
 
-/* The resources, by binding. Materials write the first one. */
-static const struct {
-    const char *macro; /* of its place, in the texts */
-    struct deferred_resource about;
-} resources[] = {
-    {"MX_STORED_IMAGE",
-     {"words", "image2DArray", "r32ui", "word 3 and the following ones, one per layer"}},
-    {"MX_WORD_0", {"word0", "image2D", "r32ui", "target 1 of material passes, cleared to 0"}},
-    {"MX_WORD_1", {"word1", "image2D", "r32ui", "target 2 of material passes"}},
-    {"MX_WORD_2", {"word2", "image2D", "r32ui", "target 3 of material passes"}},
-    {"MX_DEPTH", {"depth", "sampler2D", "", "depth of the material passes, as stored"}},
-    {"MX_COLOR", {"color", "sampler2D", "", "target 0 of material passes: light of surfaces"}},
-    {"MX_LIT", {"lit", "image2D", "", "the picture: any format of floats"}},
-    {"MX_TILES",
-     {"tiles", "buffer", "std430",
-      "five commands of dispatches, (0, 1, 1, 0) at first, by class; then room for the number of "
-      "every tile, five times"}},
-    {"MX_FRAME",
-     {"frame", "uniform", "std140",
-      "mat4 from (x, y, depth, 1) in pixels to the world; uvec4 width, height, tiles in a row, "
-      "tiles; uvec4 debug view, 0, 0, 0"}},
-    {"MX_PAYLOADS", {"payloads", "buffer", "std430", "16 words for each pixel, row by row"}},
-    {"MX_RAYS",
-     {"rays", "buffer", "std430",
-      "vec4 point and vec4 direction back along the ray, in the world, for each pixel"}},
-    {"MX_SCATTERED",
-     {"scattered", "image2DArray", "rgba16f",
-      "two layers, with --sss diffusion: light that enters bodies over their albedo, and other "
-      "light of the same pixels"}},
-    {"MX_BELOW",
-     {"below", "image2DArray", "rgba16f",
-      "two layers, with --rough-refraction blur: light from below rough interfaces with the width "
-      "of its blur, and other light of the same pixels"}},
+#define BIT(resource) (1u << RESOURCE_##resource)
+enum {
+    CLOSURES = BIT(WORDS) | BIT(WORD0) | BIT(WORD1) | BIT(WORD2),
+    LIT_FROM = CLOSURES | BIT(DEPTH) | BIT(COLOR) | BIT(TILES) | BIT(FRAME),
+    LIT_TO = BIT(LIT) | BIT(SCATTERED) | BIT(BELOW)
 };
-#define NUM_RESOURCES (sizeof resources / sizeof *resources)
-enum { SCATTERED = NUM_RESOURCES - 2, BELOW }; /* those that depend on options */
 
+enum { MAX_TEXTS = 4 };
 static const struct {
     const char *name;
     enum deferred_class which; /* of its tiles; CLASS_EMPTY without indirect: all tiles */
     bool is_indirect;
-    const char *const *text;
-    uint32_t reads; /* bits of resources */
+    uint32_t reads, writes; /* bits of resources; options take some away */
+    const char *const *texts[MAX_TEXTS];
 } passes[NUM_PASSES] = {
-    [PASS_CLASSIFY] = {"classify", CLASS_EMPTY, false, deferred_classify, 0x1982},
-    [PASS_COMPOSE] = {"compose", CLASS_EMPTY, true, deferred_compose, 0x1e2},
-    [PASS_SIMPLE] = {"light_simple", CLASS_SIMPLE, true, deferred_light, 0x1ff},
-    [PASS_SINGLE] = {"light_single", CLASS_SINGLE, true, deferred_light, 0x9ff},
-    [PASS_COMPLEX] = {"light_complex", CLASS_COMPLEX, true, deferred_light, 0x19ff},
-    [PASS_SPECIAL] = {"light_special", CLASS_SPECIAL, true, deferred_light, 0x19ff},
-    [PASS_DIFFUSE] = {"diffuse", CLASS_EMPTY, false, deferred_diffuse, 0x195f},
-    [PASS_BLUR] = {"blur", CLASS_EMPTY, false, deferred_blur, 0x1150},
-    [PASS_SHOW] = {"show", CLASS_EMPTY, false, deferred_show, 0x14f},
-    [PASS_LIGHT_RAYS] = {"light_rays", CLASS_COMPLEX, false, deferred_light_rays, 0x740},
+    [PASS_CLASSIFY] = {"classify",
+                       CLASS_EMPTY,
+                       false,
+                       BIT(WORD0) | BIT(TILES) | BIT(FRAME),
+                       BIT(TILES) | BIT(SCATTERED) | BIT(BELOW),
+                       {deferred_frame, deferred_classify}},
+    [PASS_COMPOSE] = {"compose",
+                      CLASS_EMPTY,
+                      true,
+                      BIT(WORD0) | BIT(COLOR) | BIT(TILES) | BIT(FRAME),
+                      BIT(LIT),
+                      {deferred_frame, deferred_tile, deferred_compose}},
+    [PASS_SIMPLE] = {"light_simple",
+                     CLASS_SIMPLE,
+                     true,
+                     LIT_FROM,
+                     BIT(LIT),
+                     {deferred_read, deferred_frame, deferred_tile, deferred_light}},
+    [PASS_SINGLE] = {"light_single",
+                     CLASS_SINGLE,
+                     true,
+                     LIT_FROM,
+                     BIT(LIT) | BIT(SCATTERED),
+                     {deferred_read, deferred_frame, deferred_tile, deferred_light}},
+    [PASS_COMPLEX] = {"light_complex",
+                      CLASS_COMPLEX,
+                      true,
+                      LIT_FROM,
+                      LIT_TO,
+                      {deferred_read, deferred_frame, deferred_tile, deferred_light}},
+    [PASS_SPECIAL] = {"light_special",
+                      CLASS_SPECIAL,
+                      true,
+                      LIT_FROM,
+                      LIT_TO,
+                      {deferred_read, deferred_frame, deferred_tile, deferred_light}},
+    [PASS_DIFFUSE] = {"diffuse",
+                      CLASS_EMPTY,
+                      false,
+                      CLOSURES | BIT(DEPTH) | BIT(FRAME) | BIT(SCATTERED) | BIT(BELOW),
+                      BIT(LIT) | BIT(BELOW),
+                      {deferred_read, deferred_frame, deferred_plane, deferred_diffuse}},
+    [PASS_BLUR] = {"blur",
+                   CLASS_EMPTY,
+                   false,
+                   BIT(DEPTH) | BIT(FRAME) | BIT(BELOW),
+                   BIT(LIT),
+                   {deferred_frame, deferred_plane, deferred_blur}},
+    [PASS_SHOW] = {"show",
+                   CLASS_EMPTY,
+                   false,
+                   CLOSURES | BIT(FRAME),
+                   BIT(LIT),
+                   {deferred_read, deferred_frame, deferred_show}},
+    [PASS_LIGHT_RAYS] = {"light_rays",
+                         CLASS_COMPLEX,
+                         false,
+                         BIT(PAYLOADS) | BIT(RAYS) | BIT(FRAME),
+                         BIT(LIT),
+                         {deferred_unpack, deferred_frame, deferred_light_rays}},
 };
 
-bool deferred_resource(uint32_t index, struct deferred_resource *out)
-{
-    if (index < NUM_RESOURCES)
-        *out = resources[index].about;
-    return index < NUM_RESOURCES;
-}
-
-/* Options turn these on. */
-static bool has_resource(const struct deferred_layout *layout, uint32_t resource)
-{
-    return resource == SCATTERED ? layout->diffuses : resource == BELOW ? layout->blurs : true;
-}
-
-static bool has_pass(const struct deferred_layout *layout, enum deferred_pass pass)
+bool deferred_has_pass(enum deferred_pass pass, const struct deferred_layout *layout)
 {
     return pass == PASS_DIFFUSE ? layout->diffuses : pass == PASS_BLUR ? layout->blurs : true;
 }
 
-bool deferred_reads(enum deferred_pass pass, const struct deferred_layout *layout,
-                    uint32_t resource)
+/* The resources that the options leave. */
+static uint32_t resources_of(const struct deferred_layout *layout)
 {
-    assert(pass < NUM_PASSES && resource < NUM_RESOURCES);
-    return passes[pass].reads >> resource & 1 && has_resource(layout, resource)
-           && has_pass(layout, pass);
+    return ~((layout->diffuses ? 0 : BIT(SCATTERED)) | (layout->blurs ? 0 : BIT(BELOW)));
+}
+
+uint32_t deferred_reads(enum deferred_pass pass, const struct deferred_layout *layout)
+{
+    assert(pass < NUM_PASSES);
+    return passes[pass].reads & resources_of(layout);
+}
+
+uint32_t deferred_writes(enum deferred_pass pass, const struct deferred_layout *layout)
+{
+    assert(pass < NUM_PASSES);
+    return passes[pass].writes & resources_of(layout);
 }
 
 bool deferred_is_indirect(enum deferred_pass pass)
 {
     assert(pass < NUM_PASSES);
     return passes[pass].is_indirect;
+}
+
+uint32_t deferred_dispatch_offset(enum deferred_pass pass)
+{
+    return deferred_resource(RESOURCE_TILES)->members[0].array_stride
+           * (uint32_t)deferred_pass_class(pass);
 }
 
 const char *deferred_pass_name(enum deferred_pass pass)
@@ -107,12 +134,24 @@ enum deferred_class deferred_pass_class(enum deferred_pass pass)
     return passes[pass].which;
 }
 
+static const struct {
+    const char *name, *macro;
+} classes[NUM_CLASSES] = {
+#define CLASS(id, name) {name, "MX_" #id},
+#include "deferred/classes.def"
+#undef CLASS
+};
+
+static const char *const view_macros[] = {
+#define VIEW(id, name) "MX_SHOW_" #id,
+#include "deferred/views.def"
+#undef VIEW
+};
+
 const char *deferred_element(enum deferred_class which)
 {
-    static const char *const elements[NUM_CLASSES] = {"empty", "simple", "single", "complex",
-                                                      "special"};
     assert(which < NUM_CLASSES);
-    return elements[which];
+    return classes[which].name;
 }
 
 void deferred_write_lines(const char *const *lines, struct text *out)
@@ -138,26 +177,31 @@ void deferred_copy_closures(char *out)
     }
 }
 
+static void define(const char *macro, uint32_t number, struct text *out)
+{
+    text_fmt(out, "#define %s %u\n", macro, (unsigned)number);
+}
+
 void deferred_write_storage(const struct deferred_layout *layout, struct text *out)
 {
-    text_fmt(out, "#define MX_STORAGE %u\n#define MX_BLUR %d\n", (unsigned)layout->storage,
-             layout->blurs);
-    for (unsigned i = 0; i < NUM_RESOURCES; i++) {
-        text_fmt(out, "#define %s ", resources[i].macro);
-        if (layout->sets)
-            text_fmt(out, "set = %u, ", (unsigned)layout->set);
-        text_fmt(out, "binding = %u\n", i);
-    }
+    define("MX_STORAGE", layout->storage, out);
+    define("MX_BLUR", layout->blurs, out);
+    define("MX_PAYLOAD_WORDS", DEFERRED_PAYLOAD_WORDS, out);
+    for (uint32_t i = 0; i < NUM_CLASSES; i++)
+        define(classes[i].macro, i, out);
+    deferred_write_struct(out);
     deferred_write_lines(deferred_record, out);
 }
 
 uint32_t deferred_layout_number(const struct deferred_layout *layout)
 {
-    uint64_t h = HASH_STABLE_SEED;
+    uint64_t h = deferred_hash_values(HASH_STABLE_SEED);
     uint32_t storage = (uint32_t)layout->storage | (uint32_t)layout->is_payload << 8
                        | (uint32_t)layout->diffuses << 9 | (uint32_t)layout->blurs << 10;
     for (const char *const *line = deferred_record; *line; line++)
         h = hash_stable(h, *line, strlen(*line));
+    for (uint32_t i = 0; i < NUM_CLASSES; i++)
+        h = hash_stable(h, classes[i].macro, strlen(classes[i].macro));
     h = hash_stable(h, &storage, sizeof storage);
     return (uint32_t)(h ^ h >> 32);
 }
@@ -190,27 +234,42 @@ static void write_fill(const struct shader *surface, struct text *out)
     text_str(out, "}\n\n");
 }
 
+/* The numbers that the texts of passes share with C. */
+static void write_numbers(enum deferred_pass pass, uint32_t used, struct text *out)
+{
+    define("MX_CLASS", passes[pass].which, out);
+    define("MX_NUM_CLASSES", NUM_CLASSES, out);
+    define("MX_TILE", DEFERRED_TILE, out);
+    define("MX_SCATTERED", (used & BIT(SCATTERED)) != 0, out);
+    define("MX_BELOW", (used & BIT(BELOW)) != 0, out);
+    for (uint32_t i = 0; pass == PASS_SHOW && i < sizeof view_macros / sizeof *view_macros; i++)
+        define(view_macros[i], i, out);
+}
+
 void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *layout,
                          const char *version, const struct shader *surface, const char *source,
                          struct text *out)
 {
-    enum deferred_class which = deferred_pass_class(pass);
-    assert((which != CLASS_EMPTY) == (surface && source));
+    uint32_t reads = deferred_reads(pass, layout), writes = deferred_writes(pass, layout);
+    assert((deferred_pass_class(pass) != CLASS_EMPTY) == (surface && source));
     if (surface)
-        text_fmt(out, "%s\n#define MX_CLASS %u\n", source, (unsigned)which);
+        text_fmt(out, "%s\n", source);
     else
         text_fmt(out, "#version %s\n", version);
-    /* only the pass that makes the lists writes them */
-    text_fmt(out, "#define MX_SSS %d\n", layout->diffuses);
-    text_fmt(out, "#define MX_TILES_ACCESS %s\n", pass == PASS_CLASSIFY ? "" : "readonly");
+    write_numbers(pass, reads | writes, out);
     deferred_write_storage(layout, out);
-    deferred_write_lines(pass == PASS_LIGHT_RAYS ? deferred_unpack : deferred_read, out);
-    deferred_write_lines(deferred_frame, out);
-    if ((pass == PASS_DIFFUSE || pass == PASS_BLUR) && has_pass(layout, pass))
-        deferred_write_lines(deferred_plane, out);
-    if (surface)
-        write_fill(surface, out);
-    deferred_write_lines(passes[pass].text, out);
+    for (uint32_t i = 0; i < NUM_RESOURCES; i++)
+        if ((reads | writes) >> i & 1)
+            deferred_declare((enum deferred_binding)i, layout, reads >> i & 1, writes >> i & 1,
+                             out);
+    for (unsigned i = 0; i < MAX_TEXTS && passes[pass].texts[i]; i++) {
+        bool is_last = i + 1 == MAX_TEXTS || !passes[pass].texts[i + 1];
+        if (surface && is_last)
+            write_fill(surface, out);
+        deferred_write_lines(passes[pass].texts[i], out);
+        if (passes[pass].texts[i] == deferred_read && layout->storage == STORAGE_FLOAT)
+            deferred_write_get(out);
+    }
 }
 
 /* ---- lighting ---- */

@@ -7,9 +7,9 @@
  *     stored = mx_finish_closures(stored)
  *     out1 = vec4(emission, 1)
  *
- * The functions stand in passes/write.glsl and passes/store.glsl, which go into the shader as its
- * own source. A payload has those of passes/pack.glsl instead of the former, and its words are the
- * outputs.
+ * The functions stand in passes/write.glsl, passes/store.glsl and closure.c, which go into the
+ * shader as its own source. A payload has those of passes/pack.glsl instead of the former, and its
+ * words are the outputs.
  */
 #include "deferred/deferred.h"
 
@@ -97,26 +97,15 @@ static bool is_spread(const struct closure_list *spread, const struct closure_le
 /* Operands of a mark: its weight, then the inputs of slab_mark_bsdf. */
 enum mark_operand {
     MARK_weight,
-    MARK_diffuse_albedo,
-    MARK_f0,
-    MARK_f90,
-    MARK_roughness,
-    MARK_anisotropy,
-    MARK_normal,
-    MARK_tangent,
-    MARK_second_roughness,
-    MARK_second_roughness_weight,
-    MARK_fuzz_amount,
-    MARK_fuzz_color,
-    MARK_fuzz_roughness,
-    MARK_free_path,
-    MARK_phase_anisotropy,
-    MARK_is_thick,
-    MARK_glint_density,
-    MARK_glint_uv,
-    MARK_specular_lut,
-    MARK_specular_lut_weight,
-    MARK_blur,
+#define CLOSURE_VALUE(type, name, from, doc) OPERAND_##from(name)
+#define OPERAND_MARK(name) MARK_##name,
+#define OPERAND_ABOVE(name)
+#define OPERAND_PIXEL(name)
+#include "deferred/closure.def"
+#undef OPERAND_MARK
+#undef OPERAND_ABOVE
+#undef OPERAND_PIXEL
+#undef CLOSURE_VALUE
     NUM_MARK_OPERANDS
 };
 
@@ -168,9 +157,15 @@ static struct closure_list marks_of(const struct shader *shader, ir_ref bsdf,
 
 /* ---- Sizes ---- */
 
+/* Of a closure in whole floats. */
 enum {
-    NUM_TARGET_WORDS = 3, /* that are render targets */
-    WHOLE_WORDS = 47      /* of a closure in whole floats: as many as mx_put_whole writes */
+    WORDS_float = 1,
+    WORDS_vec2 = 2,
+    WORDS_vec3 = 3,
+#define CLOSURE_VALUE(type, name, from, doc) +WORDS_##type
+    WHOLE_WORDS =
+#include "deferred/closure.def"
+#undef CLOSURE_VALUE
 };
 
 static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
@@ -194,7 +189,7 @@ static struct stored_slab *slabs_of(const struct shader *shader, const struct cl
             .fuzz_amount = in[MARK_fuzz_amount],
             .free_path = in[MARK_free_path],
             .normal = in[MARK_normal],
-            .has_tint = !ir_const_is(g, in[MARK_specular_lut_weight], 0.0f),
+            .has_tint = !ir_const_is(g, in[MARK_tint_weight], 0.0f),
             .has_glints = !ir_const_is(g, in[MARK_glint_density], 0.0f),
             .is_whole = is_white(g, &marks->leaves.items[i]),
         };
@@ -206,9 +201,9 @@ static uint32_t count_words(const struct ir_graph *g, const struct stored_slab *
                             enum deferred_storage storage)
 {
     if (storage == STORAGE_FLOAT)
-        return NUM_TARGET_WORDS + WHOLE_WORDS * num;
+        return DEFERRED_TARGET_WORDS + WHOLE_WORDS * num;
     uint32_t words = slab_stored_pixel(g, slabs, num);
-    return words > NUM_TARGET_WORDS ? words : NUM_TARGET_WORDS;
+    return words > DEFERRED_TARGET_WORDS ? words : DEFERRED_TARGET_WORDS;
 }
 
 /* The classes that mx_class_of and mx_finish_closures may choose, as bits. */
@@ -274,8 +269,8 @@ static ir_ref value_of(struct shader *shader, ir_ref mark, unsigned operand, boo
 {
     struct ir_graph *g = shader->graph;
     ir_ref value = ir_arg(g, mark, operand);
-    if (operand == MARK_specular_lut)
-        return table_of(shader, value, ir_arg(g, mark, MARK_specular_lut_weight));
+    if (operand == MARK_tint_index)
+        return table_of(shader, value, ir_arg(g, mark, MARK_tint_weight));
     return is_unread(g, mark, operand, is_whole) ? ir_const_splat(g, ir_type_of(g, value), 0.0f)
                                                  : value;
 }
@@ -299,13 +294,19 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
 
 static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
 {
+    bool has_layers = !layout->is_payload && shader->stored_words > DEFERRED_TARGET_WORDS;
     struct text text;
     struct source_fault fault;
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
     text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->stored_words);
+    if (has_layers)
+        deferred_declare(RESOURCE_WORDS, layout, false, true, &text);
     deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
+    if (has_layers && layout->storage == STORAGE_FLOAT)
+        deferred_write_put(&text);
     deferred_write_lines(deferred_store_closure, &text);
+    deferred_write_store(&text);
     uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),
                                         NULL, 0, &fault);
     assert(source != UINT32_MAX);

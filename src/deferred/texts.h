@@ -5,6 +5,7 @@
 
 extern const char *const deferred_record[];
 extern const char *const deferred_store_closure[];
+extern const char *const deferred_tile[];
 extern const char *const deferred_plane[];
 extern const char *const deferred_diffuse[];
 extern const char *const deferred_blur[];

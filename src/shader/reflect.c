@@ -43,7 +43,11 @@ void reflect_value(struct json *json, const char *key, const struct ir_value *va
 
 /* ---- Variables ---- */
 
-static const char *const stage_names[NUM_STAGES] = {"vertex", "pixel"};
+/* A pass has one stage, in the place of the pixel stage. */
+static const char *stage_name(const struct reflect *r, int stage)
+{
+    return stage == STAGE_VERTEX ? "vertex" : r->options->is_pass ? "compute" : "pixel";
+}
 
 static void put_item(struct json *json, const char *text)
 {
@@ -57,7 +61,7 @@ static void put_stages(struct reflect *r, uint8_t stages)
     json_open_flat(&r->json, '[');
     for (int stage = 0; stage < NUM_STAGES; stage++)
         if (stages >> stage & 1)
-            put_item(&r->json, stage_names[stage]);
+            put_item(&r->json, stage_name(r, stage));
     json_close(&r->json, ']');
 }
 
@@ -273,7 +277,7 @@ static void put_functions(struct reflect *r)
         const struct lang_reach *reach = &r->shader->stages[stage].reach;
         if (!reach->functions.len)
             continue;
-        json_key(&r->json, stage_names[stage]);
+        json_key(&r->json, stage_name(r, stage));
         json_open(&r->json, '[');
         for (uint32_t i = 0; i < reach->functions.len; i++) {
             str_id name = lang_function(r->shader->unit, reach->functions.items[i], NULL)->name;
@@ -284,18 +288,17 @@ static void put_functions(struct reflect *r)
     json_close(&r->json, '}');
 }
 
-static void put_topology(struct reflect *r, uint64_t topology)
+static void put_topology(struct reflect *r)
 {
     json_key(&r->json, "topology");
     text_char(r->json.out, '"');
-    text_hex64(r->json.out, topology);
+    text_hex64(r->json.out, r->options->topology);
     text_char(r->json.out, '"');
 }
 
-static void put_shader(struct reflect *r)
+static void put_surface(struct reflect *r)
 {
     const struct shader *shader = r->shader;
-    put_topology(r, shader_topology(shader, r->json.out->arena));
     json_put_number(&r->json, "closures", shader->closures.len);
     json_put_bool(&r->json, "transparent", shader->transparent);
     if (shader->alpha != ALPHA_OPAQUE)
@@ -307,6 +310,13 @@ static void put_shader(struct reflect *r)
         json_put_text(&r->json, "function", shader->function);
         json_put_text(&r->json, "functionType", shader->function_type);
     }
+}
+
+static void put_shader(struct reflect *r)
+{
+    const struct shader *shader = r->shader;
+    if (!r->options->is_pass)
+        put_surface(r);
     if (r->options->more)
         r->options->more(r->options->user_data, &r->json);
     json_key(&r->json, "blocks");
@@ -315,14 +325,10 @@ static void put_shader(struct reflect *r)
         put_block(r, (enum shader_block)block);
     json_close(&r->json, ']');
     put_lights(r);
-    put_functions(r);
-    put_compiled(r);
-}
-
-static void put_network(struct reflect *r)
-{
-    put_topology(r, r->options->network_topology);
-    r->options->reflect_network(r->options->network, r);
+    if (!r->options->is_pass || shader->stages[STAGE_PIXEL].reach.functions.len)
+        put_functions(r);
+    if (!r->options->is_pass)
+        put_compiled(r);
 }
 
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,
@@ -335,8 +341,9 @@ void shader_reflect_json(const struct shader *shader, const struct shader_reflec
     reflect_id(&r, "element", shader->element_type);
     json_put_text(&r.json, "target", options->target);
     json_put_text(&r.json, "generator", options->generator);
+    put_topology(&r);
     if (options->network)
-        put_network(&r);
+        options->reflect_network(options->network, &r);
     else
         put_shader(&r);
     json_close(&r.json, '}');

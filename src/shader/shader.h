@@ -500,6 +500,8 @@ struct json;
 struct network;
 struct shader_reflect_options {
     const char *target, *generator; /* "vulkan", "mxgen 0.1.0" */
+    uint64_t topology;
+    bool is_pass; /* a compute stage in the place of the pixel stage, and no surface */
     void *user_data;
     /* Fills the strings for a variable, which is zeroed before; NULL: none. */
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
@@ -508,7 +510,6 @@ struct shader_reflect_options {
     /* Adds items to the object of a shader; NULL: there are none. */
     void (*more)(void *user_data, struct json *json);
     const struct network *network; /* described in the place of the shader; NULL: it is none */
-    uint64_t network_topology;
     void (*reflect_network)(const struct network *network, struct reflect *r);
 };
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,

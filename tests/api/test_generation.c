@@ -605,6 +605,31 @@ static void test_options_of_targets(void)
     REQUIRE(!mxg_option_applies(mxg_num_options(), "glsl") && !mxg_option_applies(0, NULL));
 }
 
+/* A pass that the options do not ask for has no source. A surface is no pass. */
+static void test_passes(const struct bench *b)
+{
+    mxg_generate_desc desc = {.size = sizeof desc, .target = "vulkan"};
+    unsigned num_left_out = 0;
+    for (uint32_t i = 0; i < mxg_num_passes(); i++) {
+        mxg_result *result;
+        mxg_pass pass = {sizeof pass};
+        REQUIRE_EQ(mxg_generate_pass(b->context, i, &desc, &result), MXG_OK);
+        bool has_source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
+        num_left_out += !has_source;
+        REQUIRE_EQ(mxg_result_reflection_json(result, NULL) != NULL, has_source);
+        REQUIRE_EQ(mxg_result_pass(result, &pass), has_source ? MXG_OK : MXG_ERROR_ARGUMENT);
+        REQUIRE(!has_source || (pass.reads && pass.writes && pass.group_size[0] == 8));
+        mxg_result_destroy(result);
+    }
+    REQUIRE_EQ(num_left_out, 2);
+    mxg_pass_member member = {sizeof member};
+    REQUIRE_EQ(mxg_get_pass_member(0, 0, &member), MXG_ERROR_ARGUMENT); /* an image */
+    REQUIRE_EQ(mxg_get_pass_member(mxg_num_pass_resources(), 0, &member), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_result_pass(NULL, NULL), MXG_ERROR_ARGUMENT);
+    desc.without_source = true;
+    REQUIRE_EQ(mxg_generate_pass(b->context, 0, &desc, NULL), MXG_ERROR_ARGUMENT);
+}
+
 int main(void)
 {
     struct bench b;
@@ -617,6 +642,7 @@ int main(void)
     test_without_source(&b);
     test_only_diagnostics(&b);
     test_interfaces(&b);
+    test_passes(&b);
     bench_close(&b);
     test_elements();
     test_tokens();

@@ -364,6 +364,20 @@ static void test_order(struct bench *b)
 
 /* ---- Debug views ---- */
 
+/* The words of `mx_show` are those of `mxgen render --show`. */
+static void test_words_of_views(void)
+{
+    enum { FRAME = 8, SHOW = 4 };
+    char words[256] = "";
+    mxg_pass_member member = {sizeof member};
+    for (size_t i = 0; pass_views[i]; ++i) {
+        strcat(words, i ? "|" : "");
+        strcat(words, pass_views[i]);
+    }
+    REQUIRE(mxg_get_pass_member(FRAME, SHOW, &member) == MXG_OK);
+    REQUIRE(strcmp(member.name, "mx_show") == 0 && strcmp(member.values, words) == 0);
+}
+
 static void test_views(struct bench *b)
 {
     static const struct {
@@ -517,6 +531,7 @@ int main(int argc, char **argv)
         test_culling(&b);
         test_order(&b);
         test_views(&b);
+        test_words_of_views();
         for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
             test_picture(&b, features[i]);
         for (size_t i = 0; i < sizeof specials / sizeof *specials; ++i)

@@ -440,6 +440,9 @@ test("passes of the deferred pipeline", () => {
     assert(passes.length > 2);
     assert.equal(mxgen.passResources[0].kind.length > 0, true);
     assert(mxgen.passResources.some(({ name }) => name === "words"));
+    const { members } = mxgen.passResources.find(({ name }) => name === "frame");
+    assert.deepEqual(members.map(({ name, offset }) => [name, offset]).at(-1), ["mx_show", 80]);
+    assert.deepEqual(passes[0].shader.passInfo.groupSize, [8, 8, 1]);
     assert.throws(() => context.passes("moon"), DocumentError);
 });
 
@@ -577,8 +580,9 @@ test("every function and member is declared, and every function of C is used", (
     const structs = JSON.parse(layout.slice(layout.indexOf("STRUCTS = ") + 10, layout.lastIndexOf(";")));
     const shown = { mxg_variable: "Variable", mxg_diagnostic: "Diagnostic", mxg_port: "Port", mxg_nodedef: "NodeDef", mxg_compiled_input: "CompiledInput",
                     mxg_shader_info: "ShaderInfo", mxg_block_info: "BlockInfo", mxg_option: "Option", mxg_semantic: "Semantic", mxg_tile: "Tile",
-                    mxg_diagnostic_kind: "DiagnosticKind", mxg_renderable: "Renderable", mxg_property: "Property", mxg_context_desc: "ContextOptions" };
-    const hidden = ["size", "numValues", "numTiles", "numInputs", "numOutputs", "realloc", "reallocUserData", "cancelUserData", "sandbox", "includeRoots",
+                    mxg_diagnostic_kind: "DiagnosticKind", mxg_renderable: "Renderable", mxg_pass_resource: "PassResource", mxg_pass_member: "PassMember",
+                    mxg_pass: "PassInfo", mxg_property: "Property", mxg_context_desc: "ContextOptions" };
+    const hidden = ["size", "numValues", "numTiles", "numMembers", "numInputs", "numOutputs", "realloc", "reallocUserData", "cancelUserData", "sandbox", "includeRoots",
                     "numIncludeRoots", "numSourcePaths", "nodeCodes", "numNodeCodes", "dialects", "numDialects"]; // nodes in C and targets of a host: not from JavaScript
     for (const [struct, name] of Object.entries(shown)) {
         const body = declared.match(new RegExp(`export interface ${name} \\{([^}]*)\\}`))[1];

@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # The deferred pipeline: its passes, the combinations of options, what materials write. Arguments: mxgen, the folder of the examples.
 mxgen=$(realpath "$1") examples=$(realpath "$2")
-source "$(dirname "$(realpath "$0")")/common.sh"
+scripts=$(dirname "$(realpath "$0")")
+source "$scripts/common.sh"
 
 # ---- passes ----
 
 check "passes" "$mxgen" pipeline passes
-for name in classify compose light_simple light_single light_complex light_special diffuse blur show light_rays; do
+for name in classify compose light_simple light_single light_complex light_special show light_rays; do
     check "$name" test -s "passes/$name.comp" -a -s "passes/$name.json"
 done
+check "no pass that the options do not ask for" test ! -e passes/diffuse.comp -a ! -e passes/diffuse.json -a ! -e passes/blur.comp
 check "passes for OpenGL" "$mxgen" pipeline gl --target glsl
 check "few lights" "$mxgen" pipeline few --max-lights 1 --environment none
 same() { cmp -s "$1/classify.comp" "$2/classify.comp"; }
@@ -35,6 +37,22 @@ if command -v glslangValidator >/dev/null; then
     check "gl compile" compiles gl ""
 else
     skip "no glslangValidator"
+fi
+
+# ---- reflection ----
+
+# The arguments of pass_layouts.py: the JSON of all passes of some folders, each with its SPIR-V as text.
+disassembled() {
+    local file
+    for file in $(printf '%s/*.comp ' "$@"); do
+        glslangValidator -V -o code.spv "$file" >/dev/null && spirv-dis --raw-id code.spv -o "$file.spvasm" || return 1
+        echo "${file%.comp}.json" "$file.spvasm"
+    done
+}
+if command -v glslangValidator >/dev/null && command -v spirv-dis >/dev/null; then
+    check "the JSON is what the passes are" python3 "$scripts/pass_layouts.py" $(disassembled passes spread soft)
+else
+    skip "no glslangValidator or spirv-dis"
 fi
 
 # ---- materials ----
@@ -120,9 +138,23 @@ compiled = {item["path"] for item in reflection["compiledInputs"]}
 assert {"Paint/transmission", "Paint/thin_walled"} <= compiled and "Paint/specular_roughness" not in compiled, compiled'
 check "glass" as_slabs -e Glass --interface reduced --slabs
 check "is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction' is no slab" out
-check "and lights itself" eval '! grep -q mx_word_0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
+check "and lights itself" eval '! grep -q mx_word0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
 check "glass in a budget" as_slabs -e Glass --interface reduced --max-closures 4
-check "is stored" eval 'grep -q mx_word_0 models/Glass.frag && ! grep -q drawn-forward out'
+check "is stored" eval 'grep -q mx_word0 models/Glass.frag && ! grep -q drawn-forward out'
+cat >absent.mtlx <<'X'
+<materialx version="1.39">
+  <oren_nayar_diffuse_bsdf name="none" type="BSDF"><input name="weight" type="float" value="0"/></oren_nayar_diffuse_bsdf>
+  <oren_nayar_diffuse_bsdf name="red" type="BSDF"><input name="color" type="color3" value="0.75, 0.125, 0.25"/></oren_nayar_diffuse_bsdf>
+  <layer name="both" type="BSDF"><input name="top" type="BSDF" nodename="none"/><input name="base" type="BSDF" nodename="red"/></layer>
+  <surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></surface>
+</materialx>
+X
+stores_red() {
+    "$mxgen" absent.mtlx --target vulkan --pipeline deferred --interface reduced --slabs -o absent "$@" >out &&
+        grep -q 'mx_store_closure(stored, vec3(0.75, 0.125, 0.25)' absent/SR.frag
+}
+check "a top of weight 0 hides nothing" stores_red
+check "but all with --layering occluding" eval '! stores_red --layering occluding && test -s absent/SR.frag'
 check "what only glows" as_slabs -e Flat --interface reduced
 check "passes do not become slabs" "$mxgen" pipeline slabs --slabs --max-closures 1
 check "but stay as they are" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'

@@ -245,7 +245,8 @@ class Passes(unittest.TestCase):
     def test_passes(self):
         context = mxgen.Context()
         passes = context.passes("vulkan", options={"max-lights": 1})
-        self.assertEqual(list(passes), ["classify", "compose", "light_simple", "light_single", "light_complex", "light_special", "diffuse", "blur", "show", "light_rays"])
+        self.assertEqual(list(passes), ["classify", "compose", "light_simple", "light_single", "light_complex", "light_special", "show", "light_rays"])
+        self.assertIn("diffuse", context.passes("vulkan", options={"sss": "diffusion"}))
         self.assertIn("u_lightData[1]", passes["light_simple"].pixel)
         document = context.load(common.EXAMPLES / "deferred.mtlx")
         stored = document.generate("vulkan", "Lacquered", options={"pipeline": "deferred", "interface": "reduced"})
@@ -257,6 +258,27 @@ class Passes(unittest.TestCase):
         self.assertEqual([(one.name, one.kind) for one in mxgen.pass_resources()][:2], [("words", "image2DArray"), ("word0", "image2D")])
         with self.assertRaises(mxgen.DocumentError):
             context.passes("hlsl")
+
+    def test_reflection(self):
+        """The JSON of a pass and the library say the same."""
+        resources = mxgen.pass_resources()
+        for name, shader in mxgen.Context().passes("vulkan", options={"sss": "diffusion", "rough-refraction": "blur"}).items():
+            info, described = shader.pass_info, json.loads(shader.reflection_json)["deferred"]
+            self.assertEqual((info.name, list(info.group_size)), (name, described["groupSize"]))
+            self.assertEqual(info.dispatch_offset if info.is_indirect else None, described.get("dispatchOffset"))
+            used = {item["binding"]: item for item in described["resources"]}
+            self.assertEqual(info.reads | info.writes, sum(1 << binding for binding in used))
+            for binding, item in used.items():
+                one, access = resources[binding], (info.reads >> binding & 1, info.writes >> binding & 1)
+                self.assertEqual(item["access"], {(1, 0): "read", (0, 1): "write", (1, 1): "read-write"}[access])
+                self.assertEqual((one.name, one.kind, one.format, one.num_layers, one.byte_size),
+                                 (item["name"], item["kind"], item.get("format", ""), item.get("layers", 0), item.get("size", 0)))
+                flat = [part for member in item.get("members", []) for part in (member, *member.get("members", []))]
+                self.assertEqual([(member.name, member.type, member.offset, member.array_stride, member.per, member.values) for member in one.members],
+                                 [(part["name"], part["type"], part["offset"], part.get("arrayStride", 0), part.get("per", ""), part.get("values", ""))
+                                  for part in flat])
+        self.assertTrue(resources[-1].name and next(one for one in resources if one.name == "rays").members[1].is_nested)
+        self.assertIsNone(mxgen.Context().load(common.EXAMPLES / "deferred.mtlx").generate("vulkan", "Plain").pass_info)
 
 
 class Catalogues(unittest.TestCase):

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * src/api/combinations.def: every pair of values of its options is generated. A pair of a row is an
- * error that names both options, and all others give a shader.
+ * error that names both options, and all others give a shader. A depth pass does not depend on
+ * options of light and storage.
  */
 #include <mxgen/mxgen.h>
 
@@ -31,7 +32,7 @@ static const struct setting {
     {"slots", "slots", {"blend", "stochastic"}},
     {"transparency", "transparency", {"auto", "opaque", "mask", "blend", "dual"}},
     {"transmission", "transmission", {"refraction", "opacity"}},
-    {"layering", "layering", {"view", "two-sided"}},
+    {"layering", "layering", {"view", "two-sided", "occluding"}},
     {"encode", "encode", {"linear", "srgb"}},
     {"occlusion_map", "occlusion-map", {"false", "true"}},
     {"shadow_map", "shadow-map", {"false", "true"}},
@@ -161,12 +162,57 @@ static void test_options(struct run *run, const struct setting *a, const struct 
             test_pair(run, (struct choice){a, i}, (struct choice){b, k});
 }
 
+/* ---- Depth passes ---- */
+
+/* The depth pass of a cut-out; one option more unless key is NULL. */
+static mxg_result *generate_depth(const struct run *run, const char *key, const char *value)
+{
+    mxg_options *options = NULL;
+    mxg_result *result = NULL;
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    REQUIRE(mxg_options_create(run->context, &options) == MXG_OK);
+    REQUIRE(mxg_options_set(options, "pipeline", "depth") == MXG_OK);
+    REQUIRE(mxg_options_set(options, "transparency", "mask") == MXG_OK);
+    REQUIRE(!key || mxg_options_set(options, key, value) == MXG_OK);
+    desc.target = "vulkan";
+    desc.element = "holes";
+    desc.options = options;
+    REQUIRE(mxg_generate(run->context, run->document, &desc, &result) == MXG_OK);
+    mxg_options_destroy(options);
+    return result;
+}
+
+static void test_depth(const struct run *run)
+{
+    static const struct {
+        const char *key, *value;
+    } without[] = {
+        {"lights", "point_light=2"},  {"max-lights", "8"},        {"shadow-map", "true"},
+        {"sample-filter", "narrow"},  {"encode", "srgb"},         {"storage", "float"},
+        {"sss", "diffusion"},         {"layering", "two-sided"},  {"layering", "occluding"},
+        {"rough-refraction", "blur"}, {"transmission", "opacity"}};
+    mxg_result *plain = generate_depth(run, NULL, NULL);
+    const char *text = mxg_result_source(plain, MXG_STAGE_PIXEL, NULL);
+    REQUIRE(text && strstr(text, "discard"));
+    for (size_t i = 0; i < sizeof without / sizeof *without; i++) {
+        mxg_result *other = generate_depth(run, without[i].key, without[i].value);
+        const char *same = mxg_result_source(other, MXG_STAGE_PIXEL, NULL);
+        if (!REQUIRE(same && strcmp(text, same) == 0))
+            printf("    %s=%s\n", without[i].key, without[i].value);
+        mxg_result_destroy(other);
+    }
+    mxg_result_destroy(plain);
+}
+
 int main(void)
 {
     static const char text[] =
         "<materialx version='1.39'><slab name='matter' type='BSDF'/>"
         "<slab_surface name='SR' type='surfaceshader'>"
-        "<input name='bsdf' type='BSDF' nodename='matter'/></slab_surface></materialx>";
+        "<input name='bsdf' type='BSDF' nodename='matter'/></slab_surface>"
+        "<surface name='holes' type='surfaceshader'>"
+        "<input name='bsdf' type='BSDF' nodename='matter'/>"
+        "<input name='opacity' type='float' value='0.5'/></surface></materialx>";
     struct run run = {.good = 0};
     REQUIRE(mxg_context_create(NULL, &run.context) == MXG_OK);
     mxg_library *library = mxg_library_builtin(run.context);
@@ -178,6 +224,7 @@ int main(void)
     for (size_t r = 0; r < NUM_ROWS; r++)
         if (!REQUIRE(run.is_found[r]))
             printf("    no pair has %s=%s, %s\n", rows[r].option, rows[r].value, rows[r].other);
+    test_depth(&run);
     printf("%u pairs with a meaning, %u without\n", run.good, run.bad);
     mxg_document_destroy(run.document);
     mxg_library_unref(library);

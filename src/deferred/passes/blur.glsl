@@ -1,10 +1,6 @@
 // What lies below a rough interface is blurred, because the way of the view bends there: the mean of the light around, with the weights of a
 // normal distribution on the surface. Samples that the picture shows elsewhere weigh less, those without such light nothing.
 
-#if MX_BLUR == 1
-layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
-layout(MX_BELOW, rgba16f) uniform readonly restrict image2DArray mx_below;
-
 const int MX_NUM_SAMPLES = 48;
 
 void main()
@@ -33,8 +29,3 @@ void main()
     vec4 rest = imageLoad(mx_below, ivec3(pixel, 1));
     imageStore(mx_lit, pixel, vec4(rest.xyz + (weights > 0.0 ? light / weights : own.xyz), rest.w));
 }
-#else
-void main()
-{
-}
-#endif

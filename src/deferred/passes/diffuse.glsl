@@ -1,14 +1,7 @@
 // Light below the surface of bodies spreads: an integral over the disk around each point, which replaces the light of the bodies. Christensen and
 // Burley 2015, "Approximate Reflectance Profiles for Efficient Subsurface Scattering": R(r) = (exp(-r / d) + exp(-r / 3d)) / (8 pi d r), with d
 // the free path. Samples lie on the plane of the surface and are moved to what the picture shows there, as in Golubev 2018, "Efficient Screen-Space
-// Subsurface Scattering Using Burley's Normalized Diffusion in Real-Time". Weights have the sum 1, so that no light is gained or lost.
-
-#if MX_SSS == 1
-layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
-layout(MX_SCATTERED, rgba16f) uniform readonly restrict image2DArray mx_scattered;
-#if MX_BLUR == 1
-layout(MX_BELOW, rgba16f) uniform restrict image2DArray mx_below;
-#endif
+// Subsurface Scattering Using Burley's Normalized Diffusion in Real-Time". Weights have the sum 1, so even light stays even.
 
 const int MX_NUM_SAMPLES = 64;
 
@@ -66,7 +59,7 @@ void main()
     vec3 spread = vec3(weights.x > 0.0 ? light.x / weights.x : own.x, weights.y > 0.0 ? light.y / weights.y : own.y,
                        weights.z > 0.0 ? light.z / weights.z : own.z);
     vec4 lit = vec4(rest.xyz + body.diffuse_albedo * spread, rest.w);
-#if MX_BLUR == 1
+#if MX_BELOW == 1
     if (imageLoad(mx_below, ivec3(pixel, 0)).w > 0.0) { // the pass "blur" finishes the pixel
         imageStore(mx_below, ivec3(pixel, 1), lit);
         return;
@@ -74,8 +67,3 @@ void main()
 #endif
     imageStore(mx_lit, pixel, lit);
 }
-#else
-void main()
-{
-}
-#endif

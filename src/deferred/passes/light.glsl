@@ -1,11 +1,6 @@
 // One group per tile of class MX_CLASS: lights its pixels by the function surface(), which stands above with mx_fill().
 
-layout(MX_DEPTH) uniform sampler2D mx_depth;
-layout(MX_COLOR) uniform sampler2D mx_color;
-layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
-#if MX_SSS == 1 && MX_CLASS > 1
-layout(MX_SCATTERED, rgba16f) uniform writeonly restrict image2DArray mx_scattered;
-
+#if MX_SCATTERED == 1
 // The part of out1 that is light from below the surface: what the same closure without a body does not send.
 vec3 mx_split(MxClosure closure, vec3 point, vec3 top)
 {
@@ -17,14 +12,9 @@ vec3 mx_split(MxClosure closure, vec3 point, vec3 top)
 }
 #endif
 
-#if MX_BLUR == 1 && MX_CLASS > 2
-layout(MX_BELOW, rgba16f) uniform writeonly restrict image2DArray mx_below;
-#endif
-
 void main()
 {
-    uint tile = mx_tile[MX_CLASS * mx_size.w + gl_WorkGroupID.x];
-    ivec2 pixel = 8 * ivec2(tile % mx_size.z, tile / mx_size.z) + ivec2(gl_LocalInvocationID.xy);
+    ivec2 pixel = mx_pixel_of(MX_CLASS);
     if (mx_is_outside(pixel))
         return;
     MxReader reader = mx_open(pixel);
@@ -32,44 +22,44 @@ void main()
         return;
     vec4 point = mx_to_world * vec4(vec2(pixel) + 0.5, texelFetch(mx_depth, pixel, 0).x, 1.0);
     vec4 lit = texelFetch(mx_color, pixel, 0); // what the surface emits
-#if MX_SSS == 1 && MX_CLASS > 1
+#if MX_SCATTERED == 1
     vec3 inside = vec3(0.0), albedo = vec3(0.0);
 #endif
-#if MX_BLUR == 1 && MX_CLASS > 2
+#if MX_BELOW == 1
     vec4 below = vec4(0.0); // light that is blurred, and how wide
 #endif
     while (reader.next < reader.num_closures) {
         MxClosure closure = mx_next(reader);
         mx_fill(closure, point.xyz / point.w, reader.normals[0]);
         surface();
-#if MX_SSS == 1 && MX_CLASS > 1
+#if MX_SCATTERED == 1
         if (closure.is_thick > 0.0) {
             inside += mx_split(closure, point.xyz / point.w, reader.normals[0]);
             albedo = closure.diffuse_albedo;
         }
 #endif
-#if MX_BLUR == 1 && MX_CLASS > 2
+#if MX_BELOW == 1
         if (closure.blur > 0.0) {
             below = vec4(below.xyz + out1.xyz, max(below.w, closure.blur));
             continue;
         }
 #endif
         lit.xyz += out1.xyz;
-#if MX_CLASS < 3
-        break;
+#if MX_CLASS < MX_COMPLEX
+        break; // the only closure
 #endif
     }
-#if MX_BLUR == 1 && MX_CLASS > 2
+#if MX_BELOW == 1
     imageStore(mx_below, ivec3(pixel, 0), below);
 #endif
-#if MX_SSS == 1 && MX_CLASS > 1
+#if MX_SCATTERED == 1
     if (max(albedo.x, max(albedo.y, albedo.z)) > 0.0) {
         imageStore(mx_scattered, ivec3(pixel, 0), vec4(inside / max(albedo, 1e-3), 1.0));
         imageStore(mx_scattered, ivec3(pixel, 1), lit);
         return;
     }
 #endif
-#if MX_BLUR == 1 && MX_CLASS > 2
+#if MX_BELOW == 1
     if (below.w > 0.0) {
         imageStore(mx_below, ivec3(pixel, 1), lit);
         return;

@@ -1,20 +1,10 @@
 // Lights the payload of a ray per pixel by the function surface(), which stands above with mx_fill().
 
-layout(MX_PAYLOADS, std430) readonly buffer MxPayloads
-{
-    MxPayload mx_payloads[];
-};
-layout(MX_RAYS, std430) readonly buffer MxRays
-{
-    MxRay mx_rays[];
-};
-layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
-
 // Light that leaves the hit along the ray, and its opacity. Ray generation shaders may call it.
 vec4 mx_light_payload(MxPayload payload, MxRay ray)
 {
     vec4 lit = mx_emission_of(payload);
-    if (payload.words[0] >> 28u == MX_EMPTY)
+    if (mx_class(payload.words[0]) == MX_EMPTY)
         return lit;
     MxClosure closure = mx_open_payload(payload);
     mx_view = ray.view.xyz;

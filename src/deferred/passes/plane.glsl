@@ -1,7 +1,5 @@
 // The surface around a pixel, for passes that gather light from there.
 
-layout(MX_DEPTH) uniform sampler2D mx_depth;
-
 const float MX_GOLDEN_ANGLE = 2.3999632; // Vogel's spiral covers a disk evenly
 
 vec3 mx_point(ivec2 pixel)
@@ -13,7 +11,7 @@ vec3 mx_point(ivec2 pixel)
 // The normal of the geometry, whose neighbours are those with the smaller step of depth.
 vec3 mx_plane(ivec2 pixel, vec3 point)
 {
-    ivec2 last = ivec2(mx_size.xy) - 1;
+    ivec2 last = ivec2(mx_size) - 1;
     vec3 right = mx_point(min(pixel + ivec2(1, 0), last)) - point, left = point - mx_point(max(pixel - ivec2(1, 0), ivec2(0)));
     vec3 down = mx_point(min(pixel + ivec2(0, 1), last)) - point, up = point - mx_point(max(pixel - ivec2(0, 1), ivec2(0)));
     bool is_left = pixel.x == last.x || (pixel.x > 0 && dot(left, left) < dot(right, right));
@@ -29,8 +27,8 @@ ivec2 mx_pixel_at(mat4 to_pixels, vec3 point)
     return any(lessThan(pixel, ivec2(0))) || mx_is_outside(pixel) ? ivec2(-1) : pixel;
 }
 
-// The turn of the samples of a pixel. Jimenez 2014, interleaved gradient noise.
+// The turn of the samples of a pixel.
 float mx_turn(ivec2 pixel)
 {
-    return 6.2831853 * fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
+    return 6.2831853 * mx_gradient_noise(vec2(pixel));
 }

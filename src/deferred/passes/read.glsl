@@ -1,10 +1,5 @@
 // The closures of a pixel, from the top down.
 
-layout(MX_WORD_0, r32ui) uniform readonly restrict uimage2D mx_word_0;
-layout(MX_WORD_1, r32ui) uniform readonly restrict uimage2D mx_word_1;
-layout(MX_WORD_2, r32ui) uniform readonly restrict uimage2D mx_word_2;
-layout(MX_STORED_IMAGE, r32ui) uniform readonly restrict uimage2DArray mx_words;
-
 struct MxReader
 {
     ivec2 pixel;
@@ -19,24 +14,35 @@ uint mx_get(inout MxReader reader)
     return imageLoad(mx_words, ivec3(reader.pixel, int(reader.at++))).x;
 }
 
-float mx_get_float(inout MxReader reader)
+#if MX_STORAGE == 2
+void mx_get(inout MxReader reader, out float value)
 {
-    return uintBitsToFloat(mx_get(reader));
+    value = uintBitsToFloat(mx_get(reader));
 }
 
-vec3 mx_get_vector(inout MxReader reader)
+void mx_get(inout MxReader reader, out vec2 value)
 {
-    float x = mx_get_float(reader), y = mx_get_float(reader);
-    return vec3(x, y, mx_get_float(reader));
+    mx_get(reader, value.x);
+    mx_get(reader, value.y);
 }
+
+void mx_get(inout MxReader reader, out vec3 value)
+{
+    mx_get(reader, value.x);
+    mx_get(reader, value.y);
+    mx_get(reader, value.z);
+}
+
+MxClosure mx_get_whole(inout MxReader reader);
+#endif
 
 MxReader mx_open(ivec2 pixel)
 {
     MxReader reader;
     reader.pixel = pixel;
-    reader.core = imageLoad(mx_word_0, pixel).x;
-    reader.body = imageLoad(mx_word_1, pixel).x;
-    reader.top = imageLoad(mx_word_2, pixel).x;
+    reader.core = imageLoad(mx_word0, pixel).x;
+    reader.body = imageLoad(mx_word1, pixel).x;
+    reader.top = imageLoad(mx_word2, pixel).x;
     reader.class_ = mx_class(reader.core);
     reader.num_closures = reader.class_ == MX_EMPTY ? 0u : (reader.body >> 28u) + 1u;
     reader.next = 0u;
@@ -49,34 +55,7 @@ MxReader mx_open(ivec2 pixel)
 MxClosure mx_next(inout MxReader reader)
 {
 #if MX_STORAGE == 2
-    MxClosure c;
-    c.diffuse_albedo = mx_get_vector(reader);
-    c.f0 = mx_get_vector(reader);
-    c.f90 = mx_get_vector(reader);
-    c.roughness = mx_get_float(reader);
-    c.anisotropy = mx_get_float(reader);
-    c.normal = mx_get_vector(reader);
-    c.tangent = mx_get_vector(reader);
-    c.second_roughness = mx_get_float(reader);
-    c.second_roughness_weight = mx_get_float(reader);
-    c.fuzz_amount = mx_get_float(reader);
-    c.fuzz_color = mx_get_vector(reader);
-    c.fuzz_roughness = mx_get_float(reader);
-    c.free_path = mx_get_vector(reader);
-    c.phase_anisotropy = mx_get_float(reader);
-    c.is_thick = mx_get_float(reader);
-    c.glint_density = mx_get_float(reader);
-    c.glint_uv.x = mx_get_float(reader);
-    c.glint_uv.y = mx_get_float(reader);
-    c.glint_extent.x = mx_get_float(reader);
-    c.glint_extent.y = mx_get_float(reader);
-    c.tint_index = mx_get_float(reader);
-    c.tint_weight = mx_get_float(reader);
-    c.blur = mx_get_float(reader);
-    c.steady = mx_get_vector(reader);
-    c.color = mx_get_vector(reader);
-    c.decay = mx_get_vector(reader);
-    c.spreads = mx_get_float(reader);
+    MxClosure c = mx_get_whole(reader);
     if (reader.next++ == 0u)
         reader.normals[0] = c.normal;
     return c;

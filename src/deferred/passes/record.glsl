@@ -1,26 +1,6 @@
 // The storage of closures (docs/deferred.md): how values become bits, for those who write and those who read. MX_STORAGE: 0 rounds with
 // dither, 1 rounds, 2 keeps whole floats. MX_BLUR: 1 where rough interfaces blur what lies below.
 
-// A slab, with what lies above it: light on a way x through media weighs steady + color * pow(decay, x).
-struct MxClosure
-{
-    vec3 diffuse_albedo, f0, f90;
-    float roughness, anisotropy;
-    vec3 normal, tangent;
-    float second_roughness, second_roughness_weight, fuzz_amount;
-    vec3 fuzz_color;
-    float fuzz_roughness;
-    vec3 free_path; // over the thickness of the medium, or over the radius of the surface of a body
-    float phase_anisotropy, is_thick, glint_density;
-    vec2 glint_uv, glint_extent; // the latter: how far a pixel goes along each
-    float tint_index, tint_weight;
-    float blur; // deviation on the surface, in the world
-    vec3 steady, color, decay;
-    float spreads;
-};
-
-const uint MX_EMPTY = 0u, MX_SIMPLE = 1u, MX_SINGLE = 2u, MX_COMPLEX = 3u, MX_SPECIAL = 4u;
-
 // What a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
 const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FUZZ = 8u, MX_HAS_ANISOTROPY = 16u;
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
@@ -28,8 +8,6 @@ const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its
 
 // A tint has one word more, glints have four. Bits 28 to 30 of the first word, where bit 30 is set; else bits 28 and 29 of word 0 are the class.
 const uint MX_HAS_TINT = 256u, MX_HAS_GLINTS = 512u, MX_IS_SPECIAL = 1024u;
-
-const int MX_PAYLOAD_WORDS = 16; // of a ray
 
 // The words of a closure.
 struct MxRecord
@@ -39,7 +17,7 @@ struct MxRecord
 
 uint mx_class(uint first)
 {
-    return (first >> 20u & MX_IS_SPECIAL) != 0u ? MX_SPECIAL : first >> 28u;
+    return (first >> 20u & MX_IS_SPECIAL) != 0u ? uint(MX_SPECIAL) : first >> 28u;
 }
 
 // What a closure has.
@@ -50,13 +28,19 @@ uint mx_features(uint core)
 
 // ---- numbers of few bits ---------------------------------------------------------------------------------------------
 
+// From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved gradient noise.
+float mx_gradient_noise(vec2 pixel)
+{
+    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}
+
 // From 0 to 7 eighths: what is added before a number is cut off. A constant number costs one addition.
 uint mx_noise = 4u;
 
 void mx_start_noise(vec2 pixel)
 {
 #if MX_STORAGE == 0
-    mx_noise = uint(8.0 * fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))))); // Jimenez 2014, interleaved gradient noise
+    mx_noise = uint(8.0 * mx_gradient_noise(pixel));
 #endif
 }
 

@@ -1,7 +1,4 @@
-// Draws what is stored. mx_show.x: 0 classes, 1 bytes, 2 closures, 3 coverage, 4 transmittance, 5 properties.
-
-layout(MX_COLOR) uniform sampler2D mx_color;
-layout(MX_LIT) uniform writeonly restrict image2D mx_lit;
+// Draws what is stored.
 
 // From blue over green to red.
 vec3 mx_heat(float value)
@@ -21,19 +18,19 @@ void main()
         MxClosure c = mx_next(reader);
         vec3 weight = c.steady + c.color; // of light along the normal, before media
         covered += c.steady;
-        through += c.color * pow(c.decay, vec3(1.0));
+        through += c.color * c.decay;
         albedo += weight * c.diffuse_albedo;
     }
     float words = reader.class_ == MX_EMPTY ? 0.0 : float(3u + reader.at);
-    if (mx_show.x == 0u)
-        shown = vec3[5](vec3(0.0), vec3(0.0, 0.6, 0.0), vec3(0.8, 0.6, 0.0), vec3(0.8, 0.0, 0.0), vec3(0.6, 0.0, 0.8))[reader.class_];
-    else if (mx_show.x == 1u)
+    if (mx_show == MX_SHOW_CLASSES)
+        shown = vec3[MX_NUM_CLASSES](vec3(0.0), vec3(0.0, 0.6, 0.0), vec3(0.8, 0.6, 0.0), vec3(0.8, 0.0, 0.0), vec3(0.6, 0.0, 0.8))[reader.class_];
+    else if (mx_show == MX_SHOW_BYTES)
         shown = vec3(4.0 * words / 255.0);
-    else if (mx_show.x == 2u)
+    else if (mx_show == MX_SHOW_CLOSURES)
         shown = vec3(float(reader.num_closures) / 255.0);
-    else if (mx_show.x == 3u)
+    else if (mx_show == MX_SHOW_COVERAGE)
         shown = covered;
-    else if (mx_show.x == 4u)
+    else if (mx_show == MX_SHOW_TRANSMITTANCE)
         shown = through;
     else
         shown = albedo;

@@ -1,15 +1,5 @@
 // Payloads of rays: a closure, its light and its opacity.
 
-struct MxPayload
-{
-    uint words[MX_PAYLOAD_WORDS];
-};
-
-struct MxRay
-{
-    vec4 point, view; // where it hit, and the unit direction back along it, in the world; w is not read
-};
-
 vec3 mx_view; // of the ray at hand
 
 MxClosure mx_open_payload(MxPayload p)

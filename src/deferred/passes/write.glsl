@@ -2,9 +2,9 @@
 // MX_WORDS: the most words of a pixel. Without an image there is one closure at most, without features.
 
 layout(early_fragment_tests) in; // where there is an image, the depth pass ran before: one fragment of a pixel writes
-layout(location = 1) out uint mx_word_0;
-layout(location = 2) out uint mx_word_1;
-layout(location = 3) out uint mx_word_2;
+layout(location = 1) out uint mx_word0;
+layout(location = 2) out uint mx_word1;
+layout(location = 3) out uint mx_word2;
 
 vec2 mx_glint_extent(vec2 uv)
 {
@@ -20,8 +20,6 @@ bool mx_is_special = false;     // a closure has glints or a tint
 MxClosure mx_whole;
 #endif
 
-layout(MX_STORED_IMAGE, r32ui) uniform writeonly restrict uimage2DArray mx_words;
-
 void mx_put(uint word)
 {
     imageStore(mx_words, ivec3(ivec2(gl_FragCoord.xy), int(mx_num_words++)), uvec4(word));
@@ -30,6 +28,12 @@ void mx_put(uint word)
 void mx_put(float value)
 {
     mx_put(floatBitsToUint(value));
+}
+
+void mx_put(vec2 value)
+{
+    mx_put(value.x);
+    mx_put(value.y);
 }
 
 void mx_put(vec3 value)
@@ -65,36 +69,7 @@ void mx_put_features(MxRecord r)
 }
 
 #if MX_STORAGE == 2
-void mx_put_whole(MxClosure c)
-{
-    mx_put(c.diffuse_albedo);
-    mx_put(c.f0);
-    mx_put(c.f90);
-    mx_put(c.roughness);
-    mx_put(c.anisotropy);
-    mx_put(c.normal);
-    mx_put(c.tangent);
-    mx_put(c.second_roughness);
-    mx_put(c.second_roughness_weight);
-    mx_put(c.fuzz_amount);
-    mx_put(c.fuzz_color);
-    mx_put(c.fuzz_roughness);
-    mx_put(c.free_path);
-    mx_put(c.phase_anisotropy);
-    mx_put(c.is_thick);
-    mx_put(c.glint_density);
-    mx_put(c.glint_uv.x);
-    mx_put(c.glint_uv.y);
-    mx_put(c.glint_extent.x);
-    mx_put(c.glint_extent.y);
-    mx_put(c.tint_index);
-    mx_put(c.tint_weight);
-    mx_put(c.blur);
-    mx_put(c.steady);
-    mx_put(c.color);
-    mx_put(c.decay);
-    mx_put(c.spreads);
-}
+void mx_put_whole(MxClosure c);
 #endif
 
 // Writes the pending closure, below which another one lies.
@@ -129,12 +104,12 @@ void mx_keep(MxClosure c)
     if (mx_num_closures == 0u) {
         mx_start_noise(gl_FragCoord.xy);
         mx_normals = vec3[3](c.normal, vec3(0.0), vec3(0.0));
-        mx_word_2 = mx_top(c.normal, c.roughness);
+        mx_word2 = mx_top(c.normal, c.roughness);
     } else {
         mx_flush();
     }
     uint normal_word = 0u, number = mx_number_normal(c.normal, normal_word);
-    mx_pending = mx_pack(c, number == 0u ? mx_top_normal(mx_word_2) : mx_uncut_normal(mx_cut_normal(c.normal, 16u), 16u));
+    mx_pending = mx_pack(c, number == 0u ? mx_top_normal(mx_word2) : mx_uncut_normal(mx_cut_normal(c.normal, 16u), 16u));
     mx_pending.normal = normal_word;
     mx_pending.core |= number << 20u + MX_NORMAL_SHIFT;
     mx_is_special = mx_is_special || mx_class(mx_pending.core) == MX_SPECIAL;
@@ -146,8 +121,8 @@ void mx_keep(MxClosure c)
 
 int mx_finish_closures(int stored)
 {
-    mx_word_0 = 0u;
-    mx_word_1 = 0u;
+    mx_word0 = 0u;
+    mx_word1 = 0u;
     if (stored == 0)
         return 0;
     uint class_ = mx_is_special ? MX_SPECIAL : stored > 1 ? MX_COMPLEX : mx_class_of(mx_features(mx_pending.core));
@@ -156,8 +131,8 @@ int mx_finish_closures(int stored)
 #else
     mx_put_features(mx_pending);
 #endif
-    mx_word_0 = mx_pending.core | class_ << 28u;
-    mx_word_1 = mx_pending.body | uint(stored - 1) << 28u;
+    mx_word0 = mx_pending.core | class_ << 28u;
+    mx_word1 = mx_pending.body | uint(stored - 1) << 28u;
     return stored;
 }
 #else
@@ -165,17 +140,17 @@ int mx_finish_closures(int stored)
 void mx_keep(MxClosure c)
 {
     mx_start_noise(gl_FragCoord.xy);
-    mx_word_0 = mx_core(c) | MX_SIMPLE << 28u;
-    mx_word_1 = mx_body(c);
-    mx_word_2 = mx_top(c.normal, c.roughness);
+    mx_word0 = mx_core(c) | MX_SIMPLE << 28u;
+    mx_word1 = mx_body(c);
+    mx_word2 = mx_top(c.normal, c.roughness);
 }
 
 // A surface without a slab stores that there is none.
 int mx_finish_closures(int stored)
 {
     if (stored == 0) {
-        mx_word_0 = 0u;
-        mx_word_1 = 0u;
+        mx_word0 = 0u;
+        mx_word1 = 0u;
     }
     return stored;
 }
