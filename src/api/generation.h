@@ -104,6 +104,8 @@ void generation_start_closures(struct generation *g);
  * False, after a message, where they cannot be cheap enough.
  */
 bool generation_budget_slabs(struct generation *g);
+/* False, after a message, where a tree has more slabs than anybody may walk to. */
+bool generation_slabs_are_few(struct generation *g, const struct slab_report *report);
 /* The budget of the options. */
 struct slab_budget generation_slab_budget(const struct generation *g);
 /* Reads the option `features`; false after a message about a word. */

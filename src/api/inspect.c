@@ -107,7 +107,7 @@ static void view_sheet(struct generation *g, struct text *out,
     generation_start_closures(g);
     struct slab_budget budget = generation_slab_budget(g);
     build_fill_sheet(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &sheet);
-    if (read_drawn(g, &sheet))
+    if (generation_slabs_are_few(g, &sheet.report) && read_drawn(g, &sheet))
         write(&sheet, out);
 }
 

@@ -148,6 +148,15 @@ static bool is_error_shown(struct generation *g)
            || (report->steps.len && diag_is_shown(diags_of(g), DIAG_ID_budget_step));
 }
 
+bool generation_slabs_are_few(struct generation *g, const struct slab_report *report)
+{
+    if (report->is_too_much)
+        diag_add(diags_of(g), DIAG_ID_too_many_slabs,
+                 doc_place(&g->document->layer.doc, g->element),
+                 str_text(g->result->shader.strings, g->result->shader.name), (unsigned)SLABS_MAX);
+    return !report->is_too_much;
+}
+
 bool generation_budget_slabs(struct generation *g)
 {
     if (g->is_pass) /* it has the lobes of all slabs */
@@ -157,6 +166,8 @@ bool generation_budget_slabs(struct generation *g)
     bool has_estimates = budget.max_error >= 0.0f;
     spend_budget(g, has_estimates ? &g->estimates : NULL);
     ir_assert_valid(&g->result->graph, "after the budget of slabs");
+    if (!generation_slabs_are_few(g, report))
+        return false;
     if (!has_estimates && is_error_shown(g))
         estimate_apart(g);
     for (uint32_t i = 0; i < report->steps.len; i++)

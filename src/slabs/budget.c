@@ -122,6 +122,9 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
         root = slabs_join_stacks(shader, host, root);
     struct spender s = {slab_saver_of(shader, host, budget->off, root), budget, out};
     out->before = out->after = s.saver.cost;
+    out->is_too_much = slabs_has(shader, root) && s.saver.cost.closures > SLABS_MAX;
+    if (out->is_too_much)
+        return root;
     if (!s.saver.cost.closures || (!slabs_is_asked(budget) && !slab_find_asked(&s.saver)))
         return root;
     if (host->scratch && goes_on(&s))

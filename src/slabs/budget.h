@@ -8,6 +8,9 @@
 
 #include "slabs/spots.h"
 
+/* Operators that share slabs have a closure for each way to a slab, which may be 2^depth. */
+enum { SLABS_MAX = 1000 };
+
 struct slab_budget {
     uint32_t max_closures, max_bytes; /* 0: no limit */
     float max_error; /* mean CIEDE2000; cheaper until the next step is above it. Below 0: none */
@@ -41,6 +44,7 @@ struct slab_report {
     struct slab_cost before, after;
     float error;      /* below 0: unknown; 0 without steps */
     bool is_met;      /* the limits hold */
+    bool is_too_much; /* more than SLABS_MAX closures: nobody may walk the tree */
     ir_ref unblended; /* an operator that the document asks to blend in vain; 0: none */
 };
 

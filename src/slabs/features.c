@@ -46,7 +46,7 @@ uint32_t slab_features(const struct ir_graph *g, const struct slab_spot *spot)
     if (!spot->thickness && differs(g, spot->ref, SLAB_mean_free_path, 0.0f)
         && differs(g, spot->ref, SLAB_diffuse_albedo, 0.0f))
         bits |= 1u << SLAB_SUBSURFACE;
-    if (spot->is_over && slab_spreads(g, ir_args(g, spot->ref)))
+    if (spot->below && slab_spreads(g, ir_args(g, spot->ref)))
         bits |= SLAB_FEATURES_BELOW & ~ir_get(g, spot->ref)->attr;
     return bits;
 }

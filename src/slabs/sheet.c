@@ -295,6 +295,8 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
         .max_closures = 1, .max_error = -1.0f, .max_steps = budget->max_steps};
     *out = (struct slab_sheet){.shader = shader, .is_asked = slabs_is_asked(budget)};
     slabs_budget(shader, host, out->is_asked ? budget : &one, root, &out->report);
+    if (out->report.is_too_much)
+        return;
     root = slabs_join_stacks(shader, host, root);
     out->is_recognised = root && !slabs_has(shader, root);
     if (out->is_recognised)

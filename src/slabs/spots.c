@@ -3,11 +3,48 @@
 
 #include "slabs/bytes.h"
 #include "slabs/features.h"
+#include "slabs/spread.h"
+
+#include "base/hash.h"
+
+enum { MAX_SPOTS = 4096 }; /* from there on, matter above and below makes no other spots */
 
 static bool is_closure(const struct ir_graph *g, ir_ref ref)
 {
     return ref && ir_type_of(g, ref) == IR_TYPE_BSDF;
 }
+
+/* ---- Piles ---- */
+
+/* The index + 1 of matter on other matter. */
+static uint32_t pile_of(const struct shader *shader, struct slab_spots *spots, ir_ref ref,
+                        uint32_t next)
+{
+    uint32_t hash = hash_pair(ref, next), at = hash, found;
+    while ((found = table_next(&spots->known_piles, hash, &at)))
+        if (spots->piles.items[found - 1].ref == ref && spots->piles.items[found - 1].next == next)
+            return found;
+    vec_push(shader->arena, &spots->piles, (struct slab_pile){ref, next});
+    table_add(&spots->known_piles, shader->arena, hash, spots->piles.len);
+    return spots->piles.len;
+}
+
+static void find_spreading(const struct shader *shader, ir_ref root, const uint8_t *needed,
+                           uint8_t *out)
+{
+    const struct ir_graph *g = shader->graph;
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        const struct ir_node *node = ir_get(g, ref);
+        if (!needed[ref] || node->type != IR_TYPE_BSDF)
+            continue;
+        if (node->op == IR_SLAB)
+            out[ref] = SLAB_FEATURES_BELOW & ~node->attr && slab_spreads(g, ir_args(g, ref));
+        for (uint32_t i = 0; node->op != IR_SLAB && i < node->num_args; i++)
+            out[ref] |= out[ir_arg(g, ref, i)];
+    }
+}
+
+/* ---- Spots ---- */
 
 static void add_spot(const struct shader *shader, struct slab_spots *spots, struct slab_spot spot)
 {
@@ -15,12 +52,13 @@ static void add_spot(const struct shader *shader, struct slab_spots *spots, stru
         return;
     spot.next = spots->first[spot.ref];
     for (uint32_t i = spot.next; i; i = spots->items.items[i - 1].next) {
-        struct slab_spot *known = &spots->items.items[i - 1];
-        if (known->thickness == spot.thickness && known->is_sheet == spot.is_sheet
-            && known->root == spot.root) {
-            known->is_over |= spot.is_over;
+        const struct slab_spot *known = &spots->items.items[i - 1];
+        bool is_there = known->thickness == spot.thickness && known->is_sheet == spot.is_sheet
+                        && known->root == spot.root;
+        if (is_there
+            && (spots->items.len >= MAX_SPOTS
+                || (known->below == spot.below && known->above == spot.above)))
             return;
-        }
     }
     vec_push(shader->arena, &spots->items, spot);
     spots->first[spot.ref] = spots->items.len;
@@ -35,13 +73,17 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
     for (uint32_t i = 0; i < num_args; i++) {
         struct slab_spot at = *spot;
         at.ref = ir_arg(g, ref, i);
-        if (i == 0 && slabs_is_layer(g, ref)) {
-            at.thickness = slabs_layer_thickness(g, ref);
-            at.is_sheet = false;
-            at.is_over |= is_closure(g, ir_arg(g, ref, 1));
-        }
         if (!is_closure(g, at.ref))
             continue;
+        if (i == 0 && slabs_is_layer(g, ref)) {
+            ir_ref base = ir_arg(g, ref, 1);
+            at.thickness = slabs_layer_thickness(g, ref);
+            at.is_sheet = false;
+            at.below =
+                is_closure(g, base) ? pile_of(shader, spots, base, spot->below) : spot->below;
+        } else if (i == 1 && slabs_is_layer(g, ref) && spots->spreads[ir_arg(g, ref, 0)]) {
+            at.above = pile_of(shader, spots, ir_arg(g, ref, 0), spot->above);
+        }
         if (spots->depth[at.ref] <= spots->depth[ref])
             spots->depth[at.ref] = spots->depth[ref] + 1;
         add_spot(shader, spots, at);
@@ -57,6 +99,8 @@ void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spot
     if (!root)
         return;
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    out->spreads = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
+    find_spreading(shader, root, needed, out->spreads);
     add_spot(shader, out, (struct slab_spot){.ref = root, .root = root});
     for (ir_ref ref = root; ref; ref--) {
         uint8_t op = ir_get(g, ref)->op;
@@ -85,11 +129,28 @@ const struct slab_spot *slab_spot_at(const struct slab_spots *spots, ir_ref ref,
 
 /* ---- Cost ---- */
 
-/* True where another spot of the list before has the closure at the same thickness. */
-static bool is_repeated(const struct slab_spots *spots, const struct slab_spot *spot)
+static bool is_zero(const struct ir_graph *g, ir_ref slab, enum slab_operand input)
+{
+    return ir_const_is(g, ir_arg(g, slab, input), 0.0f);
+}
+
+/* True if the walk makes the same lobes at both spots of a closure. */
+static bool are_same(const struct ir_graph *g, const struct slab_spot *a, const struct slab_spot *b)
+{
+    if (ir_get(g, a->ref)->op != IR_SLAB)
+        return true;
+    bool is_opaque = is_zero(g, a->ref, SLAB_mean_free_path),
+         scatters = !is_zero(g, a->ref, SLAB_diffuse_albedo);
+    return a->above == b->above
+           && (is_opaque || (a->thickness == b->thickness && (!scatters || a->below == b->below)));
+}
+
+/* True where another spot of the list before has the same lobes. */
+static bool is_repeated(const struct ir_graph *g, const struct slab_spots *spots,
+                        const struct slab_spot *spot)
 {
     for (uint32_t i = spot->next; i; i = spots->items.items[i - 1].next)
-        if (spots->items.items[i - 1].thickness == spot->thickness)
+        if (are_same(g, &spots->items.items[i - 1], spot))
             return true;
     return false;
 }
@@ -132,7 +193,7 @@ struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots
         const struct slab_spot *spot = &spots->items.items[i];
         uint8_t op = ir_get(g, spot->ref)->op;
         cost.features |= slab_features(g, spot);
-        if ((op != IR_SLAB && op != IR_LEAF) || is_repeated(spots, spot))
+        if ((op != IR_SLAB && op != IR_LEAF) || is_repeated(g, spots, spot))
             continue;
         cost.closures++;
         cost.others += op == IR_LEAF;
@@ -145,6 +206,8 @@ struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots
             has_top = true; /* the same slab may also lie elsewhere */
         }
     }
+    if (spots->items.len >= MAX_SPOTS)
+        cost.closures = MAX_SPOTS; /* or more */
     cost.bytes = SLAB_WORD_BYTES * slab_stored_pixel(g, stored.items, stored.len);
     return cost;
 }

@@ -1,26 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Where the slabs of a tree lie, before the walk. One slab at two thicknesses is two spots, and two
- * closures.
+ * Where the slabs of a tree lie, before the walk. One slab at two thicknesses, or with other matter
+ * above or below, is two spots.
  */
 #ifndef MXG_SLABS_SPOTS_H
 #define MXG_SLABS_SPOTS_H
 
+#include "base/table.h"
 #include "slabs/slabs.h"
 
 struct slab_spot {
     ir_ref ref;       /* a closure */
     ir_ref thickness; /* float; 0: of the body */
     ir_ref root;      /* the surface shader, or the closure at the top */
-    bool is_over;     /* other matter lies below it */
+    uint32_t below;   /* all matter below it: of slab_spots.piles; 0: none */
+    uint32_t above;   /* all matter above it that changes its roughness, the same */
     bool is_sheet;    /* the thickness is that of a sheet */
     uint32_t next;    /* of the same closure, + 1 */
+};
+
+/* Matter on other matter. */
+struct slab_pile {
+    ir_ref ref;
+    uint32_t next; /* index of the rest + 1; 0: nothing */
 };
 
 struct slab_spots {
     VEC(struct slab_spot) items; /* operators before their operands */
     uint32_t *first;             /* per node up to the root: index in items + 1; 0: none */
     uint32_t *depth;             /* per node: operators above it, at most */
+    uint8_t *spreads;            /* per node: what lies below it looks rougher, or blurred */
+    VEC(struct slab_pile) piles; /* each once */
+    struct table known_piles;    /* their indices + 1 */
     ir_ref num_nodes;
 };
 

@@ -31,6 +31,7 @@ EXPECTED = {
     "matrix_stream": "function-signature",
     "ndchain": "missing-implementation",
     "osl_network_ladder20": GOOD,
+    "slab_ladder20": "too-many-slabs",
     "sandbox_texture": GOOD, # without --sandbox; see tests/diag/sandbox_texture.mtlx
     "struct_exp": "lang-limit",
     "subtract_inf_default": GOOD,

@@ -395,7 +395,25 @@ static unsigned compare_materials(const struct run *run)
         "<layer name='l' type='BSDF'><input name='top' type='BSDF' nodename='d'/>"
         "<input name='base' type='BSDF' nodename='m'/></layer>"
         "<surface name='M' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='l'/>"
-        "</surface>"};
+        "</surface>",
+        /* one slab over itself: two closures, because other matter lies below each */
+        "<slab name='a' type='BSDF'>"
+        "<input name='mean_free_path' type='vector3' value='0.1, 0.2, 0.3'/></slab>"
+        "<slab name='b' type='BSDF'/><slab_layer name='u' type='BSDF'>"
+        "<input name='top' type='BSDF' nodename='a'/><input name='base' type='BSDF' nodename='b'/>"
+        "</slab_layer><slab_layer name='t' type='BSDF'>"
+        "<input name='top' type='BSDF' nodename='a'/><input name='base' type='BSDF' nodename='u'/>"
+        "</slab_layer><slab_surface name='M' type='surfaceshader'>"
+        "<input name='bsdf' type='BSDF' nodename='t'/></slab_surface>",
+        /* one slab below a rough interface and beside it, where it looks smoother */
+        "<slab name='a' type='BSDF'/><slab name='c' type='BSDF'>"
+        "<input name='mean_free_path' type='vector3' value='0.3, 0.2, 0.1'/></slab>"
+        "<slab_layer name='u' type='BSDF'><input name='top' type='BSDF' nodename='c'/>"
+        "<input name='base' type='BSDF' nodename='a'/></slab_layer>"
+        "<slab_mix name='t' type='BSDF'><input name='fg' type='BSDF' nodename='a'/>"
+        "<input name='bg' type='BSDF' nodename='u'/><input name='mix' type='float' value='0.3'/>"
+        "</slab_mix><slab_surface name='M' type='surfaceshader'>"
+        "<input name='bsdf' type='BSDF' nodename='t'/></slab_surface>"};
     unsigned stored = 0;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         mxg_document *document = NULL;
