@@ -116,10 +116,7 @@ static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
     struct passes_setup setup = {.context = b->context,
                                  .options = b->options,
                                  .scene = &b->scene,
-                                 .gpu = &b->gpu,
                                  .canvas = d->canvas,
-                                 .width = SIZE,
-                                 .height = SIZE,
                                  .shown = UINT32_MAX,
                                  .hits = text};
     good = passes_open(&setup, &d->passes);
