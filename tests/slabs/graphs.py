@@ -11,8 +11,8 @@ import tempfile
 import xml.etree.ElementTree as ET
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path += [str(HERE.parent), str(HERE.parent.parent / "bench")]
-import slabs
+sys.path.append(str(HERE.parent))
+import balls
 from checks import check, finish, skip
 
 MXGEN, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:3])
@@ -80,7 +80,7 @@ def check_pictures(document, library, bounds, folder):
             if made.returncode:
                 check(False, f"{name}: {made.stderr}")
                 return
-        error = slabs.compare(folder / "slab.ppm", folder / "graph.ppm")
+        error = balls.compare(folder / "slab.ppm", folder / "graph.ppm")
         check(error <= bound, f"{name}: its graph is {error:.2f} from its slabs; {bound} is the limit")
 
 
