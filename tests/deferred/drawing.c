@@ -3,6 +3,7 @@
 
 #include "unit/test.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 bool bench_open(struct bench *b)
@@ -124,6 +125,14 @@ static void read_info(struct drawing *d, bool *out_has_holes)
     bind->draw.has_holes = *out_has_holes;
 }
 
+bool drawing_frame(struct drawing *d, size_t num_programs)
+{
+    bool is_finite = REQUIRE(render_frame(d->renders, num_programs, d->canvas, d->pixels));
+    for (size_t i = 0; is_finite && i < PIXELS * 4; ++i)
+        is_finite = isfinite(d->pixels[i]);
+    return REQUIRE(is_finite);
+}
+
 static bool draw_programs(struct bench *b, struct drawing *d)
 {
     bool good = true;
@@ -132,7 +141,7 @@ static bool draw_programs(struct bench *b, struct drawing *d)
         if (!good)
             printf("%s\n", d->binds[i].reason);
     }
-    return REQUIRE(good && render_frame(d->renders, d->count, d->canvas, d->pixels));
+    return REQUIRE(good) && drawing_frame(d, d->count);
 }
 
 static void begin(struct bench *b, struct drawing *d)

@@ -45,6 +45,8 @@ bool drawing_generate(struct bench *b, const char *element, const char *pipeline
                       const char *storage, mxg_result **out);
 /* Opens passes on the canvas; the caller sets what is stored, shown or traced. */
 bool drawing_open_passes(struct bench *b, struct drawing *d, const struct passes_setup *what);
+/* Draws the picture by the first programs, 0 for passes alone; each value is finite. */
+bool drawing_frame(struct drawing *d, size_t num_programs);
 /* Draws an element; storage NULL: forward. Call drawing_close in any case. */
 bool drawing_open(struct bench *b, const char *element, const char *storage, uint32_t shown,
                   struct drawing *d);

@@ -124,7 +124,7 @@ static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
     good = drawing_open_passes(b, d, &(struct passes_setup){.shown = UINT32_MAX, .hits = text});
     for (size_t i = 0; good && i < PIXELS * PAYLOAD_WORDS; ++i)
         d->passes.payloads[i] = MARK;
-    return REQUIRE(good && render_frame(NULL, 0, d->canvas, d->pixels));
+    return good && drawing_frame(d, 0);
 }
 
 /* ---- Payloads ---- */
