@@ -162,10 +162,7 @@ static void open_stores(struct bench *b, struct frame *f, enum way way)
     struct passes_setup setup = {.context = b->context,
                                  .options = b->options,
                                  .scene = &b->scene,
-                                 .gpu = &b->gpu,
                                  .canvas = f->canvas,
-                                 .width = SIZE,
-                                 .height = SIZE,
                                  .words = info.stored_words,
                                  .classes = info.stored_classes,
                                  .shown = UINT32_MAX};

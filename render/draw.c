@@ -97,6 +97,17 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
     return NULL;
 }
 
+struct gpu *draw_gpu(const struct draw_canvas *canvas)
+{
+    return canvas->gpu;
+}
+
+void draw_size(const struct draw_canvas *canvas, uint32_t *out_width, uint32_t *out_height)
+{
+    *out_width = canvas->width;
+    *out_height = canvas->height;
+}
+
 struct stored *draw_store(struct draw_canvas *canvas, uint32_t words)
 {
     uint32_t layers = words > STORED_TARGETS ? words - STORED_TARGETS : 0;

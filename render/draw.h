@@ -71,6 +71,8 @@ struct draw_program;
 
 /* A picture of this size on the device; NULL: see gpu->reason. */
 struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t height);
+struct gpu *draw_gpu(const struct draw_canvas *canvas);
+void draw_size(const struct draw_canvas *canvas, uint32_t *out_width, uint32_t *out_height);
 /* Images for programs that store so many words per pixel. NULL: see gpu->reason. */
 struct stored *draw_store(struct draw_canvas *canvas, uint32_t words);
 void draw_close_canvas(struct draw_canvas *canvas);

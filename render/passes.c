@@ -15,6 +15,12 @@ static bool fail(struct passes *passes, const char *id, const char *reason)
     return false;
 }
 
+static bool fail_device(struct passes *passes, const struct passes_setup *setup)
+{
+    const struct gpu *gpu = draw_gpu(setup->canvas);
+    return fail(passes, gpu->id, gpu->reason);
+}
+
 /* How the passes run. A picture has the passes of one use. */
 enum use { LIGHTS, SHOWS, LIGHTS_RAYS };
 static const struct {
@@ -54,8 +60,7 @@ static bool add_pass(struct passes *passes, const struct passes_setup *setup,
                                                 : "the pass does not compile");
     const struct compiled_stage *code = &part->compiled.stages[MXG_STAGE_PIXEL];
     const struct stored_pass pass = {code->words, code->num_words, &part->bind.draw, which};
-    return stored_add_pass(passes->stored, &pass)
-           || fail(passes, setup->gpu->id, setup->gpu->reason);
+    return stored_add_pass(passes->stored, &pass) || fail_device(passes, setup);
 }
 
 /* False for a pass that the options do not ask for, or over classes that no material has. */
@@ -91,7 +96,7 @@ static bool open_pass(struct passes *passes, const struct passes_setup *setup, u
 static bool open_hits(struct passes *passes, const struct passes_setup *setup)
 {
     passes->payloads = stored_hold_rays(passes->stored);
-    return (passes->payloads || fail(passes, setup->gpu->id, setup->gpu->reason))
+    return (passes->payloads || fail_device(passes, setup))
            && add_pass(passes, setup, &passes->parts[passes->num_parts++], setup->hits, -1);
 }
 
@@ -118,17 +123,15 @@ static bool open_passes(struct passes *passes, const struct passes_setup *setup)
 
 bool passes_open(const struct passes_setup *setup, struct passes *out)
 {
-    *out = (struct passes){.scene = setup->scene,
-                           .width = setup->width,
-                           .height = setup->height,
-                           .shown = setup->shown};
-    if (!setup->gpu->can_store)
+    *out = (struct passes){.scene = setup->scene, .shown = setup->shown};
+    draw_size(setup->canvas, &out->width, &out->height);
+    if (!draw_gpu(setup->canvas)->can_store)
         return fail(
             out, "no-device",
             "the device cannot write images in pixel stages, as '--pipeline deferred' needs");
     out->stored = draw_store(setup->canvas, setup->words);
     if (!out->stored)
-        return fail(out, setup->gpu->id, setup->gpu->reason);
+        return fail_device(out, setup);
     return open_passes(out, setup) && passes_aim(out);
 }
 

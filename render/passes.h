@@ -34,9 +34,8 @@ struct passes_setup {
     mxg_context *context;
     const mxg_options *options;
     const struct scene *scene;
-    struct gpu *gpu;
     struct draw_canvas *canvas;
-    uint32_t width, height, words, shown;
+    uint32_t words, shown;
     uint32_t classes; /* that the materials may store, as bits of mxg_shader_info */
     /* a compute shader that writes rays with payloads, which are lit; NULL: materials are stored */
     const char *hits;

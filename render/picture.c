@@ -293,16 +293,13 @@ static bool make_parts(struct painting *painting, const struct subject *subjects
 }
 
 /* Opens the passes over what the parts store, if any stores. */
-static bool open_passes(struct painting *painting, uint32_t width, uint32_t height)
+static bool open_passes(struct painting *painting)
 {
     struct painter *painter = painting->painter;
     struct passes_setup setup = {.context = painter->cli->context,
                                  .options = painter->cli->options,
                                  .scene = &painting->scene,
-                                 .gpu = &painter->gpu,
                                  .canvas = painting->canvas,
-                                 .width = width,
-                                 .height = height,
                                  .shown = painter->shown};
     struct bind **binds = calloc(painting->num_parts, sizeof *binds);
     for (size_t i = 0; binds && i < painting->num_parts; ++i) {
@@ -354,7 +351,7 @@ bool painting_open(struct painter *painter, const struct subject *subjects, size
     if (!painting->samples)
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
     painting->canvas = open_canvas(painter, width, height);
-    if (!open_passes(painting, width, height))
+    if (!open_passes(painting))
         return false;
     for (size_t i = 0; i < painting->num_parts; ++i) {
         struct part *part = &painting->parts[i];

@@ -3,6 +3,7 @@
 
 #include "unit/test.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 bool bench_open(struct bench *b)
@@ -16,6 +17,30 @@ bool bench_open(struct bench *b)
     REQUIRE_EQ(mxg_options_create(b->context, &b->options), MXG_OK);
     mxg_options_set(b->options, "interface", "reduced");
     return true;
+}
+
+static bool take(struct bench *b, mxg_status status, mxg_document *document)
+{
+    mxg_document_destroy(b->document);
+    b->document = document;
+    return REQUIRE_EQ(status, MXG_OK);
+}
+
+bool bench_load(struct bench *b, const char *root, const char *path)
+{
+    mxg_document *document = NULL;
+    snprintf(b->path, sizeof b->path, "%s/%s", root, path);
+    mxg_status status =
+        mxg_document_load(b->context, mxg_library_builtin(b->context), b->path, &document);
+    return take(b, status, document);
+}
+
+bool bench_parse(struct bench *b, const char *name, const char *text)
+{
+    mxg_document *document = NULL;
+    mxg_status status = mxg_document_parse(b->context, mxg_library_builtin(b->context), name, text,
+                                           strlen(text), &document);
+    return take(b, status, document);
 }
 
 void bench_close(struct bench *b)
@@ -57,27 +82,31 @@ static bool add_program(struct bench *b, struct drawing *d, const char *element,
     return true;
 }
 
-static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
+bool drawing_open_passes(struct bench *b, struct drawing *d, const struct passes_setup *what)
 {
-    struct bind *const binds[] = {&d->binds[0]};
-    struct passes_setup setup = {.context = b->context,
-                                 .options = b->options,
-                                 .scene = &b->scene,
-                                 .gpu = &b->gpu,
-                                 .canvas = d->canvas,
-                                 .width = SIZE,
-                                 .height = SIZE,
-                                 .words = d->stored_words,
-                                 .classes = d->stored_classes,
-                                 .binds = binds,
-                                 .num_binds = 1,
-                                 .shown = shown};
+    struct passes_setup setup = *what;
+    setup.context = b->context;
+    setup.options = b->options;
+    setup.scene = &b->scene;
+    setup.canvas = d->canvas;
     bool good = passes_open(&setup, &d->passes);
     if (!good)
         printf("%s\n", d->passes.reason);
+    return REQUIRE(good);
+}
+
+static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
+{
+    struct bind *const binds[] = {&d->binds[0]};
+    const struct passes_setup stores = {.words = d->stored_words,
+                                        .classes = d->stored_classes,
+                                        .binds = binds,
+                                        .num_binds = 1,
+                                        .shown = shown};
+    bool good = drawing_open_passes(b, d, &stores);
     if (good)
         stored_mark(d->passes.stored, MARK);
-    return REQUIRE(good);
+    return good;
 }
 
 /* Reads what the last program stores: images are for the largest material. */
@@ -96,6 +125,14 @@ static void read_info(struct drawing *d, bool *out_has_holes)
     bind->draw.has_holes = *out_has_holes;
 }
 
+bool drawing_frame(struct drawing *d, size_t num_programs)
+{
+    bool is_finite = REQUIRE(render_frame(d->renders, num_programs, d->canvas, d->pixels));
+    for (size_t i = 0; is_finite && i < PIXELS * 4; ++i)
+        is_finite = isfinite(d->pixels[i]);
+    return REQUIRE(is_finite);
+}
+
 static bool draw_programs(struct bench *b, struct drawing *d)
 {
     bool good = true;
@@ -104,7 +141,7 @@ static bool draw_programs(struct bench *b, struct drawing *d)
         if (!good)
             printf("%s\n", d->binds[i].reason);
     }
-    return REQUIRE(good && render_frame(d->renders, d->count, d->canvas, d->pixels));
+    return REQUIRE(good) && drawing_frame(d, d->count);
 }
 
 static void begin(struct bench *b, struct drawing *d)
@@ -152,4 +189,5 @@ void drawing_close(struct drawing *d)
         mxg_result_destroy(d->results[i]);
     }
     free(d->pixels);
+    *d = (struct drawing){0};
 }

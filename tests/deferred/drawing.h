@@ -22,6 +22,9 @@ struct bench {
 
 /* Shaders have the reduced interface; the scene is the caller's. False: nothing can store, told. */
 bool bench_open(struct bench *b);
+/* Documents take the place of the one before. */
+bool bench_load(struct bench *b, const char *root, const char *path);
+bool bench_parse(struct bench *b, const char *name, const char *text);
 /* With the scene and the document. */
 void bench_close(struct bench *b);
 
@@ -40,6 +43,10 @@ struct drawing {
 /* Generates a shader; reports what it says. */
 bool drawing_generate(struct bench *b, const char *element, const char *pipeline,
                       const char *storage, mxg_result **out);
+/* Opens passes on the canvas; the caller sets what is stored, shown or traced. */
+bool drawing_open_passes(struct bench *b, struct drawing *d, const struct passes_setup *what);
+/* Draws the picture by the first programs, 0 for passes alone; each value is finite. */
+bool drawing_frame(struct drawing *d, size_t num_programs);
 /* Draws an element; storage NULL: forward. Call drawing_close in any case. */
 bool drawing_open(struct bench *b, const char *element, const char *storage, uint32_t shown,
                   struct drawing *d);
@@ -50,6 +57,7 @@ struct drawing_part {
 };
 /* Draws two stored materials without holes, in this order. Call drawing_close in any case. */
 bool drawing_open_both(struct bench *b, const struct drawing_part parts[2], struct drawing *d);
+/* One that is all zeros is closed. */
 void drawing_close(struct drawing *d);
 
 #endif

@@ -3,7 +3,7 @@
 # AOVs, ambient occlusion and mattes as pictures (docs/slots.md, "AOVs"). Arguments: mxgen-render.
 render=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
-. "$here/common.sh"
+. "$here/light.sh"
 
 # reads FILE CHANNEL X Y VALUE TOLERANCE, or FILE CHANNEL mean VALUE TOLERANCE
 reads() {
@@ -130,13 +130,13 @@ for slots in blend stochastic; do
     check "$slots" exits 0 "$render" floor.mtlx --stage stage.usda --camera /a/down -q --look L --mattes --slots $slots -s 192 -o $slots.exr
 done
 for channel in R v matte.000 matte.050; do
-    mean=$(python3 "$here/exr.py" blend.exr $channel mean)
+    mean=$(channel blend.exr $channel)
     check "the mean of $channel" reads stochastic.exr $channel mean "$mean" "$(awk -v m="$mean" 'BEGIN { print m / 100 }')"
 done
 check 'and picks' test "$(md5sum <blend.exr)" != "$(md5sum <stochastic.exr)"
 
 # The light of BSDFs. In even light a ball sends the albedo of a closure: that of the paint is its colour.
-{ printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'; for i in {1..32}; do printf '\200\200\200\201'; done; } >white.hdr
+write_white white.hdr
 cat >lit.mtlx <<'EOF'
 <materialx version="1.39">
   <oren_nayar_diffuse_bsdf name="paint" type="BSDF"><input name="color" type="color3" value="0.6, 0.3, 0.1"/></oren_nayar_diffuse_bsdf>
@@ -166,13 +166,13 @@ cat >lit.mtlx <<'EOF'
   </look>
 </materialx>
 EOF
-part() { awk -v a="$(python3 "$here/exr.py" "$2" A mean)" "BEGIN { print a * $1 }"; } # NUMBER FILE: of the pixels that the ball covers
+part() { of "$1 * $(channel "$2" A)"; } # NUMBER FILE: of the pixels that the ball covers
 for mode in '' '--path-trace --paths 64'; do
     check "in even light $mode" exits 0 "$render" lit.mtlx -e M --environment white.hdr -m sphere -q -s 24 $mode -o even.exr
     check 'the paint has its colour' reads even.exr paint.R mean "$(part 0.6 even.exr)" 0.005
     check 'and its blue' reads even.exr paint.B mean "$(part 0.1 even.exr)" 0.001
     check 'emission stays' reads even.exr glow.G mean "$(part 0.1 even.exr)" 0.001
-    metal=$(python3 "$here/exr.py" even.exr metal.R mean)
+    metal=$(channel even.exr metal.R)
     check "a ball of metal $mode" exits 0 "$render" lit.mtlx -e SM --environment white.hdr -m sphere -q -s 24 $mode -o metal.exr
     check 'has the light of the metal that the surface lacks' reads metal.exr R mean "$metal" 0.01
 done
@@ -201,7 +201,7 @@ for channel in R G B; do check "is the sum, $channel" sums corner.exr $channel a
 check 'a ball under lights' exits 0 "$render" lit.mtlx -e M -q -s 24 --path-trace --paths 64 -o ball.exr
 check 'is the sum' sums ball.exr R all.R glow.R
 check 'a sphere under lights' exits 0 "$render" lit.mtlx -e M -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
-metal=$(python3 "$here/exr.py" lights.exr metal.R mean)
+metal=$(channel lights.exr metal.R)
 check 'of metal' exits 0 "$render" lit.mtlx -e SM -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
 check 'has the light of the metal that the surface lacks' reads lights.exr R mean "$metal" 0.01
 

@@ -2,7 +2,7 @@
 # The tests of mxgen-render source this file. Their first arguments are mxgen-render and mean_ratio.
 render=$(realpath "$1") mean_ratio=$(realpath "$2")
 here=$(cd "$(dirname "$0")" && pwd)
-. "$here/common.sh"
+. "$here/light.sh"
 
 # The driver would write its cache to the home folder.
 export MESA_SHADER_CACHE_DISABLE=true

@@ -316,16 +316,15 @@ in_room() { # NAME ENVIRONMENT
 }
 # middle FILE: the green of a pixel in the middle, as light (the inverse of sRGB), over that of white.
 middle() { pixels "$1" | sed -n 529p | awk '{ printf "%.3f", ($2 / 203) ^ 2.2 }'; }
-near() { awk "BEGIN { d = $1 - $2; exit !(d < 0.02 && d > -0.02) }"; }
 volume milk '0,0,0' '3,3,3' '0,0,0'
 check 'a volume that scatters only' in_room milk white.pfm
 check 'is not seen in a white room' test "$(pixels milk.ppm | awk '{ for (i = 1; i < 4; i++) if ($i < 202 || $i > 204) n++ } END { print n + 0 }')" = 0
 volume ink '1,1,1' '0,0,0' '0,0,0'
 check 'a volume that absorbs' in_room ink white.pfm
-check 'by the law of Beer: half of 1, over 2' near "$(middle ink.ppm)" 0.368
+check 'by the law of Beer: half of 1, over 2' near "$(middle ink.ppm)" 0.368 0.02
 volume glow '0,0,0' '0,0,0' '0,0.5,0'
 check 'a volume that emits' in_room glow red.pfm
-check 'for all of the way: half of 0.5, over 2' near "$(middle glow.ppm)" 0.5
+check 'for all of the way: half of 0.5, over 2' near "$(middle glow.ppm)" 0.5 0.02
 
 # Transparency: half of white over black, in any order of triangles; a mask hides what is behind it.
 sheet() { # NAME OPACITY

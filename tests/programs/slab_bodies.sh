@@ -3,16 +3,9 @@
 # Light in the meshes of bodies of slabs, path traced: white bodies lose no light, clear ones take what Beer and Lambert say of the way
 # through the mesh and in colour, thick ones reflect their albedo, and thin ones shine through. Arguments: mxgen-render, the root of the source tree.
 render=$(realpath "$1") root=$(realpath "$2")
-exr=$root/tests/programs/exr.py
-. "$root/tests/programs/common.sh"
+. "$root/tests/programs/light.sh"
 export MESA_SHADER_CACHE_DISABLE=true
 
-# near VALUE EXPECTED TOLERANCE
-near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { print a; exit !(a > b - t && a < b + t) }'; }
-# of EXPRESSION: its value.
-of() { awk "BEGIN { print $1 }"; }
-# channel FILE NAME: its mean.
-channel() { python3 "$exr" "$1" "$2" mean; }
 # trace FILE ELEMENT ARGUMENT...: a ball in even light, from far away.
 trace() {
     exits 0 "$render" bodies.mtlx -e "$2" -q --path-trace -o "$1" -m sphere --lights none --environment white.hdr --camera 0,0,60,2.2 \
@@ -24,7 +17,7 @@ if ! has_device "$render"; then
     finish slab_bodies
 fi
 
-{ printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'; for i in {1..32}; do printf '\200\200\200\201'; done; } >white.hdr
+write_white white.hdr
 # slab NAME ALBEDO MEAN-FREE-PATH F0 [INPUTS]
 slab() {
     echo "<slab name='$1' type='BSDF'><input name='diffuse_albedo' type='color3' value='$2'/><input name='mean_free_path' type='vector3' value='$3'/>

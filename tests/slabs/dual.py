@@ -12,8 +12,8 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path += [str(HERE.parent), str(HERE.parent.parent / "bench")]
-import slabs
+sys.path.append(str(HERE.parent))
+import balls
 from checks import check, finish, skip
 
 MXGEN, COMPILE, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:4])
@@ -36,20 +36,15 @@ def run(*command):
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
 
 
-def linear(value):
-    c = value / 255
-    return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
-
-
 def middle(folder, paths, *options):
     """The linear colour in the middle of a ball of the sheet, whose front and back are two sheets."""
     (folder / "glass.mtlx").write_text(sheet(paths))
     made = run(RENDER.parent / "mxgen", "render", folder / "glass.mtlx", "-q", "--mesh", "sphere", "--size", SIZE, "--background", "environment",
                "-o", folder / "ball.ppm", *options)
     check(made.returncode == 0, made.stderr)
-    width, _, pixels = slabs.read_ppm(folder / "ball.ppm")
+    width, _, pixels = balls.read_ppm(folder / "ball.ppm")
     at = 3 * (SIZE // 2 * width + width // 2)
-    return [linear(value) for value in pixels[at:at + 3]]
+    return [balls.linear(value) for value in pixels[at:at + 3]]
 
 
 def check_pictures(folder):

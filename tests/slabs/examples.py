@@ -12,8 +12,8 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path += [str(HERE.parent), str(HERE.parent.parent / "bench")]
-import slabs
+sys.path.append(str(HERE.parent))
+import balls
 from checks import check, finish, skip
 
 MXGEN, RENDER, ROOT = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:4])
@@ -91,7 +91,7 @@ def row_of(material, folder):
             columns.append("")
             continue
         picture = draw(folder, f"{material}-{count}", document, *ball, "--max-closures", count)
-        columns.append(f"{estimated[count]:.2f}, {slabs.compare(whole, picture):.2f}" if whole and picture else "?")
+        columns.append(f"{estimated[count]:.2f}, {balls.compare(whole, picture):.2f}" if whole and picture else "?")
     return f"| `{material}` | {' | '.join(columns)} |"
 
 
@@ -137,7 +137,7 @@ def check_drawn(folder):
 
 def columns_of(picture):
     """The mean colour of each column in the lower middle of a square that fills the picture."""
-    width, height, data = slabs.read_ppm(picture)
+    width, height, data = balls.read_ppm(picture)
     rows = range(height // 2, 3 * height // 4)
     return [[sum(data[3 * (y * width + x) + c] for y in rows) / len(rows) for c in range(3)] for x in range(width)]
 
@@ -156,7 +156,7 @@ def only(folder, root, bsdf):
 
 
 def difference(a, b):
-    return slabs.difference(slabs.lab(a), slabs.lab(b))
+    return balls.difference(balls.lab(a), balls.lab(b))
 
 
 def check_halo(folder):

@@ -12,8 +12,8 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path += [str(HERE.parent), str(HERE.parent.parent / "bench")]
-import slabs
+sys.path.append(str(HERE.parent))
+import balls
 from checks import check, finish, skip
 
 MXGEN, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:3])
@@ -137,8 +137,8 @@ def check_pictures(kind, path, stage, num):
                           for closures in (0, num, 1))
     if not whole or not joined or not one:
         return False
-    check(slabs.compare(whole, joined) < 0.1, f"{kind}: one surface differs from the stack by {slabs.compare(whole, joined)}")
-    check(0 < slabs.compare(whole, one) < 8, f"{kind}: one closure differs by {slabs.compare(whole, one)}")
+    check(balls.compare(whole, joined) < 0.1, f"{kind}: one surface differs from the stack by {balls.compare(whole, joined)}")
+    check(0 < balls.compare(whole, one) < 8, f"{kind}: one closure differs by {balls.compare(whole, one)}")
     return True
 
 
@@ -157,8 +157,8 @@ def check_cut(folder, stage):
     stored = draw(path, stage, "stored", *stores, "--transparency", "mask")
     whole = draw(folder / "slabs.mtlx", stage, "whole")
     if forward and stored and whole:
-        check(slabs.compare(forward, stored) < 0.5, f"the stored cut-out differs from forward by {slabs.compare(forward, stored)}")
-        check(slabs.compare(whole, stored) > 5, f"nothing is cut away: {slabs.compare(whole, stored)}")
+        check(balls.compare(forward, stored) < 0.5, f"the stored cut-out differs from forward by {balls.compare(forward, stored)}")
+        check(balls.compare(whole, stored) > 5, f"nothing is cut away: {balls.compare(whole, stored)}")
 
 
 # ---- Traced ----
@@ -217,7 +217,7 @@ def check_traced(folder, stage):
             path.write_text(f'<materialx version="1.39">{MEDIA}{more}<look name="L">{look}</look></materialx>')
             pictures.append(draw(path, stage, f"traced{number}{name}", "-s", 24, "--path-trace", "--paths", 16))
         if all(pictures):
-            check(slabs.compare(*pictures) < 0.1, f"{kind}: the traced stack differs by {slabs.compare(*pictures)}")
+            check(balls.compare(*pictures) < 0.1, f"{kind}: the traced stack differs by {balls.compare(*pictures)}")
 
 
 def main():

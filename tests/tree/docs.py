@@ -170,6 +170,15 @@ def check_combinations():
           "docs/deferred.md: the table of combinations differs from src/api/combinations.def")
 
 
+def check_pictures():
+    """The tables of how near deferred pictures are have a row for each row of pictures.def."""
+    rows = re.findall(r'^[A-Z]+\((?:"[^"]*"|\d+), "([^"]*)", ([\d, ]+)\)$', text_of(ROOT / "tests/deferred/pictures.def"), re.MULTILINE)
+    wanted = [f"| {name} |" + "".join(f" {db} dB |" if db != "0" else " |" for db in numbers.split(", ")) for name, numbers in rows]
+    section = text_of(ROOT / "docs/deferred.md").partition("## Measured")[2]
+    check(len(wanted) > 30 and re.findall(r"^\| .* dB \|.*$", section, re.MULTILINE) == wanted,
+          "docs/deferred.md: the tables of pictures differ from tests/deferred/pictures.def")
+
+
 pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 for page in pages:
     check_links(page)
@@ -180,5 +189,6 @@ check_commands()
 check_program()
 check_semantics()
 check_combinations()
+check_pictures()
 check_embedding()
 finish("docs")

@@ -14,6 +14,11 @@
 
 enum { NUM_STACKS = 200, NUM_PATHS = 20000 };
 
+/*
+ * Stacks and walks are the same in each run, so limits are about 1.3 times what the test prints:
+ * another compiler rounds otherwise, and a change of the walk shows. docs/slabs.md has the results.
+ */
+
 struct run {
     mxg_context *context;
     mxg_library *library;
@@ -158,7 +163,7 @@ static double weight_error(struct run *run, const struct stack *stack, double vi
 
 static void test_one_top(struct run *run)
 {
-    double worst = 0.0;
+    double worst[2] = {0.0};
     for (int i = 0; i < 20; ++i) {
         struct stack stack;
         stack_make(&stack, 1, 1, 1.0);
@@ -166,10 +171,10 @@ static void test_one_top(struct run *run)
             weight_error(run, &stack, stack_between(0.05, 1.0), stack_between(1.0, 1.342));
         /* a mix of two media is a sum of two powers; other tops are exact */
         bool is_mix = stack.nodes[stack.nodes[stack.num_nodes - 1].a].kind == STACK_MIX;
-        REQUIRE(error < (is_mix ? 0.005 : 2e-5));
-        worst = fmax(worst, error);
+        worst[is_mix] = fmax(worst[is_mix], error);
     }
-    printf("weights below one top: within %.5f\n", worst);
+    printf("weights below one top: within %.7f, of two media within %.5f\n", worst[0], worst[1]);
+    REQUIRE(worst[0] < 2e-6 && worst[1] > 0.0 && worst[1] < 0.00054);
 }
 
 static void test_many_tops(struct run *run)
@@ -182,7 +187,7 @@ static void test_many_tops(struct run *run)
             worst, weight_error(run, &stack, stack_between(0.05, 1.0), stack_between(1.0, 1.342)));
     }
     printf("weights below 2 to 5 tops: within %.5f\n", worst);
-    REQUIRE(worst < 0.005);
+    REQUIRE(worst < 0.00067);
 }
 
 /* ---- Light that stacks reflect ---- */
@@ -254,7 +259,7 @@ static void write_row(FILE *page, const struct stack *stack, double view, double
     fputs("\n", page);
 }
 
-/* The walk is nearer to the truth than a layer in nine of ten stacks. */
+/* The walk is nearer to the truth than a layer in all stacks. */
 static void test_truth(struct run *run)
 {
     unsigned nearer_plain = 0, nearer_both = 0, nearer_openpbr = 0;
@@ -285,10 +290,10 @@ static void test_truth(struct run *run)
     printf(
         "nearer than without the way in: %u, than two one-way throughputs: %u, than OpenPBR: %u\n",
         nearer_plain, nearer_both, nearer_openpbr);
-    REQUIRE(nearer_plain >= NUM_STACKS * 9 / 10);
-    REQUIRE(nearer_both >= NUM_STACKS * 3 / 4); /* the same where all slabs are always there */
-    REQUIRE(nearer_openpbr >= NUM_STACKS / 2);  /* which is exact where nothing scatters */
-    REQUIRE(sum[WALK] < 0.008 && worst < 0.05);
+    REQUIRE_EQ(nearer_plain, NUM_STACKS);
+    REQUIRE(nearer_both >= 164);    /* of 172: the same where all slabs are always there */
+    REQUIRE(nearer_openpbr >= 156); /* of 166: it is exact where nothing scatters */
+    REQUIRE(sum[WALK] < 0.0054 && worst < 0.04);
 }
 
 /* What white matter reflects: partly there, thin, rough. */
@@ -314,11 +319,11 @@ static void test_furnace(struct run *run)
 {
     double least, most;
     measure_furnace(run, 0.0, &least, &most);
-    printf("white stacks in a furnace: %.4f to %.4f\n", least, most);
-    REQUIRE(least > 0.99 && most < 1.005);
+    printf("white stacks in a furnace: %.4f to %.7f\n", least, most);
+    REQUIRE(least > 0.9976 && most < 1.00001);
     measure_furnace(run, 0.9, &least, &most);
-    printf("with interfaces: %.4f to %.4f\n", least, most);
-    REQUIRE(least > 0.99 && most < 1.005);
+    printf("with interfaces: %.4f to %.7f\n", least, most);
+    REQUIRE(least > 0.9993 && most < 1.00001);
 }
 
 /* No stack sends back more light than it gets, whatever its matter is. */
@@ -335,7 +340,7 @@ static void test_energy(struct run *run)
         most = fmax(most, reflected_by(run, &stack, stack_between(0.05, 1.0)).whole);
     }
     printf("100 stacks in a furnace: at most %.4f\n", most);
-    REQUIRE(most <= 1.005);
+    REQUIRE(most <= 1.0);
 }
 
 /* Of a sheet that absorbs nothing, all light comes back or shines through. */
@@ -360,9 +365,9 @@ static double worst_sheet(struct run *run, int num_layers)
 static void test_sheets(struct run *run)
 {
     double one = worst_sheet(run, 1), two = worst_sheet(run, 2);
-    printf("white sheets, of one slab within %.4f, of two within %.4f\n", one, two);
-    REQUIRE(one < 0.01);
-    REQUIRE(two < 0.01);
+    printf("white sheets, of one slab within %.7f, of two within %.6f\n", one, two);
+    REQUIRE(one < 1e-6); /* rounding alone */
+    REQUIRE(two < 5e-5);
 }
 
 /* ---- Light from single directions ---- */
@@ -415,7 +420,7 @@ static void test_lights(struct run *run)
         worst = fmax(worst, fabs(total - even));
     }
     printf("light by light against even light: within %.4f\n", worst);
-    REQUIRE(worst < 0.02);
+    REQUIRE(worst < 0.004);
 }
 
 /* Argument: the page to write. */

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Payloads of rays: one slab in 64 bytes draws what forward draws with one slab. Argument: the root
+ * of the sources.
+ */
+#include "deferred/pictures.h"
+#include "unit/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const struct {
+    const char *document, *element;
+    int expected; /* dB; 0: not tested */
+} rows[] = {
+#define MATERIAL(document, element, float_db, dither_db, round_db, payload_db) \
+    {document, element, payload_db},
+#define MODEL(element, what, float_db, dither_db, round_db)
+#define LAYERS(closures, name, float_db, dither_db, round_db)
+#include "deferred/pictures.def"
+};
+
+/* ---- Rays ---- */
+
+/*
+ * A ray per pixel to the ball, without a mesh. OF_WORLD and TO_WORLD: matrices
+ * of the object. The text of the payload function stands before.
+ */
+static const char hits_source[] =
+    "layout(local_size_x = 8, local_size_y = 8) in;\n"
+    "layout(set = 1, binding = 8, std140) uniform Frame { mat4 to_world; uvec4 "
+    "size; };\n"
+    "layout(set = 1, binding = 9, std430) buffer Payloads { Surface "
+    "payloads[]; };\n"
+    "struct Ray { vec4 point, view; };\n"
+    "layout(set = 1, binding = 10, std430) buffer Rays { Ray rays[]; };\n"
+    "bool hit(vec2 at, out vec3 point, out vec3 way)\n"
+    "{\n"
+    "    vec4 a = to_world * vec4(at, 0.0, 1.0), b = to_world * vec4(at, 1.0, "
+    "1.0);\n"
+    "    vec3 from = a.xyz / a.w, out_of = from - OF_OBJECT[3].xyz;\n"
+    "    way = normalize(b.xyz / b.w - from);\n"
+    "    float along = dot(out_of, way), inside = along * along - dot(out_of, "
+    "out_of) + 1.0;\n"
+    "    point = from - (along + sqrt(max(inside, 0.0))) * way;\n"
+    "    return inside >= 0.0;\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 at = vec2(gl_GlobalInvocationID.xy) + 0.5;\n"
+    "    vec3 point, way, dx, dy, ignored;\n"
+    "    if (!hit(at, point, way))\n"
+    "        return;\n"
+    "    dx = hit(at + vec2(1.0, 0.0), dx, ignored) ? dx - point : vec3(0.0);\n"
+    "    dy = hit(at + vec2(0.0, 1.0), dy, ignored) ? dy - point : vec3(0.0);\n"
+    "    vec3 normal = point - OF_OBJECT[3].xyz, local = normal * "
+    "mat3(OF_OBJECT);\n" /* rotates */
+    "    vec3 tangent = mat3(OF_OBJECT) * normalize(vec3(local.z, 0.0, "
+    "-local.x));\n"
+    "    uint pixel = gl_GlobalInvocationID.y * size.x + "
+    "gl_GlobalInvocationID.x;\n"
+    "    rays[pixel] = Ray(vec4(point, 0.0), vec4(-way, 0.0));\n"
+    "    payloads[pixel] = surface(";
+
+/* Vertex data of a hit. */
+static const char *hit_value(const char *name)
+{
+    static const char *const values[][2] = {{"positionWorld", "point"},
+                                            {"normalWorld", "normal"},
+                                            {"tangentWorld", "tangent"},
+                                            {"viewWorld", "-way"},
+                                            {"positionObject", "local"},
+                                            {"dx_positionWorld", "dx"},
+                                            {"dx_normalWorld", "dx"},
+                                            {"dy_positionWorld", "dy"},
+                                            {"dy_normalWorld", "dy"},
+                                            {"texcoord_0",
+                                             "vec2(fract(atan(local.x, local.z) / 6.2831853), "
+                                             "acos(-local.y) / 3.1415927)"}};
+    for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
+        if (strcmp(values[i][0], name) == 0)
+            return values[i][1];
+    return NULL;
+}
+
+static bool write_hits(struct bench *b, const mxg_result *result, char *out, size_t room)
+{
+    size_t len = (size_t)snprintf(out, room, "#version 450\n%s\nconst mat4 OF_OBJECT = mat4(",
+                                  mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
+    for (size_t i = 0; i < 16 && len < room; ++i)
+        len += (size_t)snprintf(out + len, room - len, "%s%.9g", i ? ", " : "",
+                                b->scene.object.world.m[i / 4][i % 4]);
+    if (len < room)
+        len += (size_t)snprintf(out + len, room - len, ");\n%s", hits_source);
+    const char *between = "";
+    for (uint32_t i = 0; i < mxg_result_num_variables(result) && len < room; ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        if (variable.block != MXG_BLOCK_VERTEX_DATA)
+            continue;
+        const char *value = hit_value(variable.name);
+        if (!REQUIRE(value))
+            printf("    a hit has no %s\n", variable.name);
+        len += (size_t)snprintf(out + len, room - len, "%s%s", between, value ? value : "vec3(0)");
+        between = ", ";
+    }
+    if (len < room)
+        len += (size_t)snprintf(out + len, room - len, ");\n}\n");
+    return REQUIRE(len < room);
+}
+
+/* Draws an element by payloads alone: no mesh, no lights but those of the pass
+ * over them. */
+static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
+{
+    static char text[1 << 17];
+    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)), .count = 1};
+    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
+    mxg_options_set(b->options, "form", "payload");
+    bool good = drawing_generate(b, element, "forward", "dither", &d->results[0]);
+    mxg_options_set(b->options, "form", "program");
+    if (!good || !write_hits(b, d->results[0], text, sizeof text))
+        return false;
+    good = drawing_open_passes(b, d, &(struct passes_setup){.shown = UINT32_MAX, .hits = text});
+    for (size_t i = 0; good && i < PIXELS * PAYLOAD_WORDS; ++i)
+        d->passes.payloads[i] = MARK;
+    return good && drawing_frame(d, 0);
+}
+
+/* ---- Payloads ---- */
+
+/* Pixels that face the viewer: edges differ, because a mesh has corners. */
+static bool faces(size_t pixel)
+{
+    double x = (double)(pixel % SIZE) + 0.5 - SIZE / 2, y = (double)(pixel / SIZE) + 0.5 - SIZE / 2;
+    return hypot(x, y) < 0.36 * SIZE;
+}
+
+/* The words of a payload, whose neighbours stay as they were. */
+static void check_payload(struct drawing *d, size_t pixel)
+{
+    const uint32_t *words = d->passes.payloads + pixel * PAYLOAD_WORDS;
+    enum { USED = 11 };
+    for (size_t i = 0; i < PAYLOAD_WORDS; ++i)
+        REQUIRE(words[i] != MARK);
+    for (size_t i = USED; i < PAYLOAD_WORDS; ++i)
+        REQUIRE_EQ(words[i], 0);               /* the host's */
+    const uint32_t *none = d->passes.payloads; /* the corner has no hit */
+    for (size_t i = 0; i < PAYLOAD_WORDS; ++i)
+        REQUIRE_EQ(none[i], MARK);
+}
+
+/* One slab in 64 bytes draws what forward draws with one slab. */
+static void test_payload(struct bench *b, const char *element, int expected)
+{
+    struct drawing forward = {0}, rays = {0};
+    mxg_options_set(b->options, "max-closures", "1");
+    if (drawing_open(b, element, NULL, UINT32_MAX, &forward) && draw_rays(b, element, &rays)) {
+        mxg_shader_info info = {sizeof info};
+        mxg_result_info(rays.results[0], &info);
+        REQUIRE_EQ(info.stored_words, PAYLOAD_WORDS);
+        check_payload(&rays, PIXELS / 2 + SIZE / 2);
+        size_t differing = 0;
+        for (size_t i = 0; i < PIXELS; ++i) {
+            /* forward shows the inside of the ball through holes */
+            bool is_hole = rays.pixels[4 * i + 3] < 0.5f;
+            bool differs = faces(i) && !is_hole && forward.pixels[4 * i + 3] < 0.5f;
+            differing += differs;
+            for (size_t c = 0; (differs || is_hole || !faces(i)) && c < 4; ++c)
+                forward.pixels[4 * i + c] = rays.pixels[4 * i + c] = 0;
+        }
+        if (!REQUIRE(differing < 4)) /* edges of holes */
+            printf("    %zu pixels differ\n", differing);
+        double db = picture_psnr(forward.pixels, rays.pixels);
+        printf("%-14s payload %.1f dB, %zu pixels differ\n", element, db, differing);
+        picture_require(db, expected);
+    }
+    drawing_close(&rays);
+    drawing_close(&forward);
+    mxg_options_set(b->options, "max-closures", "0");
+}
+
+int main(int argc, char **argv)
+{
+    struct bench b = {0};
+    const char *document = "";
+    if (argc != 2)
+        return 2;
+    if (!bench_open(&b))
+        return 77;
+    REQUIRE(scene_init_sphere(&b.scene, 1));
+    mxg_options_set(b.options, "texture-modes", "shared");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        if (!rows[i].expected
+            || (strcmp(rows[i].document, document) != 0
+                && !bench_load(&b, argv[1], rows[i].document)))
+            continue;
+        document = rows[i].document;
+        test_payload(&b, rows[i].element, rows[i].expected);
+    }
+    bench_close(&b);
+    return test_report("deferred-payload");
+}
