@@ -173,7 +173,7 @@ check 'adds the even environment once' eval '! sed -n "/< u_envRadianceSamples/,
 
 # Views
 check 'a sheet' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre
-check 'has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "to one closure" out'
+check 'has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "; tangent basis 2; " out && grep -q "to one closure" out'
 check 'of another material' exits 0 "$mxgen" inspect --slabs "$examples/marble.mtlx"
 check 'as well' grep -q 'a body, as slabs' out
 check 'JSON' exits 0 "$mxgen" inspect --slabs --format json "$slabs" -e DustyFibre
@@ -182,6 +182,8 @@ sheet = json.load(open("out"))
 tree, = sheet["trees"]
 assert [row["kind"] for row in tree["rows"]] == ["layer", "coverage", "slab", "layer", "slab", "slab"], tree
 assert tree["cost"] == {"closures": 3, "bytes": 60} and len(sheet["steps"]) == 2
+assert not sheet["toBudget"] and tree["tangentBases"] == 2
+assert sorted({row["tangentBasis"] for row in tree["rows"] if row["kind"] == "slab"}) == [1, 2], tree
 lights = [row["lightFromAbove"] for row in tree["rows"] if row["kind"] == "slab"]
 assert lights[0] == 1 and 0 < lights[2] < lights[1] <= 1, lights'
 cat >masks.mtlx <<'END'
@@ -207,6 +209,11 @@ check 'a picture' exits 0 "$mxgen" inspect --slabs --format svg "$slabs" -e Dust
 check 'is XML' python3 -c 'import xml.etree.ElementTree as e
 root = e.parse("out").getroot()
 assert root.tag == "{http://www.w3.org/2000/svg}svg" and len(root.findall("{*}text")) >= 8'
+check 'to one closure' eval 'grep -q ">To one closure<" out && grep -q "tangent basis 2<" out'
+check 'the same to a budget' exits 0 "$mxgen" inspect --slabs --format svg --max-bytes 30 "$slabs" -e DustyFibre
+check 'says so' grep -q '>To the budget<' out
+check 'as JSON does' exits 0 "$mxgen" inspect --slabs --format json --max-bytes 30 "$slabs" -e DustyFibre
+check 'too' grep -q '"toBudget": true' out
 check 'no format' exits 2 "$mxgen" inspect --slabs --format pdf "$slabs"
 check 'is told' says "'pdf' is no format"
 check 'a format without slabs' exits 2 "$mxgen" inspect --format json "$slabs"
