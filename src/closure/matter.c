@@ -300,9 +300,7 @@ static ir_ref share_of_lobe(struct closure_scatter *s, ir_ref leaf)
     ir_ref albedo = closure_call(s->shader, s->host, leaf, LEAF_ALBEDO, NULL);
     if (!albedo)
         return scatter_number(s, 1.0f);
-    albedo = scatter_mean_of(s, ir_convert(s->graph, IR_TYPE_VEC3, albedo));
-    albedo = scatter_op2(s, IR_MUL, albedo, scatter_number(s, 0.9f));
-    return scatter_op2(s, IR_ADD, albedo, scatter_number(s, 0.1f)); /* albedos are fits */
+    return scatter_likely(s, scatter_mean_of(s, ir_convert(s->graph, IR_TYPE_VEC3, albedo)));
 }
 
 struct choice {
@@ -338,8 +336,7 @@ static ir_ref lobe_response(struct closure_scatter *s, ir_ref leaf, ir_ref direc
     struct choice c = choose(s, leaf);
     ir_ref density = closure_call(s->shader, s->host, leaf, LEAF_PDF, &direction);
     density = scatter_op2(s, IR_MUL, density, scatter_op2(s, IR_DIV, c.lobe, c.all));
-    density = scatter_op2(s, IR_MUL, density, solid_angle);
-    return scatter_op2(s, IR_DIV, value, scatter_op2(s, IR_ADD, density, scatter_number(s, 1.0f)));
+    return scatter_balanced(s, value, density, solid_angle);
 }
 
 ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid_angle)
