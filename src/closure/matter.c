@@ -50,10 +50,13 @@ static ir_ref both(struct ir_graph *g, ir_ref a, ir_ref b)
     return a && b ? ir_op2(g, IR_LAND, a, b) : a ? a : b;
 }
 
-/* True with this chance; the number becomes another one. */
+/* True with this chance; the number becomes another one, which a chance above 1 would crowd. */
 static ir_ref draw(struct finder *f, ir_ref chance)
 {
     struct ir_graph *g = f->graph;
+    chance = ir_op3(g, IR_CLAMP, chance, ir_const_float(g, 0.0f), ir_const_float(g, 1.0f));
+    if (ir_const_is(g, chance, 0.0f) || ir_const_is(g, chance, 1.0f))
+        return ir_const_bool(g, ir_const_is(g, chance, 1.0f));
     ir_ref is_it = ir_op2(g, IR_LT, f->number, chance);
     ir_ref low = ir_op2(g, IR_DIV, f->number, chance), high = ir_op2(g, IR_SUB, f->number, chance);
     high = ir_op2(g, IR_DIV, high, closure_one_minus(g, chance));
