@@ -3,6 +3,7 @@
 #include "check/examine.h"
 #include "check/json.h"
 #include "check/picture.h"
+#include "cli/slab_view.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -28,28 +29,11 @@ static void read_step(struct store *store, const json_t *from, struct check_step
                                .drawn = ""};
 }
 
-static mxg_result *view(struct examiner *examiner, const mxg_document *document,
-                        const struct check_element *element, const mxg_options *options,
-                        mxg_view view)
-{
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    mxg_result *result = NULL;
-    desc.target = element->shaders[0].target;
-    desc.element = element->path;
-    desc.options = options;
-    mxg_inspect(examiner->cli->context, document, view, &desc, &result);
-    return result;
-}
-
 static json_t *read_sheet(struct examiner *examiner, const mxg_document *document,
                           const struct check_element *element, const mxg_options *options)
 {
-    size_t size = 0;
-    mxg_result *result = view(examiner, document, element, options, MXG_VIEW_SLABS_JSON);
-    const char *text = result ? mxg_result_text(result, &size) : NULL;
-    json_t *sheet = text ? json_loadb(text, size, 0, NULL) : NULL;
-    mxg_result_destroy(result);
-    return sheet;
+    return slab_view_read(examiner->cli, document, element->path, element->shaders[0].target,
+                          options);
 }
 
 static bool has_trees(const json_t *sheet)
@@ -88,17 +72,27 @@ static bool read_steps(struct examiner *examiner, const mxg_document *document,
     return has;
 }
 
-void examine_slabs(struct examiner *examiner, const mxg_document *document,
-                   struct check_element *element)
+static void add_tree(struct examiner *examiner, const mxg_document *document,
+                     struct check_element *element)
 {
-    size_t size = 0;
-    bool has = cli_has_budget(examiner->cli) ? read_steps(examiner, document, element)
-                                             : has_own_slabs(examiner, document, element);
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     mxg_result *result = NULL;
-    if (has)
-        result = view(examiner, document, element, examiner->cli->options, MXG_VIEW_SLABS_SVG);
+    size_t size = 0;
+    desc.target = element->shaders[0].target;
+    desc.element = element->path;
+    desc.options = examiner->cli->options;
+    mxg_inspect(examiner->cli->context, document, MXG_VIEW_SLABS_SVG, &desc, &result);
     const char *svg = result ? mxg_result_text(result, &size) : NULL;
     if (svg)
         element->slabs = picture_base64(&examiner->store, svg, size);
     mxg_result_destroy(result);
+}
+
+void examine_slabs(struct examiner *examiner, const mxg_document *document,
+                   struct check_element *element)
+{
+    bool has = cli_has_budget(examiner->cli) ? read_steps(examiner, document, element)
+                                             : has_own_slabs(examiner, document, element);
+    if (has)
+        add_tree(examiner, document, element);
 }

@@ -4,6 +4,7 @@
 
 #include "check/picture.h"
 #include "cli/files.h"
+#include "cli/folder.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -134,16 +135,15 @@ static char *picture_in(struct bind_substances *substances, const char *folder, 
 
 char *substance_picture(struct bind_substances *substances, const char *name)
 {
-    const char *root = getenv("TMPDIR");
     if (!substances->has_pictures)
         return NULL;
-    char *folder = cli_format("%s/mxgen-bind-XXXXXX", root && *root ? root : "/tmp"), *out = NULL;
-    if (mkdtemp(folder)) {
+    char *folder = folder_temporary("mxgen-bind"), *out = NULL;
+    if (folder) {
         out = picture_in(substances, folder, name);
         rmdir(folder);
     } else {
-        report_error(&substances->cli->report, "output-failed", "cannot make the folder '%s': %s",
-                     folder, strerror(errno));
+        report_error(&substances->cli->report, "output-failed",
+                     "cannot make a folder for pictures: %s", strerror(errno));
     }
     free(folder);
     /* if one fails, all would: there may be no device */

@@ -64,6 +64,8 @@ enum cli_wants {
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit);
 void cli_finish(struct cli *cli);
+/* Drops what the command has set since. False after a message. */
+bool cli_renew_options(struct cli *cli);
 
 /*
  * Appends the arguments that give another mxgen program the same library, limits and options of
@@ -107,6 +109,11 @@ char *cli_program(const char *name);
  * it could not start.
  */
 bool cli_run(struct report *report, char *const *arguments, int *out_status);
+/*
+ * The same without a message: returns 0, or an error of errno. What the program writes goes to the
+ * file `log`, and it reads nothing; NULL: it writes and reads what this program does.
+ */
+int cli_run_logged(char *const *arguments, const char *log, int *out_status);
 
 /* Formats into new memory, which the caller frees; ends the program if memory is exhausted. */
 #if defined(__GNUC__)

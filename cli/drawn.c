@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/drawn.h"
 #include "cli/files.h"
+#include "cli/memory.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +10,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#define SIZE "48" /* pixels */
 #define BALL 0.36 /* of the height: its radius, without the edge, which neighbours soften */
 
 /* ---- Difference ---- */
@@ -19,14 +19,16 @@ struct picture {
     const unsigned char *pixels;
 };
 
-static bool read_picture(const char *ppm, size_t size, struct picture *out)
+/* P6, 8 bits, sRGB. */
+static bool read_picture(const struct drawn_picture *drawn, struct picture *out)
 {
     int most = 0, head = 0;
+    const char *ppm = drawn->ppm;
     if (!ppm || sscanf(ppm, "P6 %d %d %d%n", &out->width, &out->height, &most, &head) != 3)
         return false;
     out->pixels = (const unsigned char *)ppm + head + 1;
     return most == 255 && out->width > 0 && out->height > 0
-           && size >= (size_t)head + 1 + 3 * (size_t)out->width * (size_t)out->height;
+           && drawn->ppm_size >= (size_t)head + 1 + 3 * (size_t)out->width * (size_t)out->height;
 }
 
 static void linear_of(const unsigned char *srgb, float out[3])
@@ -37,13 +39,13 @@ static void linear_of(const unsigned char *srgb, float out[3])
     }
 }
 
-double drawn_difference(const char *a, size_t size_a, const char *b, size_t size_b)
+/* Below 0: they are no pictures of one size. */
+static double difference(const struct drawn_picture *a, const struct drawn_picture *b)
 {
     struct picture p, q;
     double sum = 0;
     size_t count = 0;
-    if (!read_picture(a, size_a, &p) || !read_picture(b, size_b, &q) || p.width != q.width
-        || p.height != q.height)
+    if (!read_picture(a, &p) || !read_picture(b, &q) || p.width != q.width || p.height != q.height)
         return -1;
     for (int i = 0; i < p.width * p.height; ++i) {
         float one[3], other[3];
@@ -60,31 +62,11 @@ double drawn_difference(const char *a, size_t size_a, const char *b, size_t size
 
 /* ---- Pictures ---- */
 
-/* What is drawn, and the steps of its budget. */
-struct subject {
-    const char *file, *element, *path; /* path: of the picture */
-    unsigned num_steps;
-    bool is_asked; /* options have the budget; otherwise it is one closure */
-};
+/* So many steps of a budget a picture shows. */
+enum { NO_STEPS = 0, ALL_STEPS = -1 };
 
-/* The steps that a report of the slabs lists. */
-static void count_steps(struct cli *cli, const mxg_document *document, struct subject *subject)
-{
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    mxg_result *result = NULL;
-    desc.target = "glsl";
-    desc.element = subject->element;
-    desc.options = cli->options;
-    mxg_inspect(cli->context, document, MXG_VIEW_SLABS, &desc, &result);
-    const char *text = result ? mxg_result_text(result, NULL) : NULL;
-    subject->is_asked = text && !strstr(text, "\nto one closure\n");
-    for (; text && (text = strstr(text, ", estimated error ")); ++text)
-        ++subject->num_steps;
-    mxg_result_destroy(result);
-}
-
-/* After the first steps; 0: the full material. NULL after a message. */
-static char *draw(struct cli *cli, const struct subject *subject, unsigned steps, size_t *out_size)
+/* False: the renderer cannot start, dies or fails. */
+static bool run(const struct drawn_subject *subject, const char *log, int steps)
 {
     struct arg_list args = {0};
     int status = -1;
@@ -92,67 +74,102 @@ static char *draw(struct cli *cli, const struct subject *subject, unsigned steps
     args_append(&args, cli_format("%s", subject->file));
     if (subject->element)
         args_append(&args, cli_format("--element=%s", subject->element));
-    args_append(&args, cli_format("--output=%s", subject->path));
-    args_append(&args, cli_format("--size=" SIZE));
-    args_append(&args, cli_format("--mesh=sphere"));
+    args_append(&args, cli_format("--output=%s/picture.png", subject->folder));
+    args_append(&args, cli_format("--copy=%s/picture.ppm", subject->folder));
     args_append(&args, cli_format("--missing-texture=checker"));
-    if (steps)
-        cli_forward(cli, &args);
+    for (const char *const *option = subject->look; *option; ++option)
+        args_append(&args, cli_format("%s", *option));
+    if (steps == NO_STEPS)
+        cli_forward_full(subject->cli, &args);
     else
-        cli_forward_full(cli, &args);
-    if (steps && !subject->is_asked)
+        cli_forward(subject->cli, &args);
+    if (steps != NO_STEPS && subject->is_to_one_closure)
         args_append(&args, cli_format("--max-closures=1"));
-    args_append(&args, cli_format("--max-steps=%u", steps));
+    if (steps != ALL_STEPS)
+        args_append(&args, cli_format("--max-steps=%d", steps));
     args_append(&args, NULL);
-    bool good = cli_run(&cli->report, (char *const *)(uintptr_t)args.items, &status);
-    if (good && status != 0)
-        report_error(&cli->report, "no-picture",
-                     "there are no drawn errors: the renderer made no picture of '%s'",
-                     subject->element ? subject->element : subject->file);
+    bool is_started = !cli_run_logged((char *const *)(uintptr_t)args.items, log, &status);
     args_free(&args);
-    char *data = good && status == 0 ? files_read(subject->path, out_size) : NULL;
-    unlink(subject->path);
+    return is_started && status == 0;
+}
+
+static char *take_file(const struct drawn_subject *subject, const char *name, size_t *out_size)
+{
+    char *path = cli_format("%s/%s", subject->folder, name), *data = files_read(path, out_size);
+    unlink(path);
+    free(path);
     return data;
 }
 
-static bool compare_all(struct cli *cli, const struct subject *subject, FILE *out)
+static void drop(struct drawn_picture *picture)
 {
-    size_t size = 0, other_size = 0;
-    char *full = subject->num_steps ? draw(cli, subject, 0, &size) : NULL;
-    bool good = full || !subject->num_steps;
-    for (unsigned n = 1; good && n <= subject->num_steps; ++n) {
-        char *cheaper = draw(cli, subject, n, &other_size);
-        double error = drawn_difference(full, size, cheaper, other_size);
-        good = cheaper && error >= 0;
-        if (good)
-            fprintf(out, "%s%u=%.4f", n > 1 ? "," : "", n, error);
-        free(cheaper);
-    }
-    free(full);
-    return good;
+    free(picture->png);
+    free(picture->ppm);
+    free(picture->log);
+    *picture = (struct drawn_picture){0};
 }
 
-bool drawn_errors(struct cli *cli, const mxg_document *document, const char *file,
-                  const char *element, char **out)
+static struct drawn_picture draw(const struct drawn_subject *subject, int steps)
 {
-    const char *root = getenv("TMPDIR");
-    char *folder = cli_format("%s/mxgen-drawn-XXXXXX", root && *root ? root : "/tmp");
-    size_t size = 0;
-    *out = NULL;
-    FILE *stream = open_memstream(out, &size);
-    bool good = stream && mkdtemp(folder);
-    if (good) {
-        char *path = cli_format("%s/ball.ppm", folder);
-        struct subject subject = {.file = file, .element = element, .path = path};
-        count_steps(cli, document, &subject);
-        good = compare_all(cli, &subject, stream);
-        free(path);
-        rmdir(folder);
-    } else {
-        report_error(&cli->report, "no-picture", "there is no folder for pictures: '%s'", folder);
+    struct drawn_picture out = {0};
+    char *log = cli_format("%s/log", subject->folder);
+    if (subject->begin)
+        subject->begin(subject->user_data);
+    bool good = run(subject, log, steps);
+    out.png = take_file(subject, "picture.png", &out.png_size);
+    out.ppm = take_file(subject, "picture.ppm", &out.ppm_size);
+    out.log = take_file(subject, "log", &(size_t){0});
+    if (!good || !out.png || !out.ppm) {
+        free(out.png);
+        free(out.ppm);
+        out.png = out.ppm = NULL;
     }
-    if (stream)
-        fclose(stream);
-    free(folder);
-    return good;
+    free(log);
+    return out;
+}
+
+static bool fail(struct drawn_comparison *comparison, const struct drawn_picture *picture)
+{
+    const char *log =
+        picture->log && *picture->log ? picture->log : "mxgen-render could not be started, or died";
+    if (!comparison->fault)
+        comparison->fault = cli_copy(log, strcspn(log, "\n"));
+    return false;
+}
+
+bool drawn_begin(const struct drawn_subject *subject, struct drawn_comparison *out)
+{
+    *out = (struct drawn_comparison){.error = -1};
+    out->cheapest = draw(subject, ALL_STEPS);
+    return out->cheapest.ppm || fail(out, &out->cheapest);
+}
+
+bool drawn_compare(const struct drawn_subject *subject, size_t num_steps,
+                   struct drawn_comparison *comparison)
+{
+    comparison->full = draw(subject, NO_STEPS);
+    comparison->error = difference(&comparison->full, &comparison->cheapest);
+    if (comparison->error < 0)
+        return fail(comparison, &comparison->full);
+    comparison->num_steps = num_steps;
+    comparison->errors = memory_alloc((num_steps + 1) * sizeof *comparison->errors);
+    for (size_t i = 0; i + 1 < num_steps; ++i) {
+        struct drawn_picture cheaper = draw(subject, (int)i + 1);
+        comparison->errors[i] = difference(&comparison->full, &cheaper);
+        if (comparison->errors[i] < 0)
+            fail(comparison, &cheaper);
+        drop(&cheaper);
+    }
+    if (num_steps)
+        comparison->errors[num_steps - 1] = comparison->error;
+    return !comparison->fault;
+}
+
+void drawn_finish(struct drawn_comparison *comparison)
+{
+    drop(&comparison->full);
+    drop(&comparison->cheapest);
+    free(comparison->errors);
+    free(comparison->fault);
+    *comparison = (struct drawn_comparison){0};
 }

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen inspect: the state of the compiler after each stage, as text. */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/drawn.h"
+#include "cli/folder.h"
+#include "cli/slab_view.h"
 #include "cli/stage.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct inspect {
     bool views[MXG_VIEW_SLABS_SVG + 1];
@@ -94,17 +99,49 @@ static void print_stack(struct cli *cli, const mxg_document *own, struct inspect
     inspect->bindings = NULL;
 }
 
-/* The errors of pictures become an option, which the reports read. Without pictures, true too. */
-static bool add_drawn(struct cli *cli, const mxg_document *document, const char *file,
-                      const struct inspect *inspect)
+/* Sets the option that the reports read: "STEPS=ERROR", separated by commas. */
+static void set_drawn(struct cli *cli, const struct drawn_comparison *comparison)
 {
     char *errors = NULL;
-    bool good = true;
-    if (inspect->is_drawn && drawn_errors(cli, document, file, inspect->element, &errors)
-        && *errors)
-        good = mxg_options_set(cli->options, "drawn-errors", errors) == MXG_OK;
+    size_t size = 0;
+    FILE *out = open_memstream(&errors, &size);
+    for (size_t i = 0; out && i < comparison->num_steps; ++i)
+        fprintf(out, "%s%zu=%.4f", i ? "," : "", i + 1, comparison->errors[i]);
+    if (out && fclose(out) == 0)
+        mxg_options_set(cli->options, "drawn-errors", errors);
     free(errors);
-    return good;
+}
+
+/* Draws a material that has steps; after a failure the reports have no drawn errors. */
+static void add_drawn(struct cli *cli, const mxg_document *document, const char *file,
+                      const struct inspect *inspect)
+{
+    static const char *const look[] = {"--size=48", "--mesh=sphere", NULL};
+    if (!cli_renew_options(cli)) /* they have the errors of the document before */
+        return;
+    json_t *view = slab_view_read(cli, document, inspect->element, inspect->target, cli->options);
+    size_t num_steps = json_array_size(json_object_get(view, "steps"));
+    bool is_asked = json_is_true(json_object_get(view, "toBudget"));
+    json_decref(view);
+    char *folder = num_steps ? folder_temporary("mxgen-drawn") : NULL;
+    struct drawn_comparison comparison = {0};
+    if (folder) {
+        const struct drawn_subject subject = {.cli = cli,
+                                              .file = file,
+                                              .element = inspect->element,
+                                              .look = look,
+                                              .folder = folder,
+                                              .is_to_one_closure = !is_asked};
+        if (drawn_begin(&subject, &comparison) && drawn_compare(&subject, num_steps, &comparison))
+            set_drawn(cli, &comparison);
+        rmdir(folder);
+    }
+    if (num_steps && (!folder || comparison.fault))
+        report_error(&cli->report, "no-picture", "there are no drawn errors of '%s': %s",
+                     inspect->element ? inspect->element : file,
+                     folder ? comparison.fault : strerror(errno));
+    drawn_finish(&comparison);
+    free(folder);
 }
 
 /* False after a message: pictures are of a document, for its slabs. */
@@ -162,9 +199,11 @@ int command_inspect(const struct command *command, int argc, char **argv)
                     && check_drawn(&inspect);
         for (size_t i = 0; good && i < cli.parser.inputs.len; ++i) {
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
+            if (document && inspect.is_drawn)
+                add_drawn(&cli, document, cli.parser.inputs.items[i], &inspect);
             if (document && inspect.place.file)
                 print_stack(&cli, document, &inspect);
-            else if (document && add_drawn(&cli, document, cli.parser.inputs.items[i], &inspect))
+            else if (document)
                 print_views(&cli, document, &inspect);
             mxg_document_destroy(document);
         }

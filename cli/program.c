@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,17 +34,30 @@ char *cli_program(const char *name)
     return cli_format("%s", name);
 }
 
-bool cli_run(struct report *report, char *const *arguments, int *out_status)
+int cli_run_logged(char *const *arguments, const char *log, int *out_status)
 {
     pid_t process;
-    int reason = posix_spawnp(&process, arguments[0], NULL, NULL, arguments, environ);
-    if (reason) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    if (log) {
+        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log, O_WRONLY | O_CREAT | O_TRUNC,
+                                         0600);
+        posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    }
+    int reason = posix_spawnp(&process, arguments[0], &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    while (!reason && waitpid(process, out_status, 0) < 0)
+        if (errno != EINTR)
+            reason = errno;
+    return reason;
+}
+
+bool cli_run(struct report *report, char *const *arguments, int *out_status)
+{
+    int reason = cli_run_logged(arguments, NULL, out_status);
+    if (reason)
         report_error(report, "no-renderer", "cannot start '%s': %s", arguments[0],
                      strerror(reason));
-        return false;
-    }
-    while (waitpid(process, out_status, 0) < 0)
-        if (errno != EINTR)
-            return false;
-    return true;
+    return !reason;
 }

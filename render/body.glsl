@@ -65,7 +65,7 @@ bool rests(inout Path path)
     const uint MOST = 3000u;
     if (path.waits != 0u || work < MOST)
         return false;
-    path.waits_for = uint(camera.environment[1].w);
+    path.waits_for = this_shader();
     path.waits = AT_REST;
     return true;
 }
@@ -78,7 +78,7 @@ int fly(inout Path path, out Hit hit)
         vec3 chance = chance_of_channels(path), extinction = path.medium.extinction;
         bool may_collide = scatters(path.medium);
         if (rests(path))
-            return MUCH;
+            return RESTS;
         if (may_collide)
             xi = next_random();
         float limit = may_collide ? min(draw_way(chance, extinction, xi.xy), FAR) : FAR;
@@ -187,11 +187,7 @@ bool leave_body(inout Path path, Point point)
     return false;
 }
 
-#endif
-
-#ifdef MATTER
-
-// The same for a ray to a light, but for the side where it leaves the medium that it is in.
+// As above for a shadow ray; pass_surface() handles the side where it leaves its own medium.
 bool meet_boundary(inout Shadow ray, uint number, uint side)
 {
     uint at = find_around(number, ray.around, side);

@@ -4,7 +4,7 @@
 // A path and each of its rays to lights has the medium that it is in, and behind that, in `media`, those around it, from the outermost.
 // Matter that overlaps is not mixed: light is in what it came into last, and inside that the surfaces of what is around are not there.
 
-const uint OF_PATH = 0u, NUM_RAYS = 3u; // whose media: of the path, or of the shadow with this number, from 1
+const uint OF_PATH = 0u; // whose media: of the path, or of the shadow with this number, from 1
 
 Medium no_medium()
 {

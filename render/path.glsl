@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path tracer around the function scatter() of a generated shader, which stands above, as do path_structs.glsl, fill_vertex_data(), keep_aovs(), light_aovs(),
-// keep_light(), TRACER_SET, AS_DRAWN (a path goes as a drawn picture has it), PARTS (one more than AOVs of BSDFs), PICKS (so many paths in a row differ only in the closure that they pick where
-// they hit first) and, where they hold, LIGHTS (lights are bound), TRANSPARENT (light may go through), MATTER (a surface is a pile of matter)
-// and DISPLACES (a program of its own, which moves the corners and traces nothing).
+// A path tracer around the function scatter() of a generated shader. Above this text stand the shader, path_structs.glsl, fill_vertex_data(),
+// keep_aovs(), light_aovs(), keep_light(), and macros:
+//
+//     TRACER_SET    the descriptor set of the tracer's buffers
+//     AS_DRAWN      whether a path goes as a drawn picture has it
+//     PARTS         one more than AOVs of BSDFs
+//     PICKS         so many paths in a row differ only in the closure that they pick where they hit first
+//     LIGHTS        defined: lights are bound
+//     TRANSPARENT   defined: light may go through
+//     MATTER        defined: a surface is a pile of matter
+//     DISPLACES     defined: it is a program of its own, which moves the corners and traces nothing
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
 // kernel runs.
@@ -36,6 +43,7 @@ const float PI = 3.14159265;
 const int MAX_HITS = 64; // those that a path goes straight through, too
 
 uint pixel_number() { return gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x; }
+uint this_shader() { return uint(camera.environment[1].w); }
 
 // ---- Random numbers: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d ----
 
@@ -362,7 +370,7 @@ vec3 meet_environment(vec3 direction, float density)
 const uint AT_HIT = 1u, AT_REST = 2u;
 
 // What a ray meets.
-const int NOTHING = 0, OURS = 1, ANOTHERS = 2, MUCH = 3; // MUCH: the path has to rest
+const int NOTHING = 0, OURS = 1, ANOTHERS = 2, RESTS = 3; // RESTS: the path has worked enough for now
 
 int meet(inout Path path, vec3 origin, vec3 direction, float limit, out Hit hit)
 {
@@ -374,7 +382,7 @@ int meet(inout Path path, vec3 origin, vec3 direction, float limit, out Hit hit)
     if (!find_hit(origin, direction, limit, hit))
         return NOTHING;
     path.waits_for = objects[corners[hit.triangle * 3u].object].shader;
-    return path.waits_for == uint(camera.environment[1].w) ? OURS : ANOTHERS;
+    return path.waits_for == this_shader() ? OURS : ANOTHERS;
 }
 
 // Stops the path until the kernel of another shader runs.
@@ -441,7 +449,7 @@ void go_on_in_matter(inout Path path);
 bool follow_matter(inout Path path)
 {
     path.waits_for = objects[corners[path.place.triangle * 3u].object].shader;
-    if (path.waits_for != uint(camera.environment[1].w))
+    if (path.waits_for != this_shader())
         return wait(path, path.place);
     path.waits = 0u;
 #ifdef MATTER
@@ -507,7 +515,7 @@ bool follow_ray(inout Path path)
     }
     if (what == ANOTHERS)
         return wait(path, hit);
-    if (what == MUCH)
+    if (what == RESTS)
         return false;
     if (what != OURS)
         return true;
@@ -585,7 +593,7 @@ void main()
         return;
     uint i = floatBitsToUint(film[at].w);
     Corner c = corners[i];
-    if (objects[c.object].shader != uint(camera.environment[1].w))
+    if (objects[c.object].shader != this_shader())
         return;
     met = Hit(0.0, i / 3u, vec2(i % 3u == 1u ? 1.0 : 0.0, i % 3u == 2u ? 1.0 : 0.0));
     to_object = objects[c.object].to_object;
@@ -622,7 +630,7 @@ void main()
     uint index = pixel.y * camera.frame.x + pixel.x, end = camera.frame.z + camera.frame.w;
     // the first kernel of a batch begins the paths; others go on with those that wait for them
     bool begins = camera.environment[2].w > 0.5;
-    if (!begins && (paths[index].waits == 0u || paths[index].waits_for != uint(camera.environment[1].w)))
+    if (!begins && (paths[index].waits == 0u || paths[index].waits_for != this_shader()))
         return;
     Path path;
     if (begins)

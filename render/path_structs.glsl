@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structs of the path tracer's buffers: trace.c includes this file, too, so their sizes are the same there.
+#define NUM_SHADOWS 2u              // rays to lights that a path casts at once
+#define NUM_RAYS (1u + NUM_SHADOWS) // that media are around: the path and its shadows
 struct Node { vec3 low; uint first; vec3 high; uint count; };
 struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
 struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
@@ -33,5 +35,5 @@ struct Path {
     uint side, waits_for, random, waits;            // side: where it came into the matter
     uint around;                     // so many media are around the medium
     float share;                                    // of the surface in the first hit; 0: the path has the light of an AOV
-    Shadow shadows[2];
+    Shadow shadows[NUM_SHADOWS];
 };

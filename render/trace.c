@@ -23,7 +23,6 @@ enum {
     MEDIA,
     NUM_BUFFERS,
     NUM_BINDINGS = NUM_BUFFERS + 1,
-    RAYS = 3,        /* that media are around: those of a path and of its shadows */
     MOST_AROUND = 4, /* media around one */
     GROUP = 8,
     SAMPLES_AT_ONCE = 16
@@ -34,16 +33,21 @@ struct camera { /* layout as in path.glsl */
     uint32_t frame[4];
 };
 
-/* The types of GLSL in a buffer (layout std430), for its structs. */
+/* The types of GLSL in a buffer (layout std430), for its structs. A typedef has no alignment. */
 typedef unsigned int uint;
-typedef __attribute__((aligned(8))) float vec2[2];
-typedef __attribute__((aligned(16))) float vec3[3];
-typedef __attribute__((aligned(16))) float vec4[4];
-typedef __attribute__((aligned(16))) float mat4[4][4];
+typedef float floats2[2], floats3[3], floats4[4], floats4x4[4][4];
+#define vec2 _Alignas(8) floats2
+#define vec3 _Alignas(16) floats3
+#define vec4 _Alignas(16) floats4
+#define mat4 _Alignas(16) floats4x4
 typedef struct Hit Hit;
 typedef struct Medium Medium;
 typedef struct Shadow Shadow;
 #include "render/path_structs.glsl"
+#undef vec2
+#undef vec3
+#undef vec4
+#undef mat4
 _Static_assert(sizeof(struct Node) == sizeof(struct bvh_node)
                    && sizeof(struct Corner) == sizeof(struct bvh_corner),
                "the tree has the structs of path_structs.glsl");
@@ -167,7 +171,7 @@ static bool create_buffers(struct tracer *tracer)
         {NULL, film, FILM},
         {sums, num_sums * sizeof *sums, SUMS},
         {NULL, pixels * sizeof(struct Path), PATHS},
-        {NULL, most_around(tracer) * RAYS * pixels * sizeof(struct Medium), MEDIA},
+        {NULL, most_around(tracer) * NUM_RAYS * pixels * sizeof(struct Medium), MEDIA},
         {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING},
         {NULL, (aovs_stride(tracer->options->aovs) * pixels + 1) * 4 * sizeof(float), AOVS}};
     bool good = sums || fail_for_memory(tracer);

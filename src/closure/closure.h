@@ -200,7 +200,10 @@ struct closure_surface closure_surface_of(struct shader *shader, const struct cl
                                           ir_ref root);
 /* The surface below its AOVs; 0 stays 0. */
 ir_ref closure_without_aovs(const struct ir_graph *graph, ir_ref surface);
-/* Its alpha alone, for stacks: the rest of the surface need not be complete. */
+/*
+ * Its alpha alone, for stacks: the rest of the surface need not be complete. It is made of leaves,
+ * mixes and AOVs.
+ */
 ir_ref closure_surface_alpha(struct shader *shader, ir_ref root);
 /* What the parts of a surface let through: its colour, or 1 - alpha as one. */
 ir_ref closure_surface_through(struct ir_graph *graph, const struct closure_surface *surface);

@@ -50,10 +50,13 @@ static ir_ref both(struct ir_graph *g, ir_ref a, ir_ref b)
     return a && b ? ir_op2(g, IR_LAND, a, b) : a ? a : b;
 }
 
-/* True with this chance; the number becomes another one. */
+/* True with this chance; the number becomes another one, which a chance above 1 would crowd. */
 static ir_ref draw(struct finder *f, ir_ref chance)
 {
     struct ir_graph *g = f->graph;
+    chance = ir_op3(g, IR_CLAMP, chance, ir_const_float(g, 0.0f), ir_const_float(g, 1.0f));
+    if (ir_const_is(g, chance, 0.0f) || ir_const_is(g, chance, 1.0f))
+        return ir_const_bool(g, ir_const_is(g, chance, 1.0f));
     ir_ref is_it = ir_op2(g, IR_LT, f->number, chance);
     ir_ref low = ir_op2(g, IR_DIV, f->number, chance), high = ir_op2(g, IR_SUB, f->number, chance);
     high = ir_op2(g, IR_DIV, high, closure_one_minus(g, chance));
@@ -300,9 +303,7 @@ static ir_ref share_of_lobe(struct closure_scatter *s, ir_ref leaf)
     ir_ref albedo = closure_call(s->shader, s->host, leaf, LEAF_ALBEDO, NULL);
     if (!albedo)
         return scatter_number(s, 1.0f);
-    albedo = scatter_mean_of(s, ir_convert(s->graph, IR_TYPE_VEC3, albedo));
-    albedo = scatter_op2(s, IR_MUL, albedo, scatter_number(s, 0.9f));
-    return scatter_op2(s, IR_ADD, albedo, scatter_number(s, 0.1f)); /* albedos are fits */
+    return scatter_likely(s, scatter_mean_of(s, ir_convert(s->graph, IR_TYPE_VEC3, albedo)));
 }
 
 struct choice {
@@ -338,8 +339,7 @@ static ir_ref lobe_response(struct closure_scatter *s, ir_ref leaf, ir_ref direc
     struct choice c = choose(s, leaf);
     ir_ref density = closure_call(s->shader, s->host, leaf, LEAF_PDF, &direction);
     density = scatter_op2(s, IR_MUL, density, scatter_op2(s, IR_DIV, c.lobe, c.all));
-    density = scatter_op2(s, IR_MUL, density, solid_angle);
-    return scatter_op2(s, IR_DIV, value, scatter_op2(s, IR_ADD, density, scatter_number(s, 1.0f)));
+    return scatter_balanced(s, value, density, solid_angle);
 }
 
 ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid_angle)

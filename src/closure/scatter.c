@@ -76,6 +76,20 @@ ir_ref scatter_mean_of(struct closure_scatter *s, ir_ref color)
     return scatter_op2(s, IR_DOT, color, scatter_grey(s, 1.0f / 3.0f));
 }
 
+ir_ref scatter_likely(struct closure_scatter *s, ir_ref albedo)
+{
+    ir_type_id type = ir_type_of(s->graph, albedo);
+    albedo = scatter_op2(s, IR_MUL, albedo, ir_const_splat(s->graph, type, 0.9f));
+    return scatter_op2(s, IR_ADD, albedo, ir_const_splat(s->graph, type, 0.1f));
+}
+
+ir_ref scatter_balanced(struct closure_scatter *s, ir_ref value, ir_ref density, ir_ref solid_angle)
+{
+    ir_ref both = scatter_op2(s, IR_MUL, density, solid_angle);
+    both = scatter_op2(s, IR_ADD, scatter_number(s, 1.0f), both);
+    return scatter_op2(s, IR_DIV, value, both);
+}
+
 /* The weight for light on a way through the media above. */
 static ir_ref weight_along(struct closure_scatter *s, const struct closure_leaf *leaf, ir_ref way)
 {
@@ -107,20 +121,16 @@ bool scatter_refracts(struct closure_scatter *s, ir_ref leaf)
 /*
  * p of a leaf in a part: the chance to pick it times the sum of all p. It follows the scattered
  * light, so that paths keep their weight. An albedo covers only reflection; refraction loses no
- * light. The tenth is a reserve, because albedos are fits.
+ * light.
  */
 static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *leaf)
 {
-    struct ir_graph *g = s->graph;
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
            light = weight_along(s, leaf, scatter_number(s, CLOSURE_MEAN_WAY));
-    if (albedo && !scatter_refracts(s, leaf->leaf)) {
-        albedo = ir_convert(g, IR_TYPE_VEC3, albedo);
-        albedo = scatter_op2(s, IR_MUL, scatter_grey(s, 0.9f), albedo);
-        light =
-            scatter_op2(s, IR_MUL, light, scatter_op2(s, IR_ADD, scatter_grey(s, 0.1f), albedo));
-    }
-    assert(ir_type_of(g, light) == IR_TYPE_VEC3);
+    if (albedo && !scatter_refracts(s, leaf->leaf))
+        light = scatter_op2(s, IR_MUL, light,
+                            scatter_likely(s, ir_convert(s->graph, IR_TYPE_VEC3, albedo)));
+    assert(ir_type_of(s->graph, light) == IR_TYPE_VEC3);
     ir_ref mean = scatter_mean_of(s, light);
     return scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
 }
@@ -272,9 +282,7 @@ static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref directio
             ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
             density =
                 scatter_op2(s, IR_MUL, density, scatter_op2(s, IR_DIV, leaf->share, s->total));
-            density = scatter_op2(s, IR_MUL, solid_angle, density);
-            density = scatter_op2(s, IR_ADD, scatter_number(s, 1.0f), density);
-            value = scatter_op2(s, IR_DIV, value, density);
+            value = scatter_balanced(s, value, density, solid_angle);
         }
         if (has(s, leaf->leaf, LEAF_REFRACTION)) {
             ir_ref in_front = scatter_is_in_front(s, direction);

@@ -56,6 +56,19 @@ ir_ref scatter_number(struct closure_scatter *s, float value);
 ir_ref scatter_grey(struct closure_scatter *s, float value);
 ir_ref scatter_op2(struct closure_scatter *s, enum ir_op op, ir_ref a, ir_ref b);
 ir_ref scatter_mean_of(struct closure_scatter *s, ir_ref color);
+/*
+ * How much of the light a lobe is likely to reflect, by an albedo (float or vec3): 0.1 + 0.9
+ * albedo. The tenth is a reserve, because albedos are fits, and a lobe that is never picked loses
+ * its light.
+ */
+ir_ref scatter_likely(struct closure_scatter *s, ir_ref albedo);
+/*
+ * The balance heuristic (see scatter.c) for the light of a direction that a light has drawn:
+ * value / (1 + density * solid_angle), with the density of the same direction as a sample of the
+ * surface, and one over that of the light.
+ */
+ir_ref scatter_balanced(struct closure_scatter *s, ir_ref value, ir_ref density,
+                        ir_ref solid_angle);
 /* The fourth random number. */
 ir_ref scatter_random_number(struct shader *shader);
 /* True if the light from there comes from the visible side. */

@@ -64,6 +64,13 @@ static struct closure_surface premultiplied(struct ir_graph *g, struct closure_s
     return s;
 }
 
+/* 0: 1 */
+static ir_ref mixed_alpha(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
+{
+    ir_ref one = ir_const_float(g, 1.0f);
+    return ir_op3(g, IR_MIX, bg ? bg : one, fg ? fg : one, mix);
+}
+
 static struct closure_surface mixed(const struct surfaces *s, struct closure_surface bg,
                                     struct closure_surface fg, ir_ref mix)
 {
@@ -72,7 +79,7 @@ static struct closure_surface mixed(const struct surfaces *s, struct closure_sur
         bg = premultiplied(g, bg);
         fg = premultiplied(g, fg);
     }
-    ir_ref one = ir_const_float(g, 1.0f), black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    ir_ref black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
     struct closure_surface out = {.bsdf = closure_mixed(g, bg.bsdf, fg.bsdf, mix),
                                   .edf = closure_mixed(g, bg.edf, fg.edf, mix),
                                   .premultiplied = true,
@@ -81,7 +88,7 @@ static struct closure_surface mixed(const struct surfaces *s, struct closure_sur
            before = fg.unlit ? color_of(g, fg.unlit) : black;
     if (bg.unlit || fg.unlit)
         out.unlit = ir_op3(g, IR_MIX, behind, before, mix);
-    out.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
+    out.alpha = mixed_alpha(g, bg.alpha, fg.alpha, mix);
     if (bg.through || fg.through) {
         ir_ref far = closure_surface_through(g, &bg), near = closure_surface_through(g, &fg);
         out.through = ir_op3(g, IR_MIX, far, near, mix);
@@ -292,7 +299,10 @@ static struct closure_surface leaf_of(const struct surfaces *s, ir_ref ref)
     return out;
 }
 
-/* A pile of matter has the opacity of its surface, and the light of its EDFs. */
+/*
+ * A pile of matter has the opacity of its surface. It emits the light of its EDFs itself, so the
+ * surface has none.
+ */
 static struct closure_surface matter_of(const struct surfaces *s, ir_ref surface)
 {
     struct closure_surface out = premultiplied(s->graph, s->known[surface]);
@@ -360,40 +370,35 @@ ir_ref closure_without_aovs(const struct ir_graph *g, ir_ref surface)
     return surface;
 }
 
-/* The alpha of a surface that is made of no other ones. */
-static ir_ref alpha_of_leaf(struct ir_graph *g, ir_ref ref)
+/* The alpha of a surface; `alphas`: of its operands. 0: 1, as of slabs, which are always there. */
+static ir_ref alpha_of(struct ir_graph *g, ir_ref ref, const ir_ref *alphas)
 {
     const struct ir_node node = *ir_get(g, ref);
-    if (node.op == IR_SURFACE_SHADER)
-        return ir_arg(g, ref, 2);
-    if (node.op == IR_SURFACE_UNLIT)
-        return unlit_surface(g, ir_arg(g, ref, 0), ir_arg(g, ref, 1), ir_arg(g, ref, 2)).alpha;
-    return ir_const_float(g, 1.0f);
+    ir_ref args[3] = {0};
+    memcpy(args, ir_args(g, ref), (node.num_args < 3 ? node.num_args : 3) * sizeof *args);
+    switch (node.op) {
+    case IR_SURFACE_SHADER: return args[2];
+    case IR_SURFACE_UNLIT: return unlit_surface(g, args[0], args[1], args[2]).alpha;
+    case IR_AOV: return alphas[args[0]];
+    case IR_SHADER_MIX: return mixed_alpha(g, alphas[args[0]], alphas[args[1]], args[2]);
+    default: assert(node.op == IR_SLAB_SURFACE); return 0;
+    }
 }
 
 /* Only alphas: the same as closure_surface_of without closures. */
 ir_ref closure_surface_alpha(struct shader *shader, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
+    ir_ref *alphas = NULL;
     root = closure_without_aovs(g, root);
-    if (ir_get(g, root)->op != IR_SHADER_MIX)
-        return alpha_of_leaf(g, root);
-    ir_ref *alphas = ARENA_ARRAY(shader->arena, ir_ref, root + 1), one = ir_const_float(g, 1.0f);
-    uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    for (ir_ref ref = 1; ref <= root; ref++) {
-        if (!needed[ref] || ir_type_of(g, ref) != IR_TYPE_SURFACE)
-            continue;
-        if (ir_get(g, ref)->op == IR_AOV) {
-            alphas[ref] = alphas[ir_arg(g, ref, 0)];
-            continue;
-        }
-        if (ir_get(g, ref)->op != IR_SHADER_MIX) {
-            alphas[ref] = alpha_of_leaf(g, ref);
-            continue;
-        }
-        ir_ref bg = alphas[ir_arg(g, ref, 0)], fg = alphas[ir_arg(g, ref, 1)];
-        alphas[ref] = ir_op3(g, IR_MIX, bg ? bg : one, fg ? fg : one, ir_arg(g, ref, 2));
+    if (ir_get(g, root)->op
+        == IR_SHADER_MIX) { /* stacks have thousands of surfaces that are none */
+        const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+        alphas = ARENA_ARRAY(shader->arena, ir_ref, root);
+        for (ir_ref ref = 1; ref < root; ref++)
+            if (needed[ref] && ir_type_of(g, ref) == IR_TYPE_SURFACE)
+                alphas[ref] = alpha_of(g, ref, alphas);
     }
-    assert(alphas[root]);
-    return alphas[root];
+    ir_ref alpha = alpha_of(g, root, alphas);
+    return alpha ? alpha : ir_const_float(g, 1.0f);
 }

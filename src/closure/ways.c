@@ -4,8 +4,9 @@
  * that way x, in thicknesses of the media: a sum of powers of x, because each combination of
  * slabs that are there lets one power through. Three values of the sum give one power:
  *
- *     w(x) = A + B decay^x,  decay = (w(1) - w(2)) / (w(0) - w(1)),  B = (w(0) - w(1)) / (1 -
- * decay)
+ *     w(x)  = A + B decay^x
+ *     decay = (w(1) - w(2)) / (w(0) - w(1))
+ *     B     = (w(0) - w(1)) / (1 - decay)
  *
  * A sum of powers is convex, so the decay lies in 0..1. docs/slabs.md has the measured error.
  */

@@ -13,6 +13,14 @@ static void put_value(struct json *json, const struct slab_sheet *sheet, const c
     json_put_text(json, key, text_cstr(&value));
 }
 
+/* An item of a list. */
+static void put_name(struct json *json, const struct slab_sheet *sheet, ir_ref ref)
+{
+    const char *name = slabs_name(sheet->shader, ref);
+    json_item(json);
+    text_json_string(json->out, name, strlen(name));
+}
+
 static void put_float(struct json *json, const char *key, float value)
 {
     if (value < 0.0f)
@@ -46,6 +54,7 @@ static void put_slab(struct json *json, const struct slab_sheet *sheet, const st
             text_json_string(json->out, slab_feature_names[i], strlen(slab_feature_names[i]));
         }
     json_close(json, ']');
+    json_put_number(json, "tangentBasis", row->basis);
     json_put_number(json, "bytes", row->bytes);
     put_float(json, "lightFromAbove", row->through);
 }
@@ -56,7 +65,7 @@ static void put_row(struct json *json, const struct slab_sheet *sheet, const str
     json_item(json);
     json_open(json, '{');
     json_put_text(json, "kind", slab_row_names[row->kind]);
-    json_put_text(json, "name", slab_name(sheet, row->ref));
+    json_put_text(json, "name", slabs_name(sheet->shader, row->ref));
     json_put_text(json, "role", row->role);
     json_put_number(json, "depth", row->depth);
     if (row->is_repeated)
@@ -73,7 +82,7 @@ static void put_tree(struct json *json, const struct slab_sheet *sheet,
 {
     json_item(json);
     json_open(json, '{');
-    json_put_text(json, "name", slab_name(sheet, tree->root));
+    json_put_text(json, "name", slabs_name(sheet->shader, tree->root));
     json_put_bool(json, "sheet", tree->is_sheet);
     json_put_number(json, "tangentBases", tree->num_bases);
     put_cost(json, "cost", &tree->cost);
@@ -85,9 +94,8 @@ static void put_tree(struct json *json, const struct slab_sheet *sheet,
     json_key(json, "sharedMasks");
     json_open_flat(json, '[');
     for (uint32_t i = 0; i < tree->shared.len; i++) {
-        const char *name = slab_name(sheet, tree->shared.items[i]);
-        json_item(json);
-        text_json_string(json->out, name, strlen(name));
+        put_name(json, sheet, tree->shared.items[i].first);
+        put_name(json, sheet, tree->shared.items[i].second);
     }
     json_close(json, ']');
     json_close(json, '}');
@@ -120,6 +128,7 @@ void slabs_write_json(const struct slab_sheet *sheet, struct text *out)
     for (uint32_t i = 0; i < sheet->trees.len; i++)
         put_tree(&json, sheet, &sheet->trees.items[i]);
     json_close(&json, ']');
+    json_put_bool(&json, "toBudget", sheet->is_asked);
     json_key(&json, "steps");
     json_open(&json, '[');
     for (uint32_t i = 0; i < sheet->report.steps.len; i++)
@@ -127,11 +136,8 @@ void slabs_write_json(const struct slab_sheet *sheet, struct text *out)
     json_close(&json, ']');
     json_key(&json, "notRead");
     json_open_flat(&json, '[');
-    for (uint32_t i = 0; i < sheet->unread.len; i++) {
-        const char *name = slab_name(sheet, sheet->unread.items[i]);
-        json_item(&json);
-        text_json_string(out, name, strlen(name));
-    }
+    for (uint32_t i = 0; i < sheet->unread.len; i++)
+        put_name(&json, sheet, sheet->unread.items[i]);
     json_close(&json, ']');
     json_close(&json, '}');
     text_char(out, '\n');

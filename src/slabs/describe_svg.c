@@ -40,19 +40,21 @@ static void write_swatch(const struct slab_sheet *sheet, ir_ref color, unsigned 
     text_str(out, "'/>");
 }
 
-static void write_slab(const struct slab_sheet *sheet, const struct slab_row *row, unsigned x,
-                       unsigned y, struct text *out)
+static void write_slab(const struct slab_sheet *sheet, const struct slab_tree *tree,
+                       const struct slab_row *row, unsigned x, unsigned y, struct text *out)
 {
     const struct ir_graph *g = sheet->shader->graph;
     write_swatch(sheet, ir_arg(g, row->ref, SLAB_diffuse_albedo), x, y - SWATCH + 3, out);
     write_swatch(sheet, ir_arg(g, row->ref, SLAB_f0), x + SWATCH + 4, y - SWATCH + 3, out);
     text_fmt(out, "<text x='%u' y='%u'><tspan class='role'>%s</tspan> <tspan class='name'>",
              x + 2 * SWATCH + 12, y, row->role);
-    write_escaped(slab_name(sheet, row->ref), out);
+    write_escaped(slabs_name(sheet->shader, row->ref), out);
     text_fmt(out, "</tspan> %s, %u bytes", row->regime, (unsigned)row->bytes);
     for (unsigned i = 0; i < NUM_SLAB_FEATURES; i++)
         if (row->features & 1u << i)
             text_fmt(out, ", %s", slab_feature_names[i]);
+    if (tree->num_bases > 1)
+        text_fmt(out, ", tangent basis %u", (unsigned)row->basis);
     text_str(out, "</text>");
     if (row->through >= 0.0f)
         text_fmt(out,
@@ -63,19 +65,19 @@ static void write_slab(const struct slab_sheet *sheet, const struct slab_row *ro
                  (unsigned)lrintf(100.0f * fminf(row->through, 1.0f)));
 }
 
-static void write_row(const struct slab_sheet *sheet, const struct slab_row *row, unsigned y,
-                      struct text *out)
+static void write_row(const struct slab_sheet *sheet, const struct slab_tree *tree,
+                      const struct slab_row *row, unsigned y, struct text *out)
 {
     unsigned x = MARGIN + row->depth * INDENT;
     ir_ref value = slab_operator_value(sheet, row);
     if (row->kind == SLAB_ROW_SLAB && !row->is_repeated) {
-        write_slab(sheet, row, x, y, out);
+        write_slab(sheet, tree, row, x, y, out);
         text_char(out, '\n');
         return;
     }
     text_fmt(out, "<text x='%u' y='%u'><tspan class='role'>%s</tspan> %s <tspan class='name'>", x,
              y, row->role, slab_row_names[row->kind]);
-    write_escaped(slab_name(sheet, row->ref), out);
+    write_escaped(slabs_name(sheet->shader, row->ref), out);
     text_str(out, row->is_repeated ? "</tspan>, as above" : "</tspan> ");
     if (value && !row->is_repeated) {
         struct text written;
@@ -107,9 +109,22 @@ static void write_step(const struct slab_sheet *sheet, const struct slab_step *s
     text_str(out, "</text>\n");
 }
 
+/* What the estimates of the steps do not read. */
+static void write_unread(const struct slab_sheet *sheet, unsigned y, struct text *out)
+{
+    text_fmt(out, "<text x='%u' y='%u'>the estimate does not read ", (unsigned)(MARGIN + INDENT),
+             y);
+    for (uint32_t i = 0; i < sheet->unread.len; i++) {
+        text_str(out, i ? ", " : "");
+        write_escaped(slabs_name(sheet->shader, sheet->unread.items[i]), out);
+    }
+    text_str(out, "</text>\n");
+}
+
 static unsigned num_rows(const struct slab_sheet *sheet)
 {
-    unsigned rows = sheet->report.steps.len + (sheet->report.steps.len || !sheet->trees.len);
+    unsigned rows = sheet->report.steps.len + (sheet->report.steps.len || !sheet->trees.len)
+                    + (sheet->unread.len != 0);
     for (uint32_t i = 0; i < sheet->trees.len; i++)
         rows += 1 + sheet->trees.items[i].rows.len;
     return rows;
@@ -129,6 +144,18 @@ static void write_head(unsigned height, struct text *out)
         WIDTH, height);
 }
 
+static void write_steps(const struct slab_sheet *sheet, unsigned y, struct text *out)
+{
+    const char *goal = sheet->is_asked ? "To the budget" : "To one closure";
+    if (sheet->report.steps.len || !sheet->trees.len)
+        text_fmt(out, "<text x='%d' y='%u' class='name'>%s</text>\n", MARGIN, y,
+                 sheet->trees.len ? goal : "no slabs");
+    for (uint32_t i = 0; i < sheet->report.steps.len; i++)
+        write_step(sheet, &sheet->report.steps.items[i], y += ROW, out);
+    if (sheet->unread.len)
+        write_unread(sheet, y + ROW, out);
+}
+
 void slabs_write_svg(const struct slab_sheet *sheet, struct text *out)
 {
     unsigned y = MARGIN + ROW / 2;
@@ -136,18 +163,14 @@ void slabs_write_svg(const struct slab_sheet *sheet, struct text *out)
     for (uint32_t i = 0; i < sheet->trees.len; i++) {
         const struct slab_tree *tree = &sheet->trees.items[i];
         text_fmt(out, "<text x='%d' y='%u' class='name'>", MARGIN, y);
-        write_escaped(slab_name(sheet, tree->root), out);
+        write_escaped(slabs_name(sheet->shader, tree->root), out);
         text_fmt(out, ": %u closures, %u bytes, %u tangent bases</text>\n",
                  (unsigned)tree->cost.closures, (unsigned)tree->cost.bytes,
                  (unsigned)tree->num_bases);
         for (uint32_t k = 0; k < tree->rows.len; k++)
-            write_row(sheet, &tree->rows.items[k], y += ROW, out);
+            write_row(sheet, tree, &tree->rows.items[k], y += ROW, out);
         y += ROW;
     }
-    if (sheet->report.steps.len || !sheet->trees.len)
-        text_fmt(out, "<text x='%d' y='%u' class='name'>%s</text>\n", MARGIN, y,
-                 sheet->trees.len ? "To one closure" : "no slabs");
-    for (uint32_t i = 0; i < sheet->report.steps.len; i++)
-        write_step(sheet, &sheet->report.steps.items[i], y += ROW, out);
+    write_steps(sheet, y, out);
     text_str(out, "</svg>\n");
 }

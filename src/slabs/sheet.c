@@ -21,6 +21,16 @@ const char *const slab_row_names[] = {[SLAB_ROW_SLAB] = "slab",
                                       [SLAB_ROW_COVERAGE] = "coverage",
                                       [SLAB_ROW_OTHER] = "no slab"};
 
+/* What drives an operator. */
+struct mask {
+    ir_ref value, driven;
+};
+
+/* The tangent is 0 for an even slab. */
+struct basis {
+    ir_ref normal, tangent;
+};
+
 struct filler {
     struct slab_sheet *sheet;
     struct shader *shader;
@@ -35,16 +45,11 @@ struct filler {
         const char *role;
     } line;
     VEC(struct line) open;
-    VEC(ir_ref) masks; /* in pairs: what drives an operator, the operator */
-    VEC(ir_ref) bases; /* in pairs: normal and tangent of slabs, each pair once */
+    VEC(struct mask) masks;
+    VEC(struct basis) bases; /* of slabs, each once */
 };
 
 /* ---- Names and values ---- */
-
-const char *slab_name(const struct slab_sheet *sheet, ir_ref ref)
-{
-    return slabs_name(sheet->shader, ref);
-}
 
 void slab_write_number(float value, struct text *out)
 {
@@ -64,7 +69,7 @@ void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *o
         return;
     }
     if (!ir_get_const(g, ref, &value)) {
-        text_str(out, slab_name(sheet, ref));
+        text_str(out, slabs_name(sheet->shader, ref));
         return;
     }
     unsigned count = ir_type_info(value.type)->components;
@@ -96,17 +101,18 @@ static const char *regime_of(const struct ir_graph *g, ir_ref slab, bool is_body
     return is_body ? "thick" : "thin";
 }
 
-static void note_basis(struct filler *f, ir_ref slab)
+/* The number of the basis of a slab, from 1. */
+static uint32_t note_basis(struct filler *f, ir_ref slab)
 {
-    ir_ref normal = ir_arg(f->graph, slab, SLAB_normal);
     bool is_even = ir_const_is(f->graph, ir_arg(f->graph, slab, SLAB_anisotropy), 0.0f);
-    ir_ref tangent = is_even ? 0 : ir_arg(f->graph, slab, SLAB_tangent);
-    for (uint32_t i = 0; i < f->bases.len; i += 2)
-        if (f->bases.items[i] == normal && f->bases.items[i + 1] == tangent)
-            return;
-    vec_push(f->shader->arena, &f->bases, normal);
-    vec_push(f->shader->arena, &f->bases, tangent);
-    f->tree->num_bases++;
+    struct basis basis = {.normal = ir_arg(f->graph, slab, SLAB_normal),
+                          .tangent = is_even ? 0 : ir_arg(f->graph, slab, SLAB_tangent)};
+    for (uint32_t i = 0; i < f->bases.len; i++)
+        if (f->bases.items[i].normal == basis.normal && f->bases.items[i].tangent == basis.tangent)
+            return i + 1;
+    vec_push(f->shader->arena, &f->bases, basis);
+    f->tree->num_bases = f->bases.len;
+    return f->bases.len;
 }
 
 /* True if neither the top nor an earlier row has the normal of a slab. */
@@ -115,8 +121,8 @@ static bool has_new_normal(const struct filler *f, ir_ref slab, ir_ref top)
     ir_ref normal = ir_arg(f->graph, slab, SLAB_normal);
     bool is_new =
         ir_get(f->graph, top)->op != IR_SLAB || ir_arg(f->graph, top, SLAB_normal) != normal;
-    for (uint32_t i = 0; is_new && i < f->bases.len; i += 2)
-        is_new = f->bases.items[i] != normal;
+    for (uint32_t i = 0; is_new && i < f->bases.len; i++)
+        is_new = f->bases.items[i].normal != normal;
     return is_new;
 }
 
@@ -138,7 +144,7 @@ static void fill_slab(struct filler *f, const struct line *line, struct slab_row
     row->bytes = bytes_of(f, line);
     row->through = slabs_brightness(f->shader, f->host, line->above);
     f->tree->num_slabs++;
-    note_basis(f, line->ref);
+    row->basis = note_basis(f, line->ref);
 }
 
 /* ---- Operators ---- */
@@ -166,10 +172,8 @@ static void fill_mix(struct filler *f, const struct line *line)
 {
     ir_ref bg = ir_arg(f->graph, line->ref, 0), fg = ir_arg(f->graph, line->ref, 1),
            share = ir_arg(f->graph, line->ref, 2);
-    if (!ir_is_const(f->graph, share)) {
-        vec_push(f->shader->arena, &f->masks, share);
-        vec_push(f->shader->arena, &f->masks, line->ref);
-    }
+    if (!ir_is_const(f->graph, share))
+        vec_push(f->shader->arena, &f->masks, (struct mask){share, line->ref});
     push(f, line, fg, line->thickness, line->above, bg ? "fg" : "in");
     push(f, line, bg, line->thickness, line->above, fg ? "bg" : "in");
 }
@@ -216,16 +220,16 @@ static void fill_row(struct filler *f, const struct line *line)
     vec_push(f->shader->arena, &f->tree->rows, row);
 }
 
-/* Operators that one value drives: the walk takes them as independent. */
 static void note_shared_masks(struct filler *f)
 {
-    for (uint32_t i = 0; i < f->masks.len; i += 2)
-        for (uint32_t k = i + 2; k < f->masks.len; k += 2)
-            if (f->masks.items[i] == f->masks.items[k]) {
-                vec_push(f->shader->arena, &f->tree->shared, f->masks.items[i + 1]);
-                vec_push(f->shader->arena, &f->tree->shared, f->masks.items[k + 1]);
-                break;
-            }
+    for (uint32_t i = 0; i < f->masks.len; i++)
+        for (uint32_t k = i + 1; k < f->masks.len; k++) {
+            struct mask a = f->masks.items[i], b = f->masks.items[k];
+            if (a.value != b.value)
+                continue;
+            vec_push(f->shader->arena, &f->tree->shared, (struct slab_shared){a.driven, b.driven});
+            break;
+        }
 }
 
 /* ---- Roots ---- */

@@ -28,15 +28,21 @@ struct slab_row {
     bool is_repeated;   /* it stands above with its operands */
     uint32_t features;  /* of a slab */
     uint32_t bytes;     /* of a slab, with its share of the pixel */
+    uint32_t basis;     /* of a slab: the number of its tangent basis in the tree, from 1 */
     float through; /* of a slab: light that what is above lets through, along the normal; below 0:
                       unknown */
+};
+
+/* Operators that one value drives: the walk takes them as independent. */
+struct slab_shared {
+    ir_ref first, second;
 };
 
 struct slab_tree {
     ir_ref root;
     bool is_sheet;
     VEC(struct slab_row) rows;
-    VEC(ir_ref) shared; /* in pairs: operators that one value drives */
+    VEC(struct slab_shared) shared;
     uint32_t num_slabs, num_bases;
     struct slab_cost cost;
 };
@@ -73,8 +79,7 @@ extern const char *const slab_row_names[]; /* by enum slab_row_kind */
 void slab_write_number(float value, struct text *out);
 /* sheet.c: the error of the picture after a step; below 0: unknown. */
 float slab_drawn_error(const struct slab_sheet *sheet, const struct slab_step *step);
-/* The name of a node, and a value as text: a number, a colour or what computes it. */
-const char *slab_name(const struct slab_sheet *sheet, ir_ref ref);
+/* A value as text: a number, a colour or the name of what computes it. */
 void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *out);
 /* The input of an operator: the thickness of a layer, the share of a mix; 0: it has none. */
 ir_ref slab_operator_value(const struct slab_sheet *sheet, const struct slab_row *row);

@@ -9,9 +9,9 @@
 #include "slabs/slabs.h"
 
 /*
- * For a budget, which blends layers: replaces the stacks below a root, except where a layer is a
- * sheet, no BSDF, has AOVs or lets light through its slabs, and where a coat lies on light. root 0:
- * returns 0.
+ * For a budget, which blends layers: replaces the stacks below a root. A stack stays as it is if a
+ * layer is thin-walled, is not the surface of a BSDF or has AOVs, if slabs that are no coat let
+ * light through, or if a coat emits or covers what emits. root 0: returns 0.
  */
 ir_ref slabs_join_stacks(struct shader *shader, const struct slabs_host *host, ir_ref root);
 /*

@@ -43,6 +43,10 @@ struct visit {
     bool is_closed;
 };
 
+struct known_albedo {
+    ir_ref lobes, albedo;
+};
+
 struct walk {
     struct shader *shader;
     struct ir_graph *graph;
@@ -52,7 +56,8 @@ struct walk {
     VEC(struct visit) visits;
     struct table known; /* visits by hash */
     VEC(uint32_t) open;
-    VEC(ir_ref) albedos; /* in pairs: lobes, their albedo */
+    VEC(struct known_albedo) albedos;
+    struct table albedos_by_lobes; /* by hash */
     /* per node below the root, of a closure, a float; 0: none */
     ir_ref *spreads, *slopes;
 };
@@ -128,14 +133,23 @@ static ir_ref leaf_albedo(struct walk *w, ir_ref leaf)
     return sum;
 }
 
+/* 0: it is unknown. What is no BSDF reflects nothing. */
 static ir_ref known_albedo(const struct walk *w, ir_ref lobes)
 {
-    for (uint32_t i = 0; i < w->albedos.len; i += 2)
-        if (w->albedos.items[i] == lobes)
-            return w->albedos.items[i + 1];
+    uint32_t hash = hash_bytes(&lobes, sizeof lobes);
+    for (uint32_t at = hash, found; (found = table_next(&w->albedos_by_lobes, hash, &at));)
+        if (w->albedos.items[found - 1].lobes == lobes)
+            return w->albedos.items[found - 1].albedo;
     return lobes && ir_type_of(w->graph, lobes) == IR_TYPE_BSDF
                ? 0
                : ir_const_splat(w->graph, IR_TYPE_VEC3, 0.0f);
+}
+
+static void note_albedo(struct walk *w, ir_ref lobes, ir_ref albedo)
+{
+    struct arena *arena = w->shader->arena;
+    vec_push(arena, &w->albedos, (struct known_albedo){lobes, albedo});
+    table_add(&w->albedos_by_lobes, arena, hash_bytes(&lobes, sizeof lobes), w->albedos.len);
 }
 
 /*
@@ -191,8 +205,7 @@ static ir_ref albedo_of(struct walk *w, ir_ref lobes)
         open.len--;
         ir_ref albedo =
             is_operator(ir_get(w->graph, ref)) ? operator_albedo(w, ref) : leaf_albedo(w, ref);
-        vec_push(w->shader->arena, &w->albedos, ref);
-        vec_push(w->shader->arena, &w->albedos, albedo);
+        note_albedo(w, ref, albedo);
     }
     return known_albedo(w, lobes);
 }

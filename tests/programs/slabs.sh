@@ -178,9 +178,27 @@ print(f"+ {(34.5 * g - 59) * g + 24.5:.3f}"[:-1])')" out
 check 'albedo that varies' exits 0 "$mxgen" "$examples/marble.mtlx" --slabs --interface reduced -o made
 check 'adds the even environment once' eval '! sed -n "/< u_envRadianceSamples/,/^    }/p" made/Marble.frag | grep -E "medium|u_envIrradiance"'
 
+# Chances
+cat >covered.mtlx <<'END'
+<materialx version="1.39">
+  <slab name="milk" type="BSDF"><input name="mean_free_path" type="vector3" value="0.1, 0.1, 0.1"/></slab>
+  <slab name="tar" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/></slab>
+  <slab_mix name="both" type="BSDF"><input name="fg" type="BSDF" nodename="milk"/><input name="bg" type="BSDF" nodename="tar"/>
+    <input name="mix" type="float" value="0.5"/></slab_mix>
+  <slab_coverage name="covered" type="BSDF"><input name="in" type="BSDF" nodename="both"/><input name="weight" type="float" value="1"/></slab_coverage>
+  <slab_layer name="layered" type="BSDF"><input name="top" type="BSDF" nodename="covered"/><input name="base" type="BSDF" nodename="milk"/></slab_layer>
+  <slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="layered"/></slab_surface>
+</materialx>
+END
+sed 's/"weight" type="float" value="1"/"weight" type="float" value="2"/' covered.mtlx >double.mtlx
+for name in covered double; do
+  check "a path through $name" eval "exits 0 '$mxgen' $name.mtlx --integrator scatter --interface reduced --stdout && cp out $name.frag"
+done
+check 'takes a weight above 1 as 1' eval 'grep -q "matter.y >= 0.5" covered.frag && grep -q "matter.y >= 0.5" double.frag'
+
 # Views
 check 'a sheet' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre
-check 'has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "to one closure" out'
+check 'has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "; tangent basis 2; " out && grep -q "to one closure" out'
 check 'of another material' exits 0 "$mxgen" inspect --slabs "$examples/marble.mtlx"
 check 'as well' grep -q 'a body, as slabs' out
 check 'JSON' exits 0 "$mxgen" inspect --slabs --format json "$slabs" -e DustyFibre
@@ -189,6 +207,8 @@ sheet = json.load(open("out"))
 tree, = sheet["trees"]
 assert [row["kind"] for row in tree["rows"]] == ["layer", "coverage", "slab", "layer", "slab", "slab"], tree
 assert tree["cost"] == {"closures": 3, "bytes": 60} and len(sheet["steps"]) == 2
+assert not sheet["toBudget"] and tree["tangentBases"] == 2
+assert sorted({row["tangentBasis"] for row in tree["rows"] if row["kind"] == "slab"}) == [1, 2], tree
 lights = [row["lightFromAbove"] for row in tree["rows"] if row["kind"] == "slab"]
 assert lights[0] == 1 and 0 < lights[2] < lights[1] <= 1, lights'
 cat >masks.mtlx <<'END'
@@ -214,6 +234,11 @@ check 'a picture' exits 0 "$mxgen" inspect --slabs --format svg "$slabs" -e Dust
 check 'is XML' python3 -c 'import xml.etree.ElementTree as e
 root = e.parse("out").getroot()
 assert root.tag == "{http://www.w3.org/2000/svg}svg" and len(root.findall("{*}text")) >= 8'
+check 'to one closure' eval 'grep -q ">To one closure<" out && grep -q "tangent basis 2<" out'
+check 'the same to a budget' exits 0 "$mxgen" inspect --slabs --format svg --max-bytes 30 "$slabs" -e DustyFibre
+check 'says so' grep -q '>To the budget<' out
+check 'as JSON does' exits 0 "$mxgen" inspect --slabs --format json --max-bytes 30 "$slabs" -e DustyFibre
+check 'too' grep -q '"toBudget": true' out
 check 'no format' exits 2 "$mxgen" inspect --slabs --format pdf "$slabs"
 check 'is told' says "'pdf' is no format"
 check 'a format without slabs' exits 2 "$mxgen" inspect --format json "$slabs"

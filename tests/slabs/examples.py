@@ -119,6 +119,9 @@ def check_drawn(folder):
     result = run(MXGEN, "inspect", "--slabs", "--drawn", "--max-bytes", 12, document_of("CarPaint"), "-e", "CarPaint")
     drawn = [float(number) for number in re.findall(patterns["text"], result.stdout)]
     check(len(drawn) == 3 and len(set(drawn)) == 3, f"the step without a second lobe has the error of another step: {result.stdout}")
+    result = run(MXGEN, "inspect", "--slabs", "--drawn", document_of("CoatedMetal"), document_of("Opal"))
+    drawn = [float(number) for number in re.findall(patterns["text"], result.stdout)]
+    check(len(set(drawn)) == 3, f"a document has the errors of the one before: {result.stdout}")
     asked = folder / "asked.mtlx"
     share = '<input name="mix" type="float" value="0.6"/>'
     asked.write_text(document_of("CarPaint").read_text().replace(share, share + '<input name="blend_parameters" type="boolean" value="true"/>'))
