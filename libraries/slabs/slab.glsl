@@ -84,6 +84,8 @@ vec3 mx_chan_axis(float g, vec3 N, vec3 V)
 // Ways through a medium are multiples of its thickness. Every medium has the index 1.5.
 const float MX_MEAN_WAY = 1.1458980; // over cosine-weighted directions: 4.5 - 1.5 sqrt(5)
 
+const float MX_CLEAR_PATH = 1e6; // of a clear medium, by which src/slabs/recognise.c knows matter that is an interface only
+
 float mx_way(vec3 N, vec3 V)
 {
     float c = dot(N, V);
