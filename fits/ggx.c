@@ -133,14 +133,19 @@ struct lobes {
     double excess;                 /* of the result, in the middle of the errors */
 };
 
+static double like_error(const struct lobes *lobes, const double *p, const struct cell *cell)
+{
+    struct cell round = round_like(p, cell);
+    return fmin(lobes->bound * albedo(lobes->albedo, &round), 1.0) / cell->albedo - 1.0;
+}
+
+/* A slanted lobe counts less, as less of it is visible. */
 static void like_residuals(const double *p, double *out, void *user_data)
 {
     const struct lobes *lobes = user_data;
-    for (int i = 0; i < LOBES; ++i) {
-        struct cell round = round_like(p, &lobes->cells[i]);
-        out[i] = fmin(lobes->bound * albedo(lobes->albedo, &round), 1.0) / lobes->cells[i].albedo
-                 - 1.0 - lobes->excess;
-    }
+    for (int i = 0; i < LOBES; ++i)
+        out[i] = (like_error(lobes, p, &lobes->cells[i]) - lobes->excess)
+                 * (0.5 + 0.5 * lobes->cells[i].cosine);
 }
 
 /* A facet's cosine grows with the length of the stretched viewer. */
@@ -169,21 +174,18 @@ static void measure_lobes(struct cell *cells)
 static void fit_lobes(const double *reflected, double bound, const double *cosine)
 {
     static struct cell cells[LOBES];
-    static double errors[LOBES];
-    /* more than of round lobes, since an albedo that is too small makes light */
-    const double excess = 1.25 * (bound - 1.0);
-    struct lobes lobes = {cells, reflected, cosine, bound, excess};
+    struct lobes lobes = {cells, reflected, cosine, bound, 0.8 * (bound - 1.0)};
     double p[FIT_PARAMETERS] = {0.4}, grazing_most = 0.0, grazing_mean = 0.0, least = 1.0,
            most = -1.0;
     measure_lobes(cells);
     fit_minimax(p, like_residuals, LOBES, &lobes);
-    like_residuals(p, errors, &lobes);
     for (int i = 0; i < LOBES; ++i) {
-        double error = fabs(error_at_grazing(&lobes, p, &cells[i]));
-        least = fmin(least, errors[i] + excess);
-        most = fmax(most, errors[i] + excess);
-        grazing_most = fmax(grazing_most, error);
-        grazing_mean += error / LOBES;
+        double error = like_error(&lobes, p, &cells[i]),
+               at_grazing = fabs(error_at_grazing(&lobes, p, &cells[i]));
+        least = fmin(least, error);
+        most = fmax(most, error);
+        grazing_most = fmax(grazing_most, at_grazing);
+        grazing_mean += at_grazing / LOBES;
     }
     printf("// anisotropic: albedo from %.4f to %.4f, relatively\n", least, most);
     printf("// (1 - cosine)^5 of the lobe within %.4f, %.4f in the mean\n", grazing_most,
