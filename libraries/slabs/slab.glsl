@@ -84,6 +84,8 @@ vec3 mx_chan_axis(float g, vec3 N, vec3 V)
 // Ways through a medium are multiples of its thickness. Every medium has the index 1.5.
 const float MX_MEAN_WAY = 1.1458980; // over cosine-weighted directions: 4.5 - 1.5 sqrt(5)
 
+const float MX_CLEAR_PATH = 1e6; // of a clear medium, by which src/slabs/recognise.c knows matter that is an interface only
+
 float mx_way(vec3 N, vec3 V)
 {
     float c = dot(N, V);
@@ -410,7 +412,7 @@ vec3 mx_slab_tint(sampler2D specular_lut, float specular_lut_weight, float specu
 vec3 mx_slab_reflection_bsdf_eval(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                   float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, vec3 L)
 {
-    return mx_ggx_eval(roughness, N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+    return mx_ggx_eval(roughness, mx_ggx_oval(roughness), N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
          * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), abs(dot(N, L)))
          * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
@@ -469,8 +471,8 @@ float mx_slab_facet_weight(vec2 alpha, bool is_glint, vec3 m, vec3 v, vec3 l)
 }
 
 // The same with compensation, and the cosine of the light.
-vec4 mx_slab_facet_light(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, float specular_lut_weight,
-                         vec3 N, vec3 X, vec3 V)
+vec4 mx_slab_facet_light(vec3 f0, vec3 f90, vec2 roughness, bool by_direction, float glint_density, vec2 glint_uv, vec4 glint_footprint,
+                         float specular_lut_weight, vec3 N, vec3 X, vec3 V)
 {
     bool is_glint = mx_slab_has_facets(glint_density, glint_footprint);
     if (!is_glint && specular_lut_weight <= 0.0)
@@ -481,8 +483,8 @@ vec4 mx_slab_facet_light(vec3 f0, vec3 f90, vec2 roughness, float glint_density,
     vec3 l = reflect(-v, m);
     if (l.z <= 0.0 || dot(m, v) <= 0.0)
         return vec4(0.0);
-    return vec4(mx_slab_facet_weight(alpha, is_glint, m, v, l)
-                    * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), "schlick", f0, vec3(0.0), f90, 0.0, 1.5), l.z);
+    vec2 albedo = by_direction ? mx_ggx_albedo_like(mx_ggx_round_like(alpha, v)) : mx_ggx_albedo(roughness, v.z);
+    return vec4(mx_slab_facet_weight(alpha, is_glint, m, v, l) * mx_ggx_compensation(albedo, "schlick", f0, vec3(0.0), f90, 0.0, 1.5), l.z);
 }
 
 // This and the tint call others for the parts that a slab may lack, so that the compiler leaves these out.
@@ -496,7 +498,8 @@ vec4 mx_slab_reflection_bsdf_facet(vec3 f0, vec3 f90, vec2 roughness, float glin
 vec3 mx_slab_reflection_bsdf_tint(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                   float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
-    vec4 light = mx_slab_facet_light(max(f0, 0.0), f90, roughness, glint_density, glint_uv, glint_footprint, specular_lut_weight, N, X, V);
+    vec4 light = mx_slab_facet_light(max(f0, 0.0), f90, roughness, mx_ggx_oval(roughness), glint_density, glint_uv, glint_footprint,
+                                     specular_lut_weight, N, X, V);
     return light.xyz * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), light.w);
 }
 
@@ -504,28 +507,34 @@ vec3 mx_slab_reflection_bsdf_tint(vec3 f0, vec3 f90, vec2 roughness, float glint
 vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                          float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, int sample_index, vec2 sample_turn)
 {
-    return mx_ggx_environment(roughness, N, X, V, sample_index, sample_turn, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+    return mx_ggx_environment(roughness, mx_ggx_oval(roughness), N, X, V, sample_index, sample_turn, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
          * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), mx_view_cosine(N, V));
 }
 
 vec3 mx_slab_reflection_bsdf_albedo(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                     float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
-    return mx_ggx_reflectance(roughness, N, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+    return mx_ggx_reflectance(roughness, mx_ggx_oval(roughness), N, X, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
          * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), mx_view_cosine(N, V));
 }
 
 vec3 mx_slab_reflection_bsdf_throughput(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                         float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
-    return max(1.0 - mx_ggx_reflectance(roughness, N, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5), 0.0);
+    return max(1.0 - mx_ggx_reflectance(roughness, mx_ggx_oval(roughness), N, X, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5), 0.0);
+}
+
+// In a function of its own, so that the one below stays short enough to become part of the shader, where its texture is known.
+vec3 mx_slab_sampled_tint(sampler2D specular_lut, float specular_lut_weight, float specular_lut_index, vec3 N, vec3 V, vec3 L)
+{
+    return mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), abs(dot(N, L)));
 }
 
 void mx_slab_reflection_bsdf_sample(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                     float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
-    mx_ggx_scatter(roughness, N, X, V, xi, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
-    weight *= mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), abs(dot(N, L)))
+    mx_ggx_scatter(roughness, mx_ggx_oval(roughness), N, X, V, xi, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
+    weight *= mx_slab_sampled_tint(specular_lut, specular_lut_weight, specular_lut_index, N, V, L)
             * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
 

@@ -219,19 +219,16 @@ void main()
     mediump vec3 fresnel_facing = max(mix(vec3(0.9, 0.5, 0.3), tinted, 0.75), 0.0);
     float rough = texture(rough_file, uv).x;
     float specular_roughness = clamp(rough * rough, 0.00001, 1.0);
-    float clamped_specular_roughness = clamp(specular_roughness, 1e-8, 1.0);
+    float alpha = clamp(specular_roughness, 1e-8, 1.0);
     vec3 bent = mx_normalmap(texture(bumps_file, uv).xyz, normalize(vd_normalWorld), normalize(vd_tangentWorld),
         normalize(vd_bitangentWorld));
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     float cosine = max(abs(dot(bent, V)), 1e-8);
     vec3 scale = mix(fresnel_facing, vec3(1.0), 0.04761905)
-        * (1.0 / mx_ggx_albedo_fit(clamped_specular_roughness, clamped_specular_roughness
-        / (cosine + clamped_specular_roughness), cosine).x - 1.0) + vec3(1.0);
+        * (1.0 / mx_ggx_albedo_fit(alpha, alpha / (cosine + alpha), cosine).x - 1.0) + vec3(1.0);
     vec3 metal_bare_facing = faceforward(bent, -V, bent);
-    float ggx_masking = sqrt(clamped_specular_roughness * clamped_specular_roughness
-        + (1.0 - clamped_specular_roughness * clamped_specular_roughness) * (cosine * cosine));
-    mx_GgxLobe metal_bare_vector = mx_GgxLobe(metal_bare_facing, cosine, vec3(0.0), vec2(clamped_specular_roughness),
-        ggx_masking);
+    float ggx_masking = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
+    mx_GgxLobe metal_bare_vector = mx_GgxLobe(metal_bare_facing, cosine, vec3(0.0), vec2(alpha), ggx_masking);
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;

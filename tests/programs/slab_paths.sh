@@ -9,6 +9,7 @@ examples=$root/examples
 . "$root/tests/programs/light.sh"
 export MESA_SHADER_CACHE_DISABLE=true
 
+ratio() { awk -v a="$1" -v b="$2" 'BEGIN { print a / b }'; }
 # trace FILE DOCUMENT ELEMENT ARGUMENT...
 trace() { exits 0 "$render" "$2" -e "$3" -q --path-trace -o "$1" "${@:4}"; }
 
@@ -60,6 +61,9 @@ cat >white.mtlx <<'XML'
   <surface name="Holes" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="paper"/><input name="opacity" type="float" value="0.6"/></surface>
   <mix name="Mixed" type="surfaceshader"><input name="bg" type="surfaceshader" nodename="Sheets"/><input name="fg" type="surfaceshader" nodename="Holes"/>
     <input name="mix" type="float" value="0.3"/></mix>
+  <slab name="brushed" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="1, 1, 1"/>
+    <input name="roughness" type="float" value="0.8"/><input name="anisotropy" type="float" value="0.9"/></slab>
+  <slab_surface name="Brushed" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="brushed"/></slab_surface>
   <slab name="clear" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0, 0, 0"/>
     <input name="mean_free_path" type="vector3" value="0.01, 0.01, 0.01"/></slab>
   <slab_surface name="Clear" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="clear"/><input name="thin" type="boolean" value="true"/></slab_surface>
@@ -70,6 +74,12 @@ for element in Stack Sheet Mixed; do
     light=$(of "($(channel even.exr R) + $(channel even.exr G) + $(channel even.exr B)) / 3 + 1 - $(channel even.exr A)")
     check "and no light is lost: $element" near "$light" 1 0.01
 done
+
+# A rough anisotropic metal loses no light, drawn or traced.
+check 'an anisotropic metal is traced' trace even.exr white.mtlx Brushed -m sphere --lights none --environment white.hdr --size 32 --paths 128
+check 'and loses no light' near "$(ratio "$(channel even.exr R)" "$(channel even.exr A)")" 1 0.015
+check 'and drawn' exits 0 "$render" white.mtlx -e Brushed -q -m sphere --lights none --environment white.hdr --size 32 --samples 256 -o drawn.exr
+check 'with as much light' near "$("$mean_ratio" even.exr drawn.exr)" 1 0.01
 
 # A quad in the light of one lamp, before and behind it. A white sheet sends all of it to one side or the other.
 printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n' >quad.obj

@@ -175,6 +175,18 @@ check 'has its roughness' grep -qF "$(python3 -c 'import math
 g = math.log2(2 / 0.6 ** 4 - 1) / 18 # the bump of Chan 2018
 print(f"+ {(34.5 * g - 59) * g + 24.5:.3f}"[:-1])')" out
 
+cat >painted.mtlx <<'END'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <dielectric_bsdf name="gloss" type="BSDF"/>
+  <oren_nayar_diffuse_bsdf name="paint" type="BSDF"/>
+  <layer name="painted" type="BSDF"><input name="top" type="BSDF" nodename="gloss"/><input name="base" type="BSDF" nodename="paint"/></layer>
+  <surface name="Painted" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="painted"/></surface>
+</materialx>
+END
+check 'an interface over a medium' exits 0 "$mxgen" inspect --slabs painted.mtlx
+check 'is one slab' grep -q '1 slabs' out
+
 check 'albedo that varies' exits 0 "$mxgen" "$examples/marble.mtlx" --slabs --interface reduced -o made
 check 'adds the even environment once' eval '! sed -n "/< u_envRadianceSamples/,/^    }/p" made/Marble.frag | grep -E "medium|u_envIrradiance"'
 

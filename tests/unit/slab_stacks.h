@@ -24,7 +24,9 @@ struct stack_node {
     double share;       /* of fg; how likely a covered node is there */
     double thickness;   /* of a layer, cm */
     double albedo, mfp; /* of a slab; mfp 0 is opaque */
-    double f0, roughness;
+    double f0, roughness, anisotropy;
+    double second_roughness, second_weight; /* of the second lobe */
+    double fuzz;
 };
 
 struct stack {
@@ -91,6 +93,17 @@ static inline int stack_random_top(struct stack *stack, int clear)
         (struct stack_node){.kind = STACK_MIX, .a = a, .b = b, .share = stack_between(0.1, 0.9)});
 }
 
+/* Any interface: one of every two slabs is anisotropic, has a second lobe, or fuzz. */
+static inline void stack_random_interface(struct stack_node *slab, double most_f0)
+{
+    slab->f0 = stack_between(0.0, most_f0);
+    slab->roughness = stack_random();
+    slab->anisotropy = stack_random() < 0.5 ? stack_between(-0.95, 0.95) : 0.0;
+    slab->second_roughness = stack_random();
+    slab->second_weight = stack_random() < 0.5 ? stack_random() : 0.0;
+    slab->fuzz = stack_random() < 0.5 ? stack_random() : 0.0;
+}
+
 /* Tops over an opaque base of this albedo. */
 static inline void stack_make(struct stack *stack, int num_tops, int clear, double base_albedo)
 {
@@ -150,9 +163,14 @@ static inline int stack_write_node(const struct stack_node *node, int i, char *o
             "<input name='diffuse_albedo' type='color3' value='%.9g,%.9g,%.9g'/>"
             "<input name='f0' type='color3' value='%.9g,%.9g,%.9g'/>"
             "<input name='roughness' type='float' value='%.9g'/>"
+            "<input name='anisotropy' type='float' value='%.9g'/>"
+            "<input name='second_roughness' type='float' value='%.9g'/>"
+            "<input name='second_roughness_weight' type='float' value='%.9g'/>"
+            "<input name='fuzz_amount' type='float' value='%.9g'/>"
             "<input name='mean_free_path' type='vector3' value='%.9g,%.9g,%.9g'/></slab>",
             i, node->albedo, node->albedo, node->albedo, node->f0, node->f0, node->f0,
-            node->roughness, node->mfp, node->mfp, node->mfp);
+            node->roughness, node->anisotropy, node->second_roughness, node->second_weight,
+            node->fuzz, node->mfp, node->mfp, node->mfp);
     case STACK_LAYER:
         return snprintf(out, room,
                         "<slab_layer name='n%d' type='BSDF'>"

@@ -24,7 +24,8 @@ struct run {
     mxg_library *library;
     mxg_options *options;
     struct generation *generation;
-    double view, light; /* cosines, in the plane of the normal and x */
+    double view, light;           /* cosines */
+    double view_turn, light_turn; /* around the normal, from the tangent */
     void (*look)(struct run *run);
     void *wanted; /* of `look` */
     FILE *page;   /* for the stacks and their errors, as Markdown; NULL: none */
@@ -40,8 +41,6 @@ static struct ir_value direction(double cosine, double turn)
         {{.f = (float)(sine * cos(turn))}, {.f = (float)(sine * sin(turn))}, {.f = (float)cosine}}};
 }
 
-static double turn_of_light;
-
 static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
 {
     const struct run *run = user_data;
@@ -52,10 +51,12 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     const struct shader_variable *variable = &shader->variables.items[node->attr];
     const char *name = str_text(shader->strings, variable->name);
     *out = variable->value;
-    if (strcmp(name, "viewWorld") == 0)
-        *out = direction(run->view, 0.0);
+    if (strcmp(name, "viewWorld") == 0 || strcmp(name, "u_viewPosition") == 0)
+        *out = direction(run->view, run->view_turn);
     else if (strcmp(name, "lightWorld") == 0)
-        *out = direction(run->light, turn_of_light);
+        *out = direction(run->light, run->light_turn);
+    else if (strcmp(name, "positionWorld") == 0)
+        *out = (struct ir_value){IR_TYPE_VEC3, {{.f = 0.0f}}};
     else if (strcmp(name, "normalWorld") == 0)
         *out = direction(1.0, 0.0);
     else if (strcmp(name, "tangentWorld") == 0)
@@ -305,8 +306,7 @@ static void measure_furnace(struct run *run, double most_f0, double *least, doub
         stack_make(&stack, i % 5, 0, 1.0);
         for (int k = 0; k < stack.num_nodes; ++k) {
             stack.nodes[k].albedo = 1.0;
-            stack.nodes[k].f0 = stack_between(0.0, most_f0);
-            stack.nodes[k].roughness = stack_random();
+            stack_random_interface(&stack.nodes[k], most_f0);
         }
         double whole = reflected_by(run, &stack, stack_between(0.05, 1.0)).whole;
         *least = fmin(*least, whole);
@@ -333,10 +333,8 @@ static void test_energy(struct run *run)
     for (int i = 0; i < 100; ++i) {
         struct stack stack;
         stack_make(&stack, i % 5, i % 3 == 0, stack_random());
-        for (int k = 0; k < stack.num_nodes; ++k) {
-            stack.nodes[k].f0 = stack_random();
-            stack.nodes[k].roughness = stack_random();
-        }
+        for (int k = 0; k < stack.num_nodes; ++k)
+            stack_random_interface(&stack.nodes[k], 1.0);
         most = fmax(most, reflected_by(run, &stack, stack_between(0.05, 1.0)).whole);
     }
     printf("100 stacks in a furnace: at most %.4f\n", most);
@@ -397,7 +395,7 @@ static void integrate(struct run *run)
     for (int i = 0; i < ALONG; ++i)
         for (int j = 0; j < AROUND; ++j) {
             run->light = sqrt((i + 0.5) / ALONG);
-            turn_of_light = 2.0 * 3.14159265358979 * (j + 0.5) / AROUND;
+            run->light_turn = 2.0 * 3.14159265358979 * (j + 0.5) / AROUND;
             total += value_of(run, sum) / run->light; /* d omega = d(cos^2) d turn / (2 cos) */
         }
     *(double *)run->wanted = total * 3.14159265358979 / (ALONG * AROUND);
@@ -423,6 +421,34 @@ static void test_lights(struct run *run)
     REQUIRE(worst < 0.004);
 }
 
+/* The least and most that white metal sends back of light from all directions, at any anisotropy.
+ */
+static void test_anisotropy(struct run *run, const char *integrator)
+{
+    double least = 1.0, most = 1.0, whole;
+    REQUIRE(mxg_options_set(run->options, "integrator", integrator) == MXG_OK);
+    stack_seed(1);
+    for (int i = 0; i < 16; ++i) {
+        struct stack stack = {.num_nodes = 1};
+        stack.nodes[0] =
+            (struct stack_node){.kind = STACK_SLAB,
+                                .f0 = 1.0,
+                                .roughness = stack_between(0.6, 1.0),
+                                .anisotropy = stack_between(0.3, 0.7) * (i % 2 ? 1.0 : -1.0),
+                                .second_roughness = 0.9,
+                                .second_weight = i % 4 < 2 ? 0.4 : 0.0,
+                                .fuzz = i % 8 < 4 ? 0.5 : 0.0};
+        run->view = stack_between(0.2, 1.0);
+        run->view_turn = stack_between(0.0, 6.28);
+        generate(run, &stack, integrate, &whole);
+        least = fmin(least, whole);
+        most = fmax(most, whole);
+    }
+    run->view_turn = 0.0;
+    printf("anisotropic white metal, %s: %.4f to %.4f\n", integrator, least, most);
+    REQUIRE(least > 0.985 && most < 1.005);
+}
+
 /* Argument: the page to write. */
 int main(int argc, char **argv)
 {
@@ -441,6 +467,8 @@ int main(int argc, char **argv)
     test_energy(&run);
     test_sheets(&run);
     test_lights(&run);
+    test_anisotropy(&run, "scatter");
+    test_anisotropy(&run, "raster");
     mxg_options_destroy(run.options);
     mxg_library_unref(run.library);
     mxg_context_destroy(run.context);

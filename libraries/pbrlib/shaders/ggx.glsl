@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // GGX microfacet lobe, the one kernel of all dielectric, conductor and Schlick closures. Roughness is that along X and
-// Y, already squared; masking uses their geometric mean. See fresnel.glsl for the parameters of interfaces.
+// Y, already squared. Masking and albedo of anisotropic lobes are those of both directions with `by_direction`, else of the geometric mean.
+// See fresnel.glsl for the parameters of interfaces.
 
 #include "environment.glsl"
 #include "fresnel.glsl"
@@ -32,6 +33,19 @@ int mx_ggx_mode(string scatter_mode)
 bool mx_ggx_round(vec2 roughness)
 {
     return mx_known(roughness.x == roughness.y);
+}
+
+// True for all others: their masking and albedo follow the direction.
+bool mx_ggx_oval(vec2 roughness)
+{
+    return !mx_known(roughness.x == roughness.y);
+}
+
+// The same for closures of MaterialX. A raster does without, as MaterialX does: the mean masks too little where an anisotropic lobe is wide,
+// which gains energy.
+bool mx_ggx_by_direction(vec2 roughness)
+{
+    return option_integrator == 1 && mx_ggx_oval(roughness);
 }
 
 // Roughness that the formulas can bear.
@@ -100,6 +114,43 @@ vec2 mx_ggx_albedo(vec2 roughness, float c)
     return mx_ggx_albedo_fit(a, a / (a + c), c);
 }
 
+// The round lobe that stands for an anisotropic one towards v, a direction in its frame: its roughness (x), its cosine of v (y), and how far
+// facets face v more than those of the round lobe (z). Divided by the roughness, visible normals are those of a unit sphere (Heitz 2018), so
+// both lobes have the same ones where v, times the roughness, has one cosine in both. What remains is the roughness, by fits/ggx.c: the albedo
+// is too small by 0.007 at most, and too large by 0.013, relatively.
+vec3 mx_ggx_round_like(vec2 alpha, vec3 v)
+{
+    vec2 slope = v.xy * alpha;
+    float square = dot(slope, slope) + v.z * v.z;
+    float m = 0.5 * (alpha.x + alpha.y);
+    float shape = 0.5 * (alpha.x - alpha.y) / m;
+    float d = shape * shape;
+    float w = shape * (slope.x * slope.x - slope.y * slope.y) / square;
+    float z = v.z * inversesqrt(square);
+    float a = m * (1.0 + d * (1.3289 - 0.6942 * z - 0.4675 * m + d * (0.2424 * z - 0.3089))
+                   + w * (z * (1.5553 * m - 0.5866 * z - 0.4535) - 0.3702 + 0.2918 * d + w * (0.4769 * m - 0.5156)));
+    float stretch = sqrt(v.z * v.z + dot(slope, slope) / (a * a));
+    return vec3(a, v.z / stretch, stretch);
+}
+
+// The albedo (x), and the mean of (1 - cos)^5 (y) where all cosines are as many times greater.
+vec2 mx_ggx_facing_more(vec2 albedo, float times)
+{
+    float x = clamp(1.0 - (1.0 - pow(albedo.y, 0.2)) * times, 0.0, 1.0);
+    return vec2(albedo.x, x * x * x * x * x);
+}
+
+vec2 mx_ggx_albedo_like(vec3 round_lobe)
+{
+    return mx_ggx_facing_more(mx_ggx_albedo(round_lobe.xx, round_lobe.y), round_lobe.z);
+}
+
+vec2 mx_ggx_albedo_of(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V)
+{
+    return by_direction ? mx_ggx_albedo_like(mx_ggx_round_like(mx_ggx_alpha(roughness), mx_ggx_local(mx_frame(mx_facing(N, V), X), V)))
+                        : mx_ggx_albedo(roughness, mx_view_cosine(N, V));
+}
+
 // Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
 vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
 {
@@ -110,9 +161,10 @@ vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, fl
 
 // Part of the light that the lobe reflects towards V. A raster has Schlick's curve for every interface, under which a film
 // changes the compensation only; a path tracer takes the interface as it is at the lobe's mean angle.
-vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
+vec3 mx_ggx_reflectance(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent,
+                        float film, float film_ior)
 {
-    vec2 albedo = mx_ggx_albedo(roughness, mx_view_cosine(N, V));
+    vec2 albedo = mx_ggx_albedo_of(roughness, by_direction, N, X, V);
     vec3 f = option_integrator == 0
         ? mix(mx_fresnel_f0(model, n, k), f90, albedo.y)
         : mx_fresnel(max(1.0 - pow(albedo.y, 0.2), MX_EPSILON), model, n, k, f90, exponent, film, film_ior);
@@ -162,9 +214,8 @@ float mx_ggx_light(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 V, vec3 L)
 }
 
 // ---- masking by direction -------------------------------------------------------------------------------------------
-// The roughness as it is in each direction (Heitz 2014, equation 80). A raster does without, as MaterialX does: the mean
-// masks too little where an anisotropic lobe is wide, which gains energy.
 
+// cos (1 + 2 Lambda) with the roughness as it is in the direction (Heitz 2014, equation 80).
 float mx_ggx_smith(vec3 v, vec2 alpha)
 {
     return length(vec3(v.xy * alpha, v.z));
@@ -182,14 +233,14 @@ float mx_ggx_smith_lobe(vec2 roughness, mat3 frame, vec3 V, vec3 L)
          * mx_ggx_smith_visibility(mx_ggx_local(frame, V), mx_ggx_local(frame, L), alpha);
 }
 
-vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
-                 float film_ior)
+vec3 mx_ggx_eval(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent,
+                 float film, float film_ior)
 {
-    return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior)
+    return mx_ggx_compensation(mx_ggx_albedo_of(roughness, by_direction, N, X, V), model, n, k, f90, film, film_ior)
          * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior)
-         * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
-                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness),
-                                                  mx_ggx_wide(roughness), V, L));
+         * (option_integrator == 1 || by_direction
+                ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
+                : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness), mx_ggx_wide(roughness), V, L));
 }
 
 // ---- environment ----------------------------------------------------------------------------------------------------
@@ -203,12 +254,12 @@ vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 }
 
 // A map whose mip levels are filtered for rising roughness.
-vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent,
-                        float film, float film_ior)
+vec3 mx_ggx_prefiltered(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
+                        float exponent, float film, float film_ior)
 {
     vec3 h = mx_facing(N, V);
     vec2 alpha = mx_ggx_alpha(roughness);
-    vec2 albedo = mx_ggx_albedo(roughness, mx_view_cosine(N, V));
+    vec2 albedo = mx_ggx_albedo_of(roughness, by_direction, N, X, V);
     vec3 f = mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, albedo.y) * albedo.x;
     float a = sqrt(alpha.x * alpha.y);
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
@@ -294,6 +345,17 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
                        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), MX_EPSILON, 1.0)));
 }
 
+// The same with masking by direction, where that of v is the reach of its cap.
+mx_GgxLight mx_ggx_reflected_by_direction(mx_GgxSamples s, int i, vec2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 l = facet.mirror * facet.h - s.v;
+    float cos_l = max(l.z, MX_EPSILON);
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+                       u_envLightIntensity * s.step * cos_l / (s.v.z * mx_ggx_smith(l, s.stretch.xy) + cos_l * s.reach),
+                       sqrt(clamp(0.5 * (facet.mirror * facet.cosine), MX_EPSILON, 1.0)));
+}
+
 // The light that comes through it and a solid sphere of an index behind it. A visible normal weighs 1 / G1.
 mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 {
@@ -319,15 +381,16 @@ vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string
 }
 
 // Sample i of what the lobe reflects of all directions. A choice that all samples make alike stands here, where the compiler sees it.
-vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
-                        float film_ior)
+vec3 mx_ggx_environment(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90,
+                        float exponent, float film, float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
-    vec3 scale = mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, film, film_ior);
+    vec3 scale = mx_ggx_compensation(mx_ggx_albedo_of(roughness, by_direction, N, X, V), model, n, k, f90, film, film_ior);
     if (option_environment == 1)
-        return scale * mx_ggx_prefiltered(roughness, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxLight light = mx_ggx_reflected(mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V), i, turn);
+        return scale * mx_ggx_prefiltered(roughness, by_direction, N, X, V, 0.0, model, n, k, f90, exponent, film, film_ior);
+    mx_GgxLight light = by_direction ? mx_ggx_reflected_by_direction(mx_ggx_samples(roughness, false, N, X, V), i, turn)
+                                     : mx_ggx_reflected(mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V), i, turn);
     return scale * (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
                                : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent))
          * light.weight * light.color;
@@ -340,7 +403,7 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn,
     if (option_environment == 0)
         return vec3(0.0);
     if (option_environment == 1)
-        return mx_ggx_prefiltered(roughness, N, V, ior, model, n, k, f90, exponent, film, film_ior);
+        return mx_ggx_prefiltered(roughness, mx_ggx_by_direction(roughness), N, X, V, ior, model, n, k, f90, exponent, film, film_ior);
     mx_GgxSamples samples = mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V);
     if (option_integrator == 1)
         return mx_ggx_solid(samples, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior);

@@ -81,8 +81,8 @@ vec3 mx_ggx_visible(vec2 alpha, vec3 v, vec2 xi)
 }
 
 // What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is smooth.
-void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, int mode, string model, vec3 n, vec3 k, vec3 f90,
-                    float exponent, float film, float film_ior, out vec3 L, out vec3 weight, out float pdf)
+void mx_ggx_scatter(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, int mode, string model, vec3 n, vec3 k,
+                    vec3 f90, float exponent, float film, float film_ior, out vec3 L, out vec3 weight, out float pdf)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
     mat3 frame = mx_frame(mx_facing(N, V), X);
@@ -102,7 +102,8 @@ void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, 
     if (is_reflected)
     {
         weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
-               * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), model, n, k, f90, film, film_ior);
+               * mx_ggx_compensation(by_direction ? mx_ggx_albedo_like(mx_ggx_round_like(alpha, v)) : mx_ggx_albedo(roughness, v.z), model, n, k, f90, film,
+                                     film_ior);
         pdf = 0.25 * share;
     }
     else

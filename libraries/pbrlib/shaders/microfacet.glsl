@@ -30,8 +30,8 @@ vec3 mx_dielectric_bsdf_eval(vec3 tint, float ior, vec2 roughness, bool retroref
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return max(tint, 0.0) * mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L, "dielectric",
-                                        vec3(mx_index_ahead(ior, N, V)), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
+    return max(tint, 0.0) * mx_ggx_eval(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L,
+                                        "dielectric", vec3(mx_index_ahead(ior, N, V)), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_environment(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -39,8 +39,8 @@ vec3 mx_dielectric_bsdf_environment(vec3 tint, float ior, vec2 roughness, bool r
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return max(tint, 0.0) * mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, sample_index, sample_turn,
-                                               "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
+    return max(tint, 0.0) * mx_ggx_environment(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V,
+                                               sample_index, sample_turn, "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_transmission(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -58,8 +58,8 @@ vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool re
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    return 1.0 - mx_ggx_reflectance(roughness, N, V, "dielectric", vec3(mx_index_ahead(ior, N, V)), vec3(0.0), vec3(1.0), 0.0, film,
-                                    film_ior);
+    return 1.0 - mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "dielectric", vec3(mx_index_ahead(ior, N, V)),
+                                    vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_albedo(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -68,7 +68,8 @@ vec3 mx_dielectric_bsdf_albedo(vec3 tint, float ior, vec2 roughness, bool retror
     if (scatter_mode == "T")
         return vec3(0.0);
     float eta = mx_index_ahead(ior, N, V);
-    return max(tint, 0.0) * mx_ggx_reflectance(roughness, N, V, "dielectric", vec3(eta), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
+    return max(tint, 0.0) * mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "dielectric", vec3(eta), vec3(0.0),
+                                               vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_refraction(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -85,8 +86,8 @@ void mx_dielectric_bsdf_sample(vec3 tint, float ior, vec2 roughness, bool retror
                                string distribution, string scatter_mode, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
     float eta = mx_index_ahead(ior, N, V);
-    mx_ggx_scatter(roughness, N, X, V, xi, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta), vec3(0.0), vec3(1.0), 0.0, film,
-                   film_ior, L, weight, pdf);
+    mx_ggx_scatter(roughness, mx_ggx_by_direction(roughness), N, X, V, xi, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta), vec3(0.0),
+                   vec3(1.0), 0.0, film, film_ior, L, weight, pdf);
     weight *= max(tint, 0.0);
     if (retroreflective && dot(N, V) * dot(N, L) > 0.0)
         L = reflect(-L, N);
@@ -107,8 +108,8 @@ vec3 mx_conductor_bsdf_eval(vec3 ior, vec3 extinction, vec2 roughness, bool retr
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    return mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L, "conductor", re, im, vec3(1.0), 0.0, film,
-                       film_ior);
+    return mx_ggx_eval(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L, "conductor", re, im,
+                       vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_conductor_bsdf_environment(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N,
@@ -116,8 +117,8 @@ vec3 mx_conductor_bsdf_environment(vec3 ior, vec3 extinction, vec2 roughness, bo
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, sample_index, sample_turn,
-                              "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
+    return mx_ggx_environment(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, sample_index,
+                              sample_turn, "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_conductor_bsdf_albedo(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -125,7 +126,7 @@ vec3 mx_conductor_bsdf_albedo(vec3 ior, vec3 extinction, vec2 roughness, bool re
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    return mx_ggx_reflectance(roughness, N, V, "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
+    return mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
 }
 
 void mx_conductor_bsdf_sample(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -133,7 +134,7 @@ void mx_conductor_bsdf_sample(vec3 ior, vec3 extinction, vec2 roughness, bool re
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    mx_ggx_scatter(roughness, N, X, V, xi, 1.0, MX_REFLECTS, "conductor", re, im, vec3(1.0), 0.0, film, film_ior, L, weight, pdf);
+    mx_ggx_scatter(roughness, mx_ggx_by_direction(roughness), N, X, V, xi, 1.0, MX_REFLECTS, "conductor", re, im, vec3(1.0), 0.0, film, film_ior, L, weight, pdf);
     if (retroreflective && dot(N, V) * dot(N, L) > 0.0)
         L = reflect(-L, N);
 }
@@ -154,8 +155,8 @@ vec3 mx_generalized_schlick_bsdf_eval(vec3 color0, vec3 color82, vec3 color90, f
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L, "schlick", max(color0, 0.0),
-                       mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
+    return mx_ggx_eval(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L, "schlick",
+                       max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 
 vec3 mx_generalized_schlick_bsdf_environment(vec3 color0, vec3 color82, vec3 color90, float exponent, vec2 roughness, bool retroreflective,
@@ -164,8 +165,9 @@ vec3 mx_generalized_schlick_bsdf_environment(vec3 color0, vec3 color82, vec3 col
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, sample_index, sample_turn, "schlick", max(color0, 0.0),
-                              mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
+    return mx_ggx_environment(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, sample_index,
+                              sample_turn, "schlick", max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent),
+                              max(color90, 0.0), exponent, film, film_ior);
 }
 
 // The index that refracts follows from the mean colour at normal incidence, ((n - 1) / (n + 1))^2.
@@ -191,8 +193,8 @@ vec3 mx_generalized_schlick_bsdf_throughput(vec3 color0, vec3 color82, vec3 colo
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    vec3 reflected = mx_ggx_reflectance(roughness, N, V, "schlick", max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent),
-                                        max(color90, 0.0), exponent, film, film_ior);
+    vec3 reflected = mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "schlick", max(color0, 0.0),
+                                        mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
     return vec3(1.0 - dot(reflected, vec3(1.0 / 3.0)));
 }
 
@@ -201,8 +203,8 @@ vec3 mx_generalized_schlick_bsdf_albedo(vec3 color0, vec3 color82, vec3 color90,
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_reflectance(roughness, N, V, "schlick", max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent),
-                              max(color90, 0.0), exponent, film, film_ior);
+    return mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "schlick", max(color0, 0.0),
+                              mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 
 vec3 mx_generalized_schlick_bsdf_refraction(vec3 color0, vec3 color82, vec3 color90, float exponent, vec2 roughness, bool retroreflective,
@@ -219,8 +221,8 @@ void mx_generalized_schlick_bsdf_sample(vec3 color0, vec3 color82, vec3 color90,
                                         float film, float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V,
                                         vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
-    mx_ggx_scatter(roughness, N, X, V, xi, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick", max(color0, 0.0),
-                   mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior, L, weight, pdf);
+    mx_ggx_scatter(roughness, mx_ggx_by_direction(roughness), N, X, V, xi, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick",
+                   max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior, L, weight, pdf);
     if (retroreflective && dot(N, V) * dot(N, L) > 0.0)
         L = reflect(-L, N);
 }
