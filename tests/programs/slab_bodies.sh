@@ -183,9 +183,9 @@ def Camera "camera"
 }
 USDA
 } >shadow.usda
-check 'the shadow of clear blocks inside each other' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 8 --paths 16
+check 'the shadow of clear blocks inside each other' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 17 --paths 16
 shadow=$(python3 "$exr" shadow.exr R 0.5 0.5)
-check 'and without it' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 8 --paths 16 --distance-unit nanometer
+check 'and without it' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 17 --paths 16 --distance-unit nanometer
 check 'is that of the ways through them' near "$(of "$shadow / $(python3 "$exr" shadow.exr R 0.5 0.5)")" "$(of 'exp(-0.4 / 1 - 0.4 / 2 - 0.2 / 4)')" 0.01
 
 finish slab_bodies
