@@ -116,6 +116,8 @@ static bool compile_function(const char *target, const mxg_result *result,
                              const mxg_shader_info *info, struct compiled *out)
 {
     const struct host *host = find_host(target);
+    static const char of_surface[] = "host_color.xyz = s.color; host_color.w = s.alpha;",
+                      of_payload[] = "host_color.x = float(s.word_0);";
     const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
     enum { MAX_ARGUMENTS = 8192 };
     size_t capacity = strlen(source) + 3 * MAX_ARGUMENTS;
@@ -130,9 +132,10 @@ static bool compile_function(const char *target, const mxg_result *result,
                  "%s%s%sint mxg_light_count() { return 2; }\n"
                  "void mxg_light(int i, %s P, out %s L, out %s radiance) { L = normalize(P); "
                  "radiance = P; }\n%s\n{\n    %s\n    %s s = %s(%s);\n"
-                 "    host_color.xyz = s.color;\n    host_color.w = s.alpha;\n}\n",
+                 "    %s\n}\n",
                  host->head, source, host->output, host->vec3, host->vec3, host->vec3, host->main,
-                 declared, info->function_type, info->function, given);
+                 declared, info->function_type, info->function, given,
+                 info->stored_words ? of_payload : of_surface);
         good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
         unsigned head = count_lines(host->head);
         for (size_t i = 0; i < out->num_messages; ++i)

@@ -85,7 +85,7 @@ static void set_build_options(struct generation *g)
             g->stored ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
         .publish_all = o[OPTION_publish].number != 0,
         .uniform_globs = o[OPTION_uniform].list.items,
-        .num_uniform_globs = o[OPTION_uniform].list.len,
+        .num_uniform_globs = g->is_pass ? 0 : o[OPTION_uniform].list.len,
         .constant_globs = o[OPTION_constant].list.items,
         .num_constant_globs = o[OPTION_constant].list.len,
         .colorspace = option_name(g, OPTION_colorspace),
@@ -223,10 +223,15 @@ static elem_id element_of_stack(const struct generation *g)
     return b->look.element ? b->look.element : g->document->layer.doc.root;
 }
 
-/* Names of vertex data and results have no prefix, because they are members or parameters. */
+/*
+ * Names of vertex data and results have no prefix, because they are members or parameters. The
+ * fixed texts of passes have names of their own.
+ */
 static void name_variables(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
+    if (g->is_pass)
+        return;
     const char *prefix = g->options[OPTION_prefix].text;
     shader->naming.prefix = arena_strndup(shader->arena, prefix, strlen(prefix));
     naming_pairs(&g->options[OPTION_rename], shader->arena, &shader->naming);

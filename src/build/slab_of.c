@@ -56,18 +56,28 @@ static bool fits(struct builder *b, ir_ref leaf, bool loosely)
     return loosely || (is_zero(b, film) && is_zero(b, returns));
 }
 
-/* The values of the outputs of a definition, over the operands of a leaf. */
-static void apply_to(struct builder *b, uint32_t id, ir_ref leaf, bool is_top, ir_ref *results)
+/*
+ * The values of the outputs of a definition, over the operands of a leaf. A definition without the
+ * input is_top is of a medium: over other matter its weight is a coverage, which this returns, and
+ * elsewhere, or where it hides all below (--layering occluding), a part of its albedo.
+ */
+static ir_ref apply_to(struct builder *b, uint32_t id, ir_ref leaf, bool is_top, ir_ref *results)
 {
     const struct nodedef *def = library_nodedef(b->lib, id);
     const struct port *ports = library_ports(b->lib, id, NULL);
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
+    ir_ref one = ir_const_float(b->graph, 1.0f), top = ir_const_float(b->graph, is_top);
+    bool covers =
+        is_top && !b->options->keeps_absent && library_find_input(b->lib, id, STR_is_top) < 0;
     for (unsigned i = 0; i < def->num_inputs; i++) {
-        args[i] = ports[i].name == STR_is_top ? ir_const_float(b->graph, is_top ? 1.0f : 0.0f)
-                                              : operand_of(b, leaf, build_text(b, ports[i].name));
+        const char *name = build_text(b, ports[i].name);
+        args[i] = ports[i].name == STR_is_top             ? top
+                  : covers && strcmp(name, "weight") == 0 ? one
+                                                          : operand_of(b, leaf, name);
         args[i] = args[i] ? args[i] : build_default(b, &ports[i]);
     }
     build_apply(b, id, build_doc(b)->root, args, results);
+    return covers ? ir_arg(b->graph, leaf, 0) : one;
 }
 
 /* An input of <slab>: the output "slab_" of a definition, or the default. */
@@ -94,7 +104,7 @@ static void take_frame(struct builder *b, ir_ref leaf, ir_ref *in)
 }
 
 static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, ir_ref leaf,
-                        ir_ref albedo)
+                        ir_ref coverage, ir_ref albedo)
 {
     static const str_id names[NUM_SLAB_INPUTS] = {
 #define SLAB_INPUT(name, type) STR_##name,
@@ -105,7 +115,7 @@ static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, i
     for (unsigned i = 0; i < NUM_SLAB_INPUTS; i++)
         in[i] = input_of(b, id, results, names[i]);
     take_frame(b, leaf, in);
-    in[SLAB_coverage] = ir_const_float(b->graph, 1.0f);
+    in[SLAB_coverage] = coverage;
     in[SLAB_specular_lut] = 0;
     in[SLAB_specular_lut_weight] = ir_const_float(b->graph, 0.0f);
     if (albedo) {
@@ -130,8 +140,8 @@ ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely)
     uint32_t id = definition_for(b, build_leaf_family(b, ir_get(b->graph, leaf)->attr));
     if (id == LIBRARY_NONE || !fits(b, leaf, loosely))
         return 0;
-    apply_to(b, id, leaf, is_top, results);
-    return slab_with(b, id, results, leaf, 0);
+    ir_ref coverage = apply_to(b, id, leaf, is_top, results);
+    return slab_with(b, id, results, leaf, coverage, 0);
 }
 
 /* The roughness of a slab for that of a leaf, which may be the widths of a lobe; 0: it has none. */
@@ -148,7 +158,8 @@ static ir_ref mean_roughness(struct builder *b, ir_ref leaf)
 
 ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo)
 {
-    ir_ref slab = slab_with(b, definition(b, "ND_slab"), NULL, leaf, albedo);
+    ir_ref one = ir_const_float(b->graph, 1.0f);
+    ir_ref slab = slab_with(b, definition(b, "ND_slab"), NULL, leaf, one, albedo);
     ir_ref roughness = mean_roughness(b, leaf), in[NUM_SLAB_OPERANDS];
     if (!roughness)
         return slab;

@@ -313,6 +313,37 @@ static ir_ref lit_parts(struct closure_scatter *s, const struct closure_light *l
     return scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
 }
 
+/* The choice of a light: locals. */
+struct choice_of_light {
+    uint32_t chance, sum, to_light, away;
+    uint32_t *kept; /* per part */
+};
+
+/* Keeps the light of the loop, or not; the chance becomes that of the next one. */
+static void consider_light(struct closure_scatter *s, const struct closure_light *light,
+                           const struct choice_of_light *c)
+{
+    ir_ref mean = lit_parts(s, light), nothing = scatter_number(s, 0.0f);
+    if (ir_const_is(s->graph, mean, 0.0f)) /* nothing is lit */
+        return;
+    scatter_effect(s, EFFECT_ACCUMULATE, c->sum, mean);
+    ir_ref all = scatter_read(s, c->sum),
+           point = scatter_op2(s, IR_MUL, scatter_read(s, c->chance), all),
+           is_it = scatter_op2(s, IR_LT, point, mean);
+    scatter_effect(s, EFFECT_IF, 0, is_it);
+    scatter_effect(s, EFFECT_ASSIGN, c->to_light, light->direction);
+    scatter_effect(s, EFFECT_ASSIGN, c->away, closure_light_distance(s->shader, s->host));
+    for (uint32_t p = 0; p < s->num_parts; p++)
+        scatter_effect(s, EFFECT_ASSIGN, c->kept[p], scatter_op2(s, IR_DIV, s->parts[p].lit, mean));
+    scatter_effect(s, EFFECT_END, 0, 0);
+    ir_ref rest = scatter_op2(s, IR_SUB, point, mean);
+    rest = scatter_op2(s, IR_DIV, rest, scatter_op2(s, IR_SUB, scatter_read(s, c->sum), mean));
+    rest = ir_op3(s->graph, IR_SELECT, is_it, scatter_op2(s, IR_DIV, point, mean), rest);
+    scatter_effect(s, EFFECT_IF, 0, scatter_op2(s, IR_GT, mean, nothing));
+    scatter_effect(s, EFFECT_ASSIGN, c->chance, rest);
+    scatter_effect(s, EFFECT_END, 0, 0);
+}
+
 /*
  * One of the bound lights, in one pass, with a probability proportional to its unshadowed
  * contribution (reservoir sampling: Chao 1982, "A General Purpose Unequal Probability Sampling
@@ -329,19 +360,17 @@ static ir_ref lit_parts(struct closure_scatter *s, const struct closure_light *l
  */
 static void light_up(struct closure_scatter *s)
 {
-    struct ir_graph *g = s->graph;
     ir_ref nothing = scatter_number(s, 0.0f), random = scatter_random_number(s->shader);
-    uint32_t chance = scatter_local(
-        s, STR_chance,
-        ir_op1(g, IR_FRACT, scatter_op2(s, IR_MUL, random, scatter_number(s, 4096.0f))));
-    uint32_t sum = scatter_local(s, STR_sum, nothing);
-    uint32_t *kept = ARENA_ARRAY(s->shader->arena, uint32_t, s->num_parts);
+    ir_ref further = scatter_op2(s, IR_MUL, random, scatter_number(s, 4096.0f));
+    struct choice_of_light c = {.to_light = s->to_light, .away = s->away};
+    c.chance = scatter_local(s, STR_chance, ir_op1(s->graph, IR_FRACT, further));
+    c.sum = scatter_local(s, STR_sum, nothing);
+    c.kept = ARENA_ARRAY(s->shader->arena, uint32_t, s->num_parts);
     for (uint32_t p = 0; p < s->num_parts; p++)
-        kept[p] = scatter_local(s, STR_light, scatter_grey(s, 0.0f));
-    uint32_t to_light = s->to_light, away = s->away;
+        c.kept[p] = scatter_local(s, STR_light, scatter_grey(s, 0.0f));
     if (!s->is_stack) {
-        to_light = s->to_light = scatter_local(s, STR_L, scatter_grey(s, 0.0f));
-        away = s->away = scatter_local(s, STR_distance, nothing);
+        c.to_light = s->to_light = scatter_local(s, STR_L, scatter_grey(s, 0.0f));
+        c.away = s->away = scatter_local(s, STR_distance, nothing);
     }
     scatter_effect(s, EFFECT_LIGHTS, 0, 0);
     struct closure_light light;
@@ -350,26 +379,11 @@ static void light_up(struct closure_scatter *s)
         const struct effect *part = &light.choice.items[i];
         scatter_effect(s, (enum effect_kind)part->kind, part->index, part->value);
     }
-    ir_ref mean = lit_parts(s, &light);
-    scatter_effect(s, EFFECT_ACCUMULATE, sum, mean);
-    ir_ref all = scatter_read(s, sum), point = scatter_op2(s, IR_MUL, scatter_read(s, chance), all),
-           is_it = scatter_op2(s, IR_LT, point, mean);
-    scatter_effect(s, EFFECT_IF, 0, is_it);
-    scatter_effect(s, EFFECT_ASSIGN, to_light, light.direction);
-    scatter_effect(s, EFFECT_ASSIGN, away, closure_light_distance(s->shader, s->host));
-    for (uint32_t p = 0; p < s->num_parts; p++)
-        scatter_effect(s, EFFECT_ASSIGN, kept[p], scatter_op2(s, IR_DIV, s->parts[p].lit, mean));
-    scatter_effect(s, EFFECT_END, 0, 0);
-    ir_ref rest = scatter_op2(s, IR_SUB, point, mean);
-    rest = scatter_op2(s, IR_DIV, rest, scatter_op2(s, IR_SUB, scatter_read(s, sum), mean));
-    rest = ir_op3(g, IR_SELECT, is_it, scatter_op2(s, IR_DIV, point, mean), rest);
-    scatter_effect(s, EFFECT_IF, 0, scatter_op2(s, IR_GT, mean, nothing));
-    scatter_effect(s, EFFECT_ASSIGN, chance, rest);
-    scatter_effect(s, EFFECT_END, 0, 0);
+    consider_light(s, &light, &c);
     scatter_effect(s, EFFECT_END, 0, 0);
     for (uint32_t p = 0; p < s->num_parts; p++) {
-        ir_ref lit = scatter_read(s, kept[p]);
-        s->parts[p].lit = scatter_op2(s, IR_MUL, lit, scatter_read(s, sum));
+        ir_ref lit = scatter_read(s, c.kept[p]);
+        s->parts[p].lit = scatter_op2(s, IR_MUL, lit, scatter_read(s, c.sum));
     }
     s->shader->lit = true;
 }

@@ -197,16 +197,18 @@ static void see(struct eye *eye, struct seen *out)
     out->host.lang = &out->lang;
 }
 
-/* The colour of a closure, before a grey background. */
-static ir_ref color_of(struct eye *eye, ir_ref lobes)
+/* The colour of a closure; where it shows what is behind, before a grey background. */
+static ir_ref color_of(struct eye *eye, ir_ref lobes, bool shows_behind)
 {
     struct ir_graph *g = eye->shader->graph;
     struct seen seen;
     struct closure_list list;
     see(eye, &seen);
-    ir_ref none = ir_const_float(g, 0.0f);
-    ir_ref through = closure_throughput(eye->shader, &seen.host, lobes, none);
-    ir_ref sum = mul(g, through, ir_const_float(g, BACKGROUND));
+    ir_ref none = ir_const_float(g, 0.0f), sum = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    if (shows_behind) {
+        sum = closure_throughput(eye->shader, &seen.host, lobes, none);
+        sum = mul(g, sum, ir_const_float(g, BACKGROUND));
+    }
     closure_flatten(eye->shader, &seen.host, lobes, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++)
         sum = ir_op2(g, IR_ADD, sum, light_of(eye, &seen.host, &list.leaves.items[i]));
@@ -307,7 +309,8 @@ void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref roo
         if (!needed[ref] || (!is_surface && !is_closure) || (is_surface && !ir_arg(g, ref, 0)))
             continue;
         ir_ref walked = slabs_walk(shader, host, ref);
-        ir_ref color = color_of(&eye, is_surface ? ir_arg(g, walked, 0) : walked);
+        ir_ref color = color_of(&eye, is_surface ? ir_arg(g, walked, 0) : walked,
+                                op != IR_SURFACE_SHADER); /* <surface> has its own opacity */
         for (eye.at = 0; eye.at < out->num_points; eye.at++)
             out->is_known &= look_at(&eye, color, out);
     }

@@ -88,7 +88,9 @@ static ir_ref one_piece(struct ir_graph *g, ir_ref top, ir_ref base)
         return 0;
     if (has_fuzz(g, top))
         return !has_interface(g, top) && !has_fuzz(g, base) ? fuzz_over(g, top, base) : 0;
-    return !has_interface(g, base) && !has_fuzz(g, base) ? interface_over(g, top, base) : 0;
+    return !has_interface(g, base) && !has_fuzz(g, base) && input_is(g, base, SLAB_coverage, 1.0f)
+               ? interface_over(g, top, base)
+               : 0;
 }
 
 /* ---- Coats ---- */

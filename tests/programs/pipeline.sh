@@ -17,6 +17,8 @@ check "few lights" "$mxgen" pipeline few --max-lights 1 --environment none
 same() { cmp -s "$1/classify.comp" "$2/classify.comp"; }
 check "what lights nothing does not depend on lights" same passes few
 check "lighting does" bash -c '! cmp -s passes/light_simple.comp few/light_simple.comp'
+check "names and inputs of a host" "$mxgen" pipeline named --uniform '**' --rename positionWorld=pw --prefix x_
+check "do not change passes" diff -r passes named
 check "no folder is bad usage" exits 2 "$mxgen" pipeline
 
 # Compiles all passes of a folder with glslang's own program, where there is one.
