@@ -101,10 +101,12 @@ vec3 mx_medium_loss(vec3 color)
     return mix(s, vec3(1.0), step(c, vec3(0.0))); // exactly: no albedo, no scattering
 }
 
+const float MX_MOST_ANISOTROPIC = 0.95; // of phase functions: beyond, all light would go straight on
+
 // Optical depth along the normal of the even medium that stands for one with the phase anisotropy g, by similarity.
 vec3 mx_medium_depth(vec3 loss, vec3 mean_free_path, float g, float thickness)
 {
-    float forward = clamp(g, -0.95, 0.95);
+    float forward = clamp(g, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC);
     return max(thickness, 0.0) / max(mean_free_path, 1e-6) * (1.0 - forward) / (1.0 - forward * loss * loss);
 }
 
@@ -160,7 +162,7 @@ vec3 mx_medium_scattering(vec3 color, vec3 mean_free_path, float g, float length
     if (mx_is_black(mean_free_path) || mx_is_black(color))
         return vec3(0.0);
     vec3 loss = mx_medium_loss(color);
-    return max(length, 0.0) / max(mean_free_path, 1e-6) * (1.0 - loss * loss) / (1.0 - clamp(g, -0.95, 0.95) * loss * loss);
+    return max(length, 0.0) / max(mean_free_path, 1e-6) * (1.0 - loss * loss) / (1.0 - clamp(g, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC) * loss * loss);
 }
 
 vec3 mx_medium_absorption(vec3 color, vec3 mean_free_path, float g, float length)
@@ -346,7 +348,7 @@ vec3 mx_slab_medium_bsdf_absorption(vec3 color, float roughness, vec3 mean_free_
 float mx_slab_medium_bsdf_anisotropy(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                      vec3 N)
 {
-    return clamp(phase_anisotropy, -0.95, 0.95);
+    return clamp(phase_anisotropy, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC);
 }
 
 // ---- slab_body_bsdf --------------------------------------------------------------------------------------------------
@@ -370,7 +372,7 @@ vec3 mx_slab_body_bsdf_absorption(vec3 color, vec3 mean_free_path, float phase_a
 
 float mx_slab_body_bsdf_anisotropy(vec3 color, vec3 mean_free_path, float phase_anisotropy, float unit)
 {
-    return clamp(phase_anisotropy, -0.95, 0.95);
+    return clamp(phase_anisotropy, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC);
 }
 
 // ---- slab_reflection_bsdf --------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@
 
 enum { MAX_SPOTS = 4096 }; /* from there on, matter above and below makes no other spots */
 
-static bool is_closure(const struct ir_graph *g, ir_ref ref)
+static bool is_bsdf(const struct ir_graph *g, ir_ref ref)
 {
     return ref && ir_type_of(g, ref) == IR_TYPE_BSDF;
 }
@@ -48,7 +48,7 @@ static void find_spreading(const struct shader *shader, ir_ref root, const uint8
 
 static void add_spot(const struct shader *shader, struct slab_spots *spots, struct slab_spot spot)
 {
-    if (!is_closure(shader->graph, spot.ref))
+    if (!is_bsdf(shader->graph, spot.ref))
         return;
     spot.next = spots->first[spot.ref];
     for (uint32_t i = spot.next; i; i = spots->items.items[i - 1].next) {
@@ -73,14 +73,13 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
     for (uint32_t i = 0; i < num_args; i++) {
         struct slab_spot at = *spot;
         at.ref = ir_arg(g, ref, i);
-        if (!is_closure(g, at.ref))
+        if (!is_bsdf(g, at.ref))
             continue;
         if (i == 0 && slabs_is_layer(g, ref)) {
             ir_ref base = ir_arg(g, ref, 1);
             at.thickness = slabs_layer_thickness(g, ref);
             at.is_sheet = false;
-            at.below =
-                is_closure(g, base) ? pile_of(shader, spots, base, spot->below) : spot->below;
+            at.below = is_bsdf(g, base) ? pile_of(shader, spots, base, spot->below) : spot->below;
         } else if (i == 1 && slabs_is_layer(g, ref) && spots->spreads[ir_arg(g, ref, 0)]) {
             at.above = pile_of(shader, spots, ir_arg(g, ref, 0), spot->above);
         }
@@ -164,7 +163,7 @@ static ir_ref top_operand(const struct ir_graph *g, ir_ref ref)
     ir_ref top = 0;
     for (uint32_t i = 0; i < node->num_args && (is_last || !top); i++) {
         ir_ref arg = ir_arg(g, ref, i);
-        if (is_closure(g, arg) || (arg && ir_type_is_shader(ir_type_of(g, arg))))
+        if (is_bsdf(g, arg) || (arg && ir_type_is_shader(ir_type_of(g, arg))))
             top = arg;
     }
     return top;
