@@ -85,6 +85,7 @@ vec3 mx_chan_axis(float g, vec3 N, vec3 V)
 const float MX_MEAN_WAY = 1.1458980; // over cosine-weighted directions: 4.5 - 1.5 sqrt(5)
 
 const float MX_CLEAR_PATH = 1e6; // of a clear medium, by which src/slabs/recognise.c knows matter that is an interface only
+const float MX_MOST_ANISOTROPIC = 0.95; // of phase functions: beyond, all light would go straight on
 
 float mx_way(vec3 N, vec3 V)
 {
@@ -100,8 +101,6 @@ vec3 mx_medium_loss(vec3 color)
     vec3 s = clamp(4.09712 + 4.20863 * c - sqrt(9.59217 + c * (41.6808 + 17.7126 * c)), 0.0, 1.0);
     return mix(s, vec3(1.0), step(c, vec3(0.0))); // exactly: no albedo, no scattering
 }
-
-const float MX_MOST_ANISOTROPIC = 0.95; // of phase functions: beyond, all light would go straight on
 
 // Optical depth along the normal of the even medium that stands for one with the phase anisotropy g, by similarity.
 vec3 mx_medium_depth(vec3 loss, vec3 mean_free_path, float g, float thickness)

@@ -93,7 +93,9 @@ static void report_failure(struct generation *g, const struct slab_budget *budge
     text_init(&limits, &g->scratch);
     text_init(&error, &g->scratch);
     write_error(&error, report->error);
-    if (budget->max_closures)
+    if (generation_packs(g))
+        text_str(&limits, "a payload, which is one slab");
+    else if (budget->max_closures)
         text_fmt(&limits, "%u closures", (unsigned)budget->max_closures);
     if (budget->max_bytes)
         text_fmt(&limits, "%s%u bytes", limits.len ? ", " : "", (unsigned)budget->max_bytes);

@@ -26,6 +26,7 @@ void main()
     vec3 inside = vec3(0.0), albedo = vec3(0.0);
 #endif
 #if MX_BELOW == 1
+    const float MX_LEAST_BLUR = 1.0 / 256.0; // half of the least that few bits store; the image has halves
     vec4 below = vec4(0.0); // light that is blurred, and how wide
 #endif
     while (reader.next < reader.num_closures) {
@@ -39,7 +40,7 @@ void main()
         }
 #endif
 #if MX_BELOW == 1
-        if (closure.blur > 0.0) {
+        if (closure.blur > MX_LEAST_BLUR) {
             below = vec4(below.xyz + out1.xyz, max(below.w, closure.blur));
             continue;
         }
