@@ -370,7 +370,10 @@ ir_ref closure_without_aovs(const struct ir_graph *g, ir_ref surface)
     return surface;
 }
 
-/* The alpha of a surface; `alphas`: of its operands. 0: 1, as of slabs, which are always there. */
+/*
+ * The alpha of a surface; `alphas`: of its operands. 0: 1, as of slabs, which are always there, and
+ * of what stands for a surface after an error.
+ */
 static ir_ref alpha_of(struct ir_graph *g, ir_ref ref, const ir_ref *alphas)
 {
     const struct ir_node node = *ir_get(g, ref);
@@ -381,7 +384,7 @@ static ir_ref alpha_of(struct ir_graph *g, ir_ref ref, const ir_ref *alphas)
     case IR_SURFACE_UNLIT: return unlit_surface(g, args[0], args[1], args[2]).alpha;
     case IR_AOV: return alphas[args[0]];
     case IR_SHADER_MIX: return mixed_alpha(g, alphas[args[0]], alphas[args[1]], args[2]);
-    default: assert(node.op == IR_SLAB_SURFACE); return 0;
+    default: assert(node.op != IR_SLOTS && node.op != IR_MATTER); return 0;
     }
 }
 
