@@ -2,7 +2,8 @@
 /*
  * Finds the vec3 nodes that are colours. OSL distinguishes colours, vectors, points and normals,
  * and warns of calls that mix them. One pass upwards: results of colours are colours. One pass
- * downwards: nodes that could be either, usually literals, get the kind of their use.
+ * downwards: nodes that could be either, usually literals, get the kind of their use. A literal has
+ * one kind in the whole shader, so a third pass finds sums that are vectors after all.
  */
 #include "generators/osl/osl.h"
 
@@ -79,6 +80,24 @@ static enum osl_kind wanted_kind(const struct osl *osl, ir_ref user)
                                                              : OSL_ANY;
 }
 
+/* True for a sum or product of numbers and vectors alone, which is no colour in OSL. */
+static bool is_of_vectors(const struct osl *osl, ir_ref ref)
+{
+    const struct ir_graph *graph = osl->spell->shader->graph;
+    const struct ir_node *node = ir_get(graph, ref);
+    bool any = false;
+    if (node->op < IR_ADD || node->op > IR_DIV)
+        return false;
+    for (uint32_t i = 0; i < node->num_args; i++) {
+        ir_ref arg = ir_arg(graph, ref, i);
+        if (ir_type_is_matrix(ir_type_of(graph, arg))
+            || (is_triple(graph, arg) && osl->kinds[arg] != OSL_VECTOR))
+            return false;
+        any |= is_triple(graph, arg);
+    }
+    return any;
+}
+
 void osl_find_kinds(struct osl *osl)
 {
     const struct ir_graph *graph = osl->spell->shader->graph;
@@ -94,6 +113,9 @@ void osl_find_kinds(struct osl *osl)
                 osl->kinds[arg] = (uint8_t)wanted;
         }
     }
+    for (ir_ref ref = 1; ref < graph->nodes.len; ref++)
+        if (is_of_vectors(osl, ref))
+            osl->kinds[ref] = OSL_VECTOR;
 }
 
 const char *osl_node_type(const struct spell *spell, ir_ref ref)

@@ -57,6 +57,8 @@ check 'no facet without glints' exits 0 "$mxgen" "$slabs" -e DustyFibre --target
 check 'is there' eval '! grep -q slab_facet out'
 check 'OSL has a facet for a tint' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e PearlPaint --features -glints --target osl --stdout
 check 'drawn by the point' eval 'test ! -s err && grep -q "hashnoise(P, time)" out && ! grep -q glint_facet out'
+check 'OSL has the albedo of threads' exits 0 "$mxgen" "$slabs" -e WrappedSilk --target osl --stdout
+check 'and vectors for sums of vectors, which are no colours' eval 'grep -qF "vector weft_reflection_sum = " out && ! grep -qF "color weft_reflection_sum" out'
 check 'OSL sees through a body' exits 0 "$mxgen" "$examples/slab_bodies.mtlx" -e Amber --target osl --stdout
 check 'in its colour, and without total reflection from behind' eval 'grep -q "transparent_bsdf()" out && ! grep -q "vector(0.33333334)" out && grep -q "float(backfacing_)" out'
 check 'they are stored' exits 0 "$mxgen" glints.mtlx -e DustyFibre --pipeline deferred --target vulkan -o made
