@@ -39,12 +39,12 @@ static bool has_limits(const struct slab_budget *budget)
 
 static bool keeps_closures(const struct spender *s)
 {
-    return !s->budget->max_closures || s->saver.cost.closures <= s->budget->max_closures;
+    return slab_keeps_closures(s->budget, s->saver.cost);
 }
 
 static bool keeps_bytes(const struct spender *s)
 {
-    return !s->budget->max_bytes || s->saver.cost.bytes <= s->budget->max_bytes;
+    return slab_keeps_bytes(s->budget, s->saver.cost);
 }
 
 static bool keeps_error(const struct spender *s)

@@ -29,15 +29,9 @@ struct search {
 
 enum fault { NONE, TOO_FAR, TOO_LARGE };
 
-static bool keeps(uint32_t value, uint32_t limit)
-{
-    return !limit || value <= limit;
-}
-
 static enum fault fault_of(const struct search *s, const struct state *state)
 {
-    if (!keeps(state->cost.closures, s->limits->max_closures)
-        || !keeps(state->cost.bytes, s->limits->max_bytes))
+    if (!slab_keeps_closures(s->limits, state->cost) || !slab_keeps_bytes(s->limits, state->cost))
         return TOO_LARGE;
     return state->error <= s->limits->max_error ? NONE : TOO_FAR;
 }

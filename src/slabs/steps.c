@@ -35,10 +35,20 @@ struct slab_cost slab_saver_cost(const struct slab_saver *s, ir_ref root)
 float slab_saver_error(const struct slab_saver *s, ir_ref root)
 {
     struct slab_look look;
-    if (!s->host->scratch || s->unseen & ~slab_saver_cost(s, root).features)
+    if (!s->host->scratch || (s->unseen && s->unseen & ~slab_saver_cost(s, root).features))
         return -1.0f;
     slabs_look(s->shader, s->host, root, &s->whole, &look);
     return slabs_difference(&s->whole, &look);
+}
+
+bool slab_keeps_closures(const struct slab_budget *budget, struct slab_cost cost)
+{
+    return !budget->max_closures || cost.closures <= budget->max_closures;
+}
+
+bool slab_keeps_bytes(const struct slab_budget *budget, struct slab_cost cost)
+{
+    return !budget->max_bytes || cost.bytes <= budget->max_bytes;
 }
 
 bool slab_cost_is_higher(struct slab_cost cost, struct slab_cost than)

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-bool bench_open(struct bench *b)
+static bool open_device(struct bench *b)
 {
     if (!gpu_open(&b->gpu) || !b->gpu.can_store) {
         printf("skip: no device that can store: %s\n", b->gpu.reason);
@@ -16,6 +16,25 @@ bool bench_open(struct bench *b)
     REQUIRE_EQ(mxg_context_create(NULL, &b->context), MXG_OK);
     REQUIRE_EQ(mxg_options_create(b->context, &b->options), MXG_OK);
     mxg_options_set(b->options, "interface", "reduced");
+    return true;
+}
+
+bool bench_open_ball(struct bench *b)
+{
+    if (!open_device(b))
+        return false;
+    REQUIRE(scene_init_sphere(&b->scene, 1));
+    mxg_options_set(b->options, "texture-modes", "shared");
+    return true;
+}
+
+bool bench_open_plane(struct bench *b)
+{
+    if (!open_device(b))
+        return false;
+    REQUIRE(scene_init_plane(&b->scene));
+    b->scene.num_lights = 1;
+    mxg_options_set(b->options, "environment", "none");
     return true;
 }
 

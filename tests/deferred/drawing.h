@@ -20,8 +20,11 @@ struct bench {
     mxg_bindings *bindings; /* NULL, or the stack 0 of these takes the place of elements */
 };
 
-/* Shaders have the reduced interface; the scene is the caller's. False: nothing can store, told. */
-bool bench_open(struct bench *b);
+/* Shaders have the reduced interface. False: nothing can store, told. With a ball of the radius 1.
+ */
+bool bench_open_ball(struct bench *b);
+/* The same with a plane below one lamp, without an environment. */
+bool bench_open_plane(struct bench *b);
 /* Documents take the place of the one before. */
 bool bench_load(struct bench *b, const char *root, const char *path);
 bool bench_parse(struct bench *b, const char *name, const char *text);

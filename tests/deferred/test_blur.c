@@ -166,11 +166,8 @@ static void test_sharp(struct bench *b)
 int main(void)
 {
     struct bench b = {0};
-    if (!bench_open(&b))
+    if (!bench_open_plane(&b))
         return 77;
-    REQUIRE(scene_init_plane(&b.scene));
-    b.scene.num_lights = 1;
-    mxg_options_set(b.options, "environment", "none");
     mxg_options_set(b.options, "rough-refraction", "blur");
     test_pattern(&b, edge_at, "float", 0.05);
     test_pattern(&b, edge_at, "dither", 0.033);

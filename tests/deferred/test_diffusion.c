@@ -115,11 +115,8 @@ static void test_edge(struct bench *b, const double lit[3])
 int main(void)
 {
     struct bench b = {0};
-    if (!bench_open(&b))
+    if (!bench_open_plane(&b))
         return 77;
-    REQUIRE(scene_init_plane(&b.scene));
-    b.scene.num_lights = 1;
-    mxg_options_set(b.options, "environment", "none");
     mxg_options_set(b.options, "sss", "diffusion");
     double lit[3];
     if (test_even(&b, lit))

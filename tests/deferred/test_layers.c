@@ -93,10 +93,8 @@ int main(void)
     };
     struct bench b = {0};
     mxg_scene *scene = NULL;
-    if (!bench_open(&b))
+    if (!bench_open_ball(&b))
         return 77;
-    REQUIRE(scene_init_sphere(&b.scene, 1));
-    mxg_options_set(b.options, "texture-modes", "shared");
     REQUIRE_EQ(mxg_scene_create(b.context, &scene), MXG_OK);
     if (scene && bind_layers(&b, scene))
         for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)

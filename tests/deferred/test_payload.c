@@ -186,10 +186,8 @@ int main(int argc, char **argv)
     const char *document = "";
     if (argc != 2)
         return 2;
-    if (!bench_open(&b))
+    if (!bench_open_ball(&b))
         return 77;
-    REQUIRE(scene_init_sphere(&b.scene, 1));
-    mxg_options_set(b.options, "texture-modes", "shared");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         if (!rows[i].expected
             || (strcmp(rows[i].document, document) != 0

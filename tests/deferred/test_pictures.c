@@ -80,10 +80,8 @@ int main(int argc, char **argv)
     struct bench b = {0};
     if (argc != 2)
         return 2;
-    if (!bench_open(&b))
+    if (!bench_open_ball(&b))
         return 77;
-    REQUIRE(scene_init_sphere(&b.scene, 1));
-    mxg_options_set(b.options, "texture-modes", "shared");
     test_pictures(&b, argv[1]);
     mxg_options_set(b.options, "slabs", "true");
     if (bench_load(&b, argv[1], "tests/deferred/materials.mtlx"))
