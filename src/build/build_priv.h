@@ -379,6 +379,8 @@ ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo);
 const struct ir_origin *build_element_origin(const struct ir_graph *graph);
 /* The attribute of a SLAB that the document describes. */
 uint32_t build_slab_lacks(const struct builder *b);
+/* The definition of this name; LIBRARY_NONE: the library has none. */
+uint32_t build_definition_named(const struct builder *b, const char *name);
 /* The definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
 uint32_t build_slab_definition(const struct builder *b);
 

@@ -2,7 +2,7 @@
 /* The lobes of a slab: the library's graph, applied to the inputs of the slab and its place. */
 #include "build/build_priv.h"
 
-static uint32_t definition(const struct builder *b, const char *name)
+uint32_t build_definition_named(const struct builder *b, const char *name)
 {
     str_id id = str_find(b->shader->strings, name, strlen(name));
     return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
@@ -10,7 +10,7 @@ static uint32_t definition(const struct builder *b, const char *name)
 
 uint32_t build_slab_definition(const struct builder *b)
 {
-    return definition(b, "ND_slab_lobes");
+    return build_definition_named(b, "ND_slab_lobes");
 }
 
 uint32_t build_slab_lacks(const struct builder *b)
@@ -89,7 +89,7 @@ ir_ref build_marked_lobes(struct builder *b, const ir_ref *inputs, const struct 
     ir_ref lobes = build_slab_lobes(b, inputs, place);
     if (!b->options->marks_slabs)
         return lobes;
-    ir_ref args[2] = {apply(b, definition(b, "ND_slab_mark"), inputs, place), lobes};
+    ir_ref args[2] = {apply(b, build_definition_named(b, "ND_slab_mark"), inputs, place), lobes};
     if (!lobes)
         return args[0];
     return ir_build(b->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2);

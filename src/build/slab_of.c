@@ -5,19 +5,13 @@
  */
 #include "build/build_priv.h"
 
-static uint32_t definition(const struct builder *b, const char *name)
-{
-    str_id id = str_find(b->shader->strings, name, strlen(name));
-    return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
-}
-
 static uint32_t definition_for(struct builder *b, const struct family *family)
 {
     struct text name;
     const char *function = build_text(b, family->name);
     text_init(&name, b->arena);
     text_fmt(&name, "ND_slab_of_%s", strncmp(function, "mx_", 3) == 0 ? function + 3 : function);
-    return definition(b, text_cstr(&name));
+    return build_definition_named(b, text_cstr(&name));
 }
 
 /* The operand of a leaf; 0: it has none of this name. */
@@ -89,7 +83,7 @@ static ir_ref input_of(struct builder *b, uint32_t id, const ir_ref *results, st
     for (unsigned i = 0; i < def->num_outputs && results; i++)
         if (strcmp(build_text(b, outputs[i].name) + strlen("slab_"), wanted) == 0)
             return results[i];
-    uint32_t slab = definition(b, "ND_slab");
+    uint32_t slab = build_definition_named(b, "ND_slab");
     int at = library_find_input(b->lib, slab, name);
     assert(at >= 0);
     return build_default(b, &library_ports(b->lib, slab, NULL)[at]);
@@ -159,7 +153,7 @@ static ir_ref mean_roughness(struct builder *b, ir_ref leaf)
 ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo)
 {
     ir_ref one = ir_const_float(b->graph, 1.0f);
-    ir_ref slab = slab_with(b, definition(b, "ND_slab"), NULL, leaf, one, albedo);
+    ir_ref slab = slab_with(b, build_definition_named(b, "ND_slab"), NULL, leaf, one, albedo);
     ir_ref roughness = mean_roughness(b, leaf), in[NUM_SLAB_OPERANDS];
     if (!roughness)
         return slab;
