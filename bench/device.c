@@ -7,7 +7,8 @@
  * count: not vertices, nor what a driver does for each draw call. A figure is the median of the
  * rounds.
  *
- * --any: a processor is a device, too; its time is that of the program, in one thread.
+ * --any: a processor is a device, too; its time is that of the program, in one thread. Times of
+ * other devices are those of their own clocks, without the copy of the picture.
  * --size: 1920x1080 without it.
  * --materialx: draws the shaders FOLDER/INTERFACE/NAME of these documents in turn with mxgen's
  *   (foreign.h, bench/gpu/materialx.py), and prints ratios. Their pictures may differ by no more
@@ -25,7 +26,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { NUM_ROUNDS = 7, NUM_SAMPLES = 16, MAX_DOCUMENTS = 256 };
 #define MAX_DIFFERENCE 0.005 /* mean of the channels, which are 0 to 1 */
@@ -53,20 +53,10 @@ struct bench {
     mxg_options *options;
     const char *interface, *materialx, *pictures;
     uint32_t width, height;
-    bool any, is_processor;
+    bool any;
     struct row rows[MAX_DOCUMENTS];
     int num_faults;
 };
-
-/* Of a processor its own time, because other programs run on it, too. */
-static double now(const struct bench *b)
-{
-    struct timespec t;
-    if (b->is_processor)
-        return bench_seconds();
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /*
  * At the centre of the balls from 1.4 of their radius, where even the innermost fills the picture,
@@ -94,14 +84,12 @@ static mxg_result *generate(struct bench *b, const char *path, mxg_document **ou
 /* Draws so many balls as the camera sees them; returns the time. */
 static double draw(struct bench *b, struct shader *shader, uint32_t copies)
 {
-    bool good = bind_scene(&shader->bind);
-    double begin = now(b);
+    if (!bind_scene(&shader->bind))
+        bench_fail("%s: %s", shader->bind.document, shader->bind.reason);
     shader->bind.draw.num_objects = copies;
-    good = good && draw_frame(b->canvas, &shader->render.program, 1, shader->pixels);
+    double seconds = bench_frame(b->canvas, &shader->render.program, 1, shader->pixels);
     shader->bind.draw.num_objects = BENCH_COPIES;
-    if (!good)
-        bench_fail("%s: %s%s", shader->bind.document, shader->bind.reason, b->gpu.reason);
-    return now(b) - begin;
+    return seconds;
 }
 
 /* Of a result, or of a program that mxgen did not write. The first frame compiles on some devices.
@@ -336,8 +324,7 @@ int main(int argc, char **argv)
     }
     VkPhysicalDeviceProperties device;
     vkGetPhysicalDeviceProperties(b.gpu.physical, &device);
-    b.is_processor = device.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    if (b.is_processor && !b.any) {
+    if (bench_is_processor(&b.gpu) && !b.any) {
         printf("skip: the only Vulkan device is a processor, %s; --any measures it\n",
                device.deviceName);
         return 0;

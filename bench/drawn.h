@@ -3,6 +3,7 @@
 #ifndef MXG_BENCH_DRAWN_H
 #define MXG_BENCH_DRAWN_H
 
+#include "render/draw.h"
 #include "render/scene.h"
 
 enum { BENCH_COPIES = 4 };
@@ -12,6 +13,16 @@ _Noreturn void bench_fail(const char *format, ...);
 
 /* Processor time of this program, in seconds: other programs do not count. */
 double bench_seconds(void);
+
+/* A device that is the processor: programs that share it slow it. */
+bool bench_is_processor(const struct gpu *gpu);
+
+/*
+ * Draws a frame; returns its seconds: of a processor, those of this program; of another device,
+ * those of its own clock, without the copy of the picture. Fails with what the device says.
+ */
+double bench_frame(struct draw_canvas *canvas, struct draw_program *const *programs, size_t count,
+                   float *out_pixels);
 
 struct bench_quartiles {
     double lower, median, upper;

@@ -22,6 +22,7 @@ struct draw_canvas {
     struct gpu_image outputs[DRAW_MAX_OUTPUTS];
     struct gpu_buffer readbacks[DRAW_MAX_OUTPUTS];
     struct stored *stored; /* NULL: no program stores */
+    VkQueryPool clock;     /* when a frame begins and ends; absent where the device has no clock */
 };
 
 /* The buffers of an object. */
@@ -79,6 +80,17 @@ void draw_read_output(const struct draw_canvas *canvas, uint32_t location, float
     }
 }
 
+static bool create_clock(struct draw_canvas *canvas)
+{
+    const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                        .queryCount = 2};
+    struct gpu *gpu = canvas->gpu;
+    return gpu->tick <= 0
+           || gpu_check(gpu, vkCreateQueryPool(gpu->device, &info, NULL, &canvas->clock),
+                        "making a clock");
+}
+
 struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t height)
 {
     struct draw_canvas *canvas = calloc(1, sizeof *canvas);
@@ -91,7 +103,8 @@ struct draw_canvas *draw_open_canvas(struct gpu *gpu, uint32_t width, uint32_t h
         && gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1,
                             VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                 | VK_IMAGE_USAGE_SAMPLED_BIT,
-                            VK_IMAGE_ASPECT_DEPTH_BIT, &canvas->depth))
+                            VK_IMAGE_ASPECT_DEPTH_BIT, &canvas->depth)
+        && create_clock(canvas))
         return canvas;
     draw_close_canvas(canvas);
     return NULL;
@@ -121,6 +134,7 @@ void draw_close_canvas(struct draw_canvas *canvas)
     if (!canvas)
         return;
     stored_close(canvas->stored);
+    vkDestroyQueryPool(canvas->gpu->device, canvas->clock, NULL);
     for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
         gpu_destroy_buffer(canvas->gpu, &canvas->readbacks[i]);
         gpu_destroy_image(canvas->gpu, &canvas->outputs[i]);
@@ -464,6 +478,29 @@ static void record_stored(const struct draw_canvas *canvas, const struct call *c
     stored_run(canvas->stored, commands);
 }
 
+/* The first or second time of a frame. */
+static void record_time(const struct draw_canvas *canvas, uint32_t i, VkCommandBuffer commands)
+{
+    if (!canvas->clock)
+        return;
+    if (i == 0)
+        vkCmdResetQueryPool(commands, canvas->clock, 0, 2);
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, canvas->clock, i);
+}
+
+static void record_copies(const struct draw_canvas *canvas, VkCommandBuffer commands)
+{
+    for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
+        const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                        .imageExtent = {canvas->width, canvas->height, 1}};
+        gpu_image_barrier(commands, canvas->outputs[i].image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+                          VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        vkCmdCopyImageToBuffer(commands, canvas->outputs[i].image,
+                               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, canvas->readbacks[i].buffer, 1,
+                               &copy);
+    }
+}
+
 static void record(const struct draw_canvas *canvas, const struct call *calls, size_t count,
                    VkCommandBuffer commands)
 {
@@ -473,6 +510,7 @@ static void record(const struct draw_canvas *canvas, const struct call *calls, s
                           VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
     gpu_image_barrier(commands, canvas->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1,
                       VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    record_time(canvas, 0, commands);
     if (canvas->stored) {
         stored_begin(canvas->stored, commands);
         record_stored(canvas, calls, count, commands);
@@ -480,15 +518,8 @@ static void record(const struct draw_canvas *canvas, const struct call *calls, s
     }
     begin_rendering(canvas, commands, WAY_LIT, load, load);
     record_calls(canvas, calls, count, WAY_LIT, commands);
-    for (uint32_t i = 0; i < canvas->num_outputs; ++i) {
-        gpu_image_barrier(commands, canvas->outputs[i].image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
-                          VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-        const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                        .imageExtent = {canvas->width, canvas->height, 1}};
-        vkCmdCopyImageToBuffer(commands, canvas->outputs[i].image,
-                               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, canvas->readbacks[i].buffer, 1,
-                               &copy);
-    }
+    record_time(canvas, 1, commands);
+    record_copies(canvas, commands);
 }
 
 static void update(struct draw_program *program)
@@ -517,6 +548,19 @@ bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs
     if (!good || !gpu_end(canvas->gpu, commands))
         return false;
     draw_read_output(canvas, 0, out_pixels);
+    return true;
+}
+
+bool draw_frame_seconds(const struct draw_canvas *canvas, double *out)
+{
+    uint64_t times[2];
+    struct gpu *gpu = canvas->gpu;
+    if (!canvas->clock
+        || vkGetQueryPoolResults(gpu->device, canvas->clock, 0, 2, sizeof times, times,
+                                 sizeof *times, VK_QUERY_RESULT_64_BIT)
+               != VK_SUCCESS)
+        return false;
+    *out = gpu->tick * (double)((times[1] - times[0]) & gpu->ticks);
     return true;
 }
 

@@ -103,6 +103,12 @@ void draw_clear_to(struct draw_canvas *canvas, const float rgba[4]);
 bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs, size_t count,
                 float *out_pixels);
 
+/*
+ * What the last frame took on the device, in seconds, without the copy of its picture. false: the
+ * device has no clock.
+ */
+bool draw_frame_seconds(const struct draw_canvas *canvas, double *out);
+
 void draw_close(struct draw_program *program);
 
 #endif

@@ -7,6 +7,9 @@
 
 #define API_VERSION VK_API_VERSION_1_3
 #define MAX_DEVICES 16
+#define READ_BY_DRAWS \
+    (VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT \
+     | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)
 
 bool gpu_check(struct gpu *gpu, VkResult result, const char *what)
 {
@@ -100,6 +103,18 @@ static bool choose_device(struct gpu *gpu)
     return true;
 }
 
+static void find_clock(struct gpu *gpu, uint32_t family)
+{
+    VkQueueFamilyProperties families[32];
+    VkPhysicalDeviceProperties properties;
+    uint32_t count = 32;
+    vkGetPhysicalDeviceProperties(gpu->physical, &properties);
+    vkGetPhysicalDeviceQueueFamilyProperties(gpu->physical, &count, families);
+    uint32_t bits = families[family].timestampValidBits;
+    gpu->tick = bits ? 1e-9 * (double)properties.limits.timestampPeriod : 0;
+    gpu->ticks = bits ? UINT64_MAX >> (64 - bits) : 0;
+}
+
 static bool create_device(struct gpu *gpu)
 {
     uint32_t family = find_queue_family(gpu->physical);
@@ -129,6 +144,7 @@ static bool create_device(struct gpu *gpu)
         return false;
     vkGetDeviceQueue(gpu->device, family, 0, &gpu->queue);
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
+    find_clock(gpu, family);
     const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                           .queueFamilyIndex = family};
     return gpu_check(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->pool),
@@ -153,19 +169,35 @@ void gpu_close(struct gpu *gpu)
 
 /* ---- Memory ---- */
 
-static bool allocate(struct gpu *gpu, VkMemoryRequirements needs, VkMemoryPropertyFlags flags,
-                     VkDeviceMemory *out)
+/* memoryTypeCount: none. */
+static uint32_t find_memory(const struct gpu *gpu, VkMemoryRequirements needs,
+                            VkMemoryPropertyFlags flags)
 {
-    VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                 .allocationSize = needs.size};
-    while (info.memoryTypeIndex < gpu->memory.memoryTypeCount
-           && !((needs.memoryTypeBits >> info.memoryTypeIndex & 1)
-                && (gpu->memory.memoryTypes[info.memoryTypeIndex].propertyFlags & flags) == flags))
-        ++info.memoryTypeIndex;
+    uint32_t i = 0;
+    while (i < gpu->memory.memoryTypeCount
+           && !((needs.memoryTypeBits >> i & 1)
+                && (gpu->memory.memoryTypes[i].propertyFlags & flags) == flags))
+        ++i;
+    return i;
+}
+
+static VkResult allocate_from(struct gpu *gpu, VkMemoryRequirements needs,
+                              VkMemoryPropertyFlags flags, VkDeviceMemory *out)
+{
+    const VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                       .allocationSize = needs.size,
+                                       .memoryTypeIndex = find_memory(gpu, needs, flags)};
     if (info.memoryTypeIndex == gpu->memory.memoryTypeCount)
-        return gpu_check(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "finding device memory");
-    return gpu_check(gpu, vkAllocateMemory(gpu->device, &info, NULL, out),
-                     "allocating device memory");
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    return vkAllocateMemory(gpu->device, &info, NULL, out);
+}
+
+/* preferred: flags of memory that the device may lack, or not have enough of. */
+static bool allocate(struct gpu *gpu, VkMemoryRequirements needs, VkMemoryPropertyFlags flags,
+                     VkMemoryPropertyFlags preferred, VkDeviceMemory *out)
+{
+    return allocate_from(gpu, needs, flags | preferred, out) == VK_SUCCESS
+           || gpu_check(gpu, allocate_from(gpu, needs, flags, out), "allocating device memory");
 }
 
 bool gpu_create_compute(struct gpu *gpu, const VkPipelineLayoutCreateInfo *layout,
@@ -205,6 +237,8 @@ bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *da
     vkGetBufferMemoryRequirements(gpu->device, out->buffer, &needs);
     if (!allocate(gpu, needs,
                   VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                  usage & READ_BY_DRAWS ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+                                        : VK_MEMORY_PROPERTY_HOST_CACHED_BIT,
                   &out->memory)
         || !gpu_check(gpu, vkBindBufferMemory(gpu->device, out->buffer, out->memory, 0),
                       "binding memory")
@@ -247,7 +281,7 @@ bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t
         return false;
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(gpu->device, out->image, &needs);
-    if (!allocate(gpu, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, &out->memory)
+    if (!allocate(gpu, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, &out->memory)
         || !gpu_check(gpu, vkBindImageMemory(gpu->device, out->image, out->memory, 0),
                       "binding memory"))
         return false;

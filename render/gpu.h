@@ -20,6 +20,8 @@ struct gpu {
     bool can_store;    /* pixel stages may write images: stored.h */
     bool blends_twice; /* pixel stages may have a second source for blending */
     uint32_t max_size; /* of pictures and textures, in pixels */
+    double tick;       /* of the device's clock, in seconds; 0: it has none */
+    uint64_t ticks;    /* its largest number, after which it goes on from 0 */
     const char *id;    /* id of the first failure: "device-lost"… */
     char reason[256];  /* "" without a failure */
 };
@@ -52,7 +54,10 @@ bool gpu_create_compute(struct gpu *gpu, const VkPipelineLayoutCreateInfo *layou
                         const uint32_t *code, size_t num_words, VkPipelineLayout *out_layout,
                         VkPipeline *out);
 
-/* Mapped memory that the processor can read and write. `data` may be NULL. */
+/*
+ * Mapped memory that the processor can read and write: of the device, where draws read it and the
+ * device has such memory, else such that the processor reads fast. `data` may be NULL.
+ */
 bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *data, size_t size,
                        struct gpu_buffer *out);
 void gpu_destroy_buffer(struct gpu *gpu, struct gpu_buffer *buffer);
