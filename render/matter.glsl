@@ -68,7 +68,16 @@ void meet_lobe(inout Path path, Point point, vec4 towards)
     count_turn(path);
     path.direction = normalize(out2.xyz);
     path.density = out3.w;
-    path.goes = BENT;
+    path.goes = out2.w > 0.5 ? ACROSS : BENT;
+}
+
+// A lobe has refracted light: it goes into a solid, or out of it.
+void leave_refracted(inout Path path, Point point)
+{
+    path.phase = GOING;
+    path.origin = beside(point, path.direction);
+    path.medium.collisions = 0u;
+    cross_surface(path, point, out4.rgb);
 }
 
 // Leaves the pile.
@@ -107,6 +116,10 @@ void go_through(inout Path path, Point point, vec4 towards)
         walk(path, point.normal);
     else if ((path.goes & DOWN) != 0u)
         meet_lobe(path, point, towards);
+    if (path.goes == ACROSS) {
+        leave_refracted(path, point);
+        return;
+    }
     bool down = (path.goes & DOWN) != 0u;
     path.matter.x = down ? out10.w : out11.w;
     path.depth = down ? 0.0 : 1.0;

@@ -425,8 +425,9 @@ bool follow_shadow(inout Path path)
 // What a path does next. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole. IN_MATTER: it
 // goes through a pile of matter on a surface.
 const uint GOING = 0u, CROSSING = 1u, ENDED = 2u, IN_MATTER = 3u;
-// How it goes through matter: away from where it came in; as it is outside, where it enters a medium of index 1.5; out of a body.
-const uint DOWN = 1u, BENT = 2u, OUT = 4u;
+// How it goes through matter: away from where it came in; as it is outside, where it enters a medium of index 1.5; out of a body;
+// into a solid or out of it.
+const uint DOWN = 1u, BENT = 2u, OUT = 4u, ACROSS = 8u;
 
 void count_turn(inout Path path)
 {
@@ -458,6 +459,21 @@ bool follow_matter(inout Path path)
     return true;
 }
 
+// Into a solid that lets `inside` through over a unit of the world, or out of it.
+void cross_surface(inout Path path, Point point, vec3 inside)
+{
+    Medium solid = no_medium();
+    solid.body = side_of(met, path.direction) & ~IS_BODY;
+    solid.extinction = -log(max(inside, 1e-30));
+    if (AS_DRAWN) {
+        path.phase = CROSSING;
+        path.through *= inside;
+    } else if (dot(point.facet, path.direction) < 0.0)
+        enter_medium(path, solid);
+    else
+        leave_medium(path, solid.body);
+}
+
 // Where a path goes that has met a surface.
 void bounce(inout Path path, Point point, vec4 towards)
 {
@@ -482,18 +498,8 @@ void bounce(inout Path path, Point point, vec4 towards)
     path.medium.collisions = 0u;
     if (!is_light(is_first ? max(path.weight, most[BY_PATH]) : path.through))
         path.phase = ENDED;
-    else if (next.w > 0.5 && AS_DRAWN) {
-        path.phase = CROSSING;
-        path.through *= inside;
-    } else if (next.w > 0.5) { // into a solid or out of it
-        Medium solid = no_medium();
-        solid.body = side_of(met, path.direction) & ~IS_BODY;
-        solid.extinction = -log(max(inside, 1e-30));
-        if (dot(point.facet, path.direction) < 0.0)
-            enter_medium(path, solid);
-        else
-            leave_medium(path, solid.body);
-    }
+    else if (next.w > 0.5)
+        cross_surface(path, point, inside);
 }
 
 // Goes to the next surface; false where it has to wait.
@@ -555,6 +561,7 @@ bool cross_solid(inout Path path)
     if (what == ANOTHERS)
         return wait(path, hit);
     vec3 behind = path.direction;
+    at_level = vec2(-1.0, path.matter.y);
     for (int i = 0; what == OURS && i < 16; ++i) {
         Point point = shade(hit, path.direction, vec4(0.0));
         if (out2.w > 0.5 && dot(out2.xyz, point.facet) > 0.0) {

@@ -444,8 +444,10 @@ bool generation_emit(struct generation *g)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
                                                 : gives_nothing);
-    if (is_emitted)
+    if (is_emitted) {
         generation_tell_forward(g);
+        generation_tell_media(g);
+    }
     return is_good(g) && generation_effects_are_defined(g, &g->result->shader, g->element);
 }
 

@@ -112,6 +112,8 @@ struct slab_budget generation_slab_budget(const struct generation *g);
 bool generation_slab_features(struct generation *g);
 /* Replaces the slabs below the root by their lobes; needs the closures' host. */
 void generation_walk_slabs(struct generation *g);
+/* slabs.c: warns about media that a path tracer does not walk through */
+void generation_tell_media(struct generation *g);
 /* makes the effects of the stages; later steps cannot fail */
 bool generation_emit(struct generation *g);
 bool generation_finish(struct generation *g); /* scheduling and layout */

@@ -181,3 +181,12 @@ bool generation_budget_slabs(struct generation *g)
         report_failure(g, &budget);
     return report->is_met;
 }
+
+void generation_tell_media(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    if (shader->not_walked)
+        diag_add(diags_of(g), DIAG_ID_media_not_walked,
+                 doc_place(&g->document->layer.doc, g->element),
+                 str_text(shader->strings, shader->name), shader->not_walked);
+}

@@ -109,11 +109,14 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha);
 /* A random number from 0 to below alpha. */
 ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha);
 
-/* matter.c: the leaves of a closure as levels from above, which light goes through at random. */
+/* pile.c: the leaves of a closure as levels from above, which light goes through at random. */
 struct closure_level {
-    ir_ref leaf;     /* 0: an EDF, which lets all light through */
+    ir_ref leaf;     /* 0: an EDF or a gate, which let all light through */
     ir_ref emission; /* of an EDF: vec3 */
+    ir_ref gate;     /* vec3: multiplies the light that goes down; 0: 1 */
     ir_ref is_here;  /* a bool, by random; 0: always */
+    ir_ref scale;    /* vec3: multiplies what the leaf reflects; 0: 1 */
+    bool refracts;   /* light that the leaf sends to the other side is in a solid, or leaves one */
     /*
      * of a medium: vec3, over its thickness, and a float. 0: the leaf is none. Of a body: over a
      * unit of the world; light goes on inside the mesh.
@@ -127,8 +130,8 @@ struct closure_pile {
 };
 /*
  * The matter of a surface, and behind it that of BSDFs for AOVs; the host chooses one. False: no
- * level is a medium that light walks through, or a closure is more than layers and mixes of lobes
- * that reflect. is_seen_through: clear media count, too.
+ * level is a medium that light walks through, or a closure is no pile (see pile.c); then
+ * shader->not_walked says why. is_seen_through: clear media count, too.
  */
 bool closure_find_pile(struct shader *shader, const struct closure_host *host,
                        const ir_ref *closures, uint32_t num_closures, bool is_seen_through,

@@ -71,6 +71,11 @@ ir_ref scatter_op2(struct closure_scatter *s, enum ir_op op, ir_ref a, ir_ref b)
     return ir_op2(s->graph, op, a, b);
 }
 
+ir_ref scatter_both(struct ir_graph *g, ir_ref a, ir_ref b)
+{
+    return a && b ? ir_op2(g, IR_LAND, a, b) : a ? a : b;
+}
+
 ir_ref scatter_mean_of(struct closure_scatter *s, ir_ref color)
 {
     return scatter_op2(s, IR_DOT, color, scatter_grey(s, 1.0f / 3.0f));

@@ -304,6 +304,7 @@ struct shader {
     uint32_t num_light_loops, num_sample_loops; /* so far; each has its own lights or samples */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
+    const char *not_walked; /* of it: why its media are tables; NULL: they are not */
     /* rays find its points: the view and the changes to the next pixel are vertex data */
     bool has_rays;
     /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Slabs in the path tracer: means of drawn and traced pictures agree within 3 percent; light that walks through white media is all there,
 # also from behind a sheet; mixes of surfaces are as mixes of their slabs, and AOVs have the light of their closures; a clear sheet takes what
-# Beer and Lambert say; and picks of a closure change the noise, not the mean.
-# Arguments: mxgen-render, mean_ratio, the root of the source tree.
-render=$(realpath "$1") mean_ratio=$(realpath "$2") root=$(realpath "$3")
+# Beer and Lambert say; slabs among closures that add up, are scaled or refract have the light of their parts; and picks of a closure
+# change the noise, not the mean.
+# Arguments: mxgen-render, mean_ratio, mxgen, the root of the source tree.
+render=$(realpath "$1") mean_ratio=$(realpath "$2") mxgen=$(realpath "$3") root=$(realpath "$4")
 examples=$root/examples
 . "$root/tests/programs/light.sh"
 export MESA_SHADER_CACHE_DISABLE=true
@@ -139,6 +140,61 @@ for name in mixed bare; do
     check "$name on a ball" trace $name.exr $name.mtlx Mixed -m sphere --lights none --size 32 --paths 256
 done
 check 'no run loses light' near "$(of "$(channel bare.exr R) / $(channel mixed.exr R)")" 1 0.02
+
+# Slabs among other closures. A coat that is as clear as air makes a pile of what is a list of leaves without it.
+cat >among.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <slab name="milk" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.9, 0.5, 0.3"/><input name="mean_free_path" type="vector3" value="0.03, 0.02, 0.01"/></slab>
+  <slab name="air" type="BSDF"><input name="f0" type="color3" value="0, 0, 0"/><input name="mean_free_path" type="vector3" value="1000, 1000, 1000"/></slab>
+  <slab name="ground" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.8, 0.7, 0.2"/></slab>
+  <slab_layer name="coated" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="ground"/></slab_layer>
+  <slab_layer name="bare" type="BSDF"><input name="top" type="BSDF" nodename="air"/><input name="base" type="BSDF" nodename="ground"/></slab_layer>
+  <oren_nayar_diffuse_bsdf name="paper" type="BSDF"><input name="color" type="color3" value="0.3, 0.4, 0.5"/></oren_nayar_diffuse_bsdf>
+  <multiply name="tinted" type="BSDF"><input name="in1" type="BSDF" nodename="coated"/><input name="in2" type="color3" value="0.9, 0.5, 0.2"/></multiply>
+  <multiply name="some" type="BSDF"><input name="in1" type="BSDF" nodename="paper"/><input name="in2" type="float" value="0.4"/></multiply>
+  <multiply name="rest" type="BSDF"><input name="in1" type="BSDF" nodename="coated"/><input name="in2" type="float" value="0.6"/></multiply>
+  <add name="sum" type="BSDF"><input name="in1" type="BSDF" nodename="some"/><input name="in2" type="BSDF" nodename="rest"/></add>
+  <sheen_bsdf name="dust" type="BSDF"><input name="weight" type="float" value="0.8"/></sheen_bsdf>
+  <multiply name="red" type="BSDF"><input name="in1" type="BSDF" nodename="dust"/><input name="in2" type="color3" value="0.9, 0.1, 0.1"/></multiply>
+  <dielectric_bsdf name="glass" type="BSDF"><input name="scatter_mode" type="string" value="RT"/><input name="roughness" type="vector2" value="0.1, 0.1"/></dielectric_bsdf>
+  <surface name="Coated" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="coated"/></surface>
+  <surface name="Paper" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="paper"/></surface>
+  <surface name="Tinted" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="tinted"/></surface>
+  <surface name="Sum" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="sum"/></surface>
+XML
+# pair NAME NODE INPUT INPUT ATTRIBUTE...: NAMEPile and NAMEList, with the ground below air in the first.
+pair() {
+    local ground
+    for ground in bare ground; do
+        name=$1$([ $ground = bare ] && echo Pile || echo List)
+        printf '  <%s name="%s_" type="BSDF">' "$2" "$name"
+        printf '<input name="%s" type="BSDF" nodename="%s"/>' "$3" "${4/ground/$ground}" "$5" "${6/ground/$ground}"
+        printf '%s</%s>\n  <surface name="%s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="%s_"/></surface>\n' "${7:-}" "$2" "$name" "$name"
+    done >>among.mtlx
+}
+pair Dusty layer top red base ground
+pair Chipped mix fg ground bg glass '<input name="mix" type="float" value="0.4"/>'
+echo '</materialx>' >>among.mtlx
+for element in Coated Paper Tinted Sum DustyPile DustyList ChippedPile ChippedList; do
+    check "$element is traced" trace $element.exr among.mtlx $element -m sphere --lights none --size 32 --paths 256
+done
+for channel in 'R 0.9' 'G 0.5' 'B 0.2'; do
+    # shellcheck disable=SC2086 # a name and a number
+    set -- $channel
+    coated=$(channel Coated.exr "$1")
+    check "a scaled pile, $1" near "$(ratio "$(channel Tinted.exr "$1")" "$coated")" "$2" 0.02
+    check "a sum, $1" near "$(of "$(channel Sum.exr "$1") / ($(channel Paper.exr "$1") * 0.4 + $coated * 0.6)")" 1 0.02
+    check "dust with a scale, $1" near "$(of "$(channel DustyPile.exr "$1") / $(channel DustyList.exr "$1")")" 1 0.02
+    check "beside glass, $1" near "$(of "$(channel ChippedPile.exr "$1") / $(channel ChippedList.exr "$1")")" 1 0.02
+done
+for element in ChippedPile ChippedList; do
+    check "$element as drawn" trace drawn_$element.exr among.mtlx $element -m sphere --lights none --size 32 --paths 256 --as-drawn
+done
+check 'beside glass, as drawn' near "$("$mean_ratio" drawn_ChippedPile.exr drawn_ChippedList.exr)" 1 0.01
+for element in Coated Tinted Sum DustyPile ChippedPile; do # or the pictures compare lists of leaves
+    check "$element is a pile" eval "'$mxgen' among.mtlx -e $element --integrator scatter --stdout | grep -q out9"
+done
 
 # Picks of a closure.
 check 'one pick' trace one.exr "$examples/slabs.mtlx" CarPaint -m sphere --lights none --size 32 --paths 512
