@@ -71,13 +71,12 @@ void meet_lobe(inout Path path, Point point, vec4 towards)
     path.goes = out2.w > 0.5 ? ACROSS : BENT;
 }
 
-// A lobe has refracted light: it goes into a solid, or out of it.
-void leave_refracted(inout Path path, Point point)
+// Away from the surface, where the path has met it.
+void leave_at_once(inout Path path, Point point)
 {
     path.phase = GOING;
     path.origin = beside(point, path.direction);
     path.medium.collisions = 0u;
-    cross_surface(path, point, out4.rgb);
 }
 
 // Leaves the pile.
@@ -100,7 +99,7 @@ void leave_matter(inout Path path, Point point, vec4 towards, bool is_even)
 // Goes through the level for which scatter() has run.
 void go_through(inout Path path, Point point, vec4 towards)
 {
-    bool is_body = out4.w > 0.5, is_even = out10.r + out10.g + out10.b > 0.0;
+    bool is_body = out4.w == 1.0, is_even = out10.r + out10.g + out10.b > 0.0;
     if ((path.goes & DOWN) != 0u)
         path.light += path.through * out1.rgb;
     if ((path.goes & OUT) != 0u) {
@@ -117,7 +116,10 @@ void go_through(inout Path path, Point point, vec4 towards)
     else if ((path.goes & DOWN) != 0u)
         meet_lobe(path, point, towards);
     if (path.goes == ACROSS) {
-        leave_refracted(path, point);
+        if (AS_DRAWN && path.matter.x >= 0.0)
+            path.through *= out11.rgb; // it comes out through the same media
+        leave_at_once(path, point);
+        cross_surface(path, point, out4.rgb);
         return;
     }
     bool down = (path.goes & DOWN) != 0u;
@@ -142,6 +144,31 @@ void begin_light(inout Path path)
     path.through *= float(PARTS);
 }
 
+// Light in a solid meets the lobe that leads out of it, or a body, which sends it back.
+void meet_from_solid(inout Path path, Point point, vec4 towards)
+{
+    path.light += path.through * out1.rgb;
+    if (out4.w == 1.0) {
+        count_turn(path);
+        path.direction = draw_cosine(frame_of(point.normal), 1.0, next_random().xy);
+        path.density = 0.0;
+        path.goes = 0u;
+    } else
+        meet_lobe(path, point, towards);
+    if (path.goes != ACROSS) {
+        leave_at_once(path, point);
+        return;
+    }
+    cross_surface(path, point, vec3(1.0));
+    path.side ^= 1u; // light comes out on the other one
+    path.goes = BENT;
+    path.depth = 1.0;
+    path.matter.x = out11.w;
+    path.phase = IN_MATTER;
+    if (path.matter.x < 0.0)
+        leave_matter(path, point, towards, false);
+}
+
 void enter_matter(inout Path path, Hit hit, Point point, vec4 towards)
 {
     if (path.turns == 0u)
@@ -151,7 +178,10 @@ void enter_matter(inout Path path, Hit hit, Point point, vec4 towards)
     path.matter = at_level;
     path.goes = DOWN | BENT;
     path.depth = 0.0;
-    go_through(path, point, towards);
+    if (at_level.x == FROM_SOLID && out4.w > 0.5)
+        meet_from_solid(path, point, towards);
+    else
+        go_through(path, point, towards);
 }
 
 void go_on_in_matter(inout Path path)

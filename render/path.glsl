@@ -309,6 +309,7 @@ void enter_medium(inout Path path, Medium medium);
 void leave_medium(inout Path path, uint body);
 void copy_media(Path path, inout Shadow ray, uint number);
 bool is_in_body(Path path);
+bool is_same_object(uint body, uint other);
 
 // ---- Lights ----
 
@@ -368,6 +369,8 @@ vec3 meet_environment(vec3 direction, float density)
 
 // Why a path waits.
 const uint AT_HIT = 1u, AT_REST = 2u;
+
+const float FROM_SOLID = -2.0; // a level: the first one for light in the solid that the surface bounds
 
 // What a ray meets.
 const int NOTHING = 0, OURS = 1, ANOTHERS = 2, RESTS = 3; // RESTS: the path has worked enough for now
@@ -535,7 +538,8 @@ bool follow_ray(inout Path path)
         return true;
     }
     vec4 towards = draw_environment(next_random());
-    at_level = vec2(-1.0, next_random().x * (path.turns == 0u ? float(PARTS) : 1.0));
+    bool leaves = is_same_object(side_of(hit, path.direction), path.medium.body) && !is_in_body(path);
+    at_level = vec2(leaves ? FROM_SOLID : -1.0, next_random().x * (path.turns == 0u ? float(PARTS) : 1.0));
     pick = path.turns == 0u ? path.number % PICKS : PICKS;
     Point point = shade(hit, path.direction, towards);
     pick = PICKS;
@@ -561,7 +565,7 @@ bool cross_solid(inout Path path)
     if (what == ANOTHERS)
         return wait(path, hit);
     vec3 behind = path.direction;
-    at_level = vec2(-1.0, path.matter.y);
+    at_level = vec2(FROM_SOLID, path.matter.y);
     for (int i = 0; what == OURS && i < 16; ++i) {
         Point point = shade(hit, path.direction, vec4(0.0));
         if (out2.w > 0.5 && dot(out2.xyz, point.facet) > 0.0) {

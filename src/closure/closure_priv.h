@@ -117,6 +117,7 @@ struct closure_level {
     ir_ref is_here;  /* a bool, by random; 0: always */
     ir_ref scale;    /* vec3: multiplies what the leaf reflects; 0: 1 */
     bool refracts;   /* light that the leaf sends to the other side is in a solid, or leaves one */
+    ir_ref solid;    /* vec3: transmittance of the solid over a unit of length; 0: 1 */
     /*
      * of a medium: vec3, over its thickness, and a float. 0: the leaf is none. Of a body: over a
      * unit of the world; light goes on inside the mesh.
@@ -136,6 +137,9 @@ struct closure_pile {
 bool closure_find_pile(struct shader *shader, const struct closure_host *host,
                        const ir_ref *closures, uint32_t num_closures, bool is_seen_through,
                        struct closure_pile *out);
+
+/* flatten.c: of a VDF, over a unit of length: exp(-absorption), Beer's law; 0: 1. */
+ir_ref closure_transmittance(struct shader *shader, const struct closure_host *host, ir_ref volume);
 
 /* volume.c: a volume behind the shaded point. */
 struct closure_volume {

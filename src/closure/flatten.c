@@ -268,16 +268,15 @@ static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref 
     add_weight(f, ref, w);
 }
 
-/* The transmittance of a volume over a unit of length: exp(-absorption), Beer's law. */
-static ir_ref medium_of(struct flattener *f, ir_ref volume)
+ir_ref closure_transmittance(struct shader *shader, const struct closure_host *host, ir_ref volume)
 {
-    struct ir_graph *g = f->graph;
+    struct ir_graph *g = shader->graph;
     struct closure_list list;
-    closure_flatten(f->shader, f->host, volume, &list);
+    closure_flatten(shader, host, volume, &list);
     ir_ref sum = 0;
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         const struct closure_leaf *leaf = &list.leaves.items[i];
-        ir_ref absorption = closure_call(f->shader, f->host, leaf->leaf, LEAF_ABSORPTION, NULL);
+        ir_ref absorption = closure_call(shader, host, leaf->leaf, LEAF_ABSORPTION, NULL);
         if (!absorption)
             continue;
         absorption = closure_mul(g, absorption, closure_mul(g, leaf->color, leaf->scalar));
@@ -296,7 +295,7 @@ static void spread(struct flattener *f, ir_ref ref, struct weight w)
     if (op == IR_LAYER) {
         /* a volume behind changes only refracted light */
         if (b && ir_type_of(g, b) == IR_TYPE_VDF)
-            w.medium = closure_mul(g, w.medium, medium_of(f, b));
+            w.medium = closure_mul(g, w.medium, closure_transmittance(f->shader, f->host, b));
         else if (b) {
             struct weight below = w;
             below.decay = closure_both_decays(g, w.decay, decay_of(f, a));

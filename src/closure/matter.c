@@ -7,19 +7,21 @@
  *
  * The tracer asks for one level after the other:
  *
- *     matter = vec2(level, or below 0 the first one; random number)
+ *     matter = vec2(level, or -1 the first one, or -2 for light in a solid; random number)
  *         the number is from 0 to below 1 for the surface, and k higher for the BSDF of the AOV k,
  *         which is a pile of its own and has the weight 1 where its light is asked for
- *     a lobe: light from above is reflected by it, goes on as it came, or into a solid or out of
- * it: out2 = vec4(L, 2 where it goes on, 1 where it is refracted);  out3 = vec4(weight, density) a
- * medium, where the extinction is not 0: the tracer walks through it, and lights it itself: out5,
- * out7 = the light of a surface that reflects 1 from everywhere a body, where out4.w is 1: the
- * same, but light goes on inside the mesh out9 = vec4(scattering, phase anisotropy), out10 =
- * vec4(extinction, the level below or -1), both over the thickness, or of a body over a unit of the
- * world out11 = vec4(what goes straight through the whole pile, the medium above or -1) out12 =
- * vec4(extinction, level) of the body that is there; the level is -1 where none is there, and -2 in
- * a pile that has none out13 = vec4(factor of light that comes from outside the pile, 0); out11
- * includes it
+ *     a lobe: light from above is reflected by it, goes on as it came, or is refracted:
+ *         out2 = vec4(L, 2 where it goes on, 1 where it is refracted)
+ *         out3 = vec4(weight, density)
+ *     a lobe that refracts, where out4.w is 2: it comes first for light in a solid
+ *     a medium, where the extinction is not 0: the tracer walks through it, and lights it itself:
+ *         out5, out7 = the light of a surface that reflects 1 from everywhere
+ *     a body, where out4.w is 1: the same, but light goes on inside the mesh
+ *     out9 = vec4(scattering, phase anisotropy), out10 = vec4(extinction, the level below or -1),
+ *         both over the thickness, or of a body over a unit of the world
+ *     out11 = vec4(what goes straight through the whole pile, the medium above or -1)
+ *     out12 = vec4(extinction, level) of the body that is there; the level is -1 where none is
+ *         there, and -2 in a pile that has none
  *
  * A tracer that does not follow light into a body takes the levels below, which stand for it. Light
  * that comes back from below pays for media alone, as in docs/slabs.md; where a level is asked for,
@@ -80,13 +82,14 @@ static ir_ref throughput(struct closure_scatter *s, ir_ref leaf)
 /* What a level lets through of light that goes straight on, towards the viewer. */
 static ir_ref straight(struct closure_scatter *s, const struct closure_level *level, ir_ref slope)
 {
+    ir_ref black = scatter_grey(s, 0.0f), white = scatter_grey(s, 1.0f);
     if (!level->leaf)
-        return level->gate ? level->gate : scatter_grey(s, 1.0f);
+        return level->gate ? where(s, s->enters, level->gate, white) : white;
     if (level->refracts)
-        return scatter_grey(s, 0.0f);
+        return ir_op3(s->graph, IR_SELECT, s->enters, black, white);
     ir_ref through = throughput(s, level->leaf);
     if (!level->extinction)
-        return where(s, s->enters, through, scatter_grey(s, 1.0f));
+        return where(s, s->enters, through, white);
     ir_ref is_medium = has_extinction(s, level);
     return where(s, is_medium, attenuation(s, level->extinction, slope), through);
 }
@@ -166,7 +169,10 @@ ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid
     for (uint32_t i = 0; i < s->pile->levels.len; i++) {
         const struct closure_level *level = level_of(s, i);
         ir_ref lobe = lobe_response(s, level, direction, solid_angle);
-        values[i] = scatter_op2(s, IR_MUL, lobe, attenuation(s, above, way));
+        ir_ref passed = attenuation(s, above, way);
+        if (level->refracts)
+            passed = where(s, s->exits, scatter_grey(s, 1.0f), passed);
+        values[i] = scatter_op2(s, IR_MUL, lobe, passed);
         if (!level->extinction)
             continue;
         ir_ref is_medium = has_extinction(s, level);
@@ -194,6 +200,15 @@ static ir_ref next_level(struct closure_scatter *s, ir_ref after)
     return next;
 }
 
+/* The lobe that leads out of a solid, where one is there; else `other`. */
+static ir_ref way_out(struct closure_scatter *s, ir_ref other)
+{
+    for (uint32_t i = s->pile->levels.len; i-- > 0;)
+        if (level_of(s, i)->refracts)
+            other = where(s, level_of(s, i)->is_here, scatter_number(s, (float)i), other);
+    return other;
+}
+
 /* The last medium that is there above the level at hand. */
 static ir_ref medium_above(struct closure_scatter *s)
 {
@@ -210,12 +225,16 @@ static ir_ref medium_above(struct closure_scatter *s)
 }
 
 /* A sample that refracts is known to no light. */
-static void sample_refraction(struct closure_scatter *s, ir_ref direction, ir_ref *density)
+static void sample_refraction(struct closure_scatter *s, const struct closure_level *level,
+                              ir_ref direction, ir_ref *density)
 {
     ir_ref in_front = scatter_is_in_front(s, direction), nothing = scatter_number(s, 0.0f);
     *density = where(s, in_front, *density, nothing);
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside,
                    where(s, in_front, nothing, scatter_number(s, 1.0f)));
+    if (level->solid)
+        scatter_effect(s, EFFECT_ASSIGN, s->medium,
+                       ir_convert(s->graph, IR_TYPE_VEC3, level->solid));
 }
 
 /* A lobe reflects light, or lets it go on. */
@@ -235,7 +254,7 @@ static void sample_lobe(struct closure_scatter *s, const struct closure_level *l
     scatter_effect(s, EFFECT_ASSIGN, s->direction, results[0]);
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside, scatter_number(s, 0.0f));
     if (level->refracts)
-        sample_refraction(s, results[0], &density);
+        sample_refraction(s, level, results[0], &density);
     scatter_effect(s, EFFECT_ASSIGN, s->parts[0].weight,
                    closure_mul(s->graph, weight, level->scale));
     scatter_effect(s, EFFECT_ASSIGN, s->density, density);
@@ -267,8 +286,10 @@ void matter_sample(struct closure_scatter *s)
     ir_ref matter = shader_stream(s->shader, STR_matter, IR_TYPE_VEC2);
     ir_ref asked = ir_component(s->graph, matter, 0), nothing = scatter_number(s, 0.0f);
     ir_ref enters = scatter_op2(s, IR_LT, asked, nothing);
+    ir_ref first = next_level(s, 0);
     s->enters = enters;
-    s->level = where(s, enters, next_level(s, 0), asked);
+    s->exits = scatter_op2(s, IR_LT, asked, scatter_number(s, -1.5f));
+    s->level = where(s, enters, where(s, s->exits, way_out(s, first), first), asked);
     /* what lies on the pile shines once */
     ir_ref on_top = where(s, enters, s->emission, scatter_grey(s, 0.0f));
     s->emission = scatter_op2(s, IR_ADD, on_top, emission_at_hand(s));
@@ -293,11 +314,15 @@ void matter_sample(struct closure_scatter *s)
     }
 }
 
-ir_ref matter_is_body(struct closure_scatter *s)
+ir_ref matter_inside(struct closure_scatter *s)
 {
     ir_ref *values = new_values(s);
-    for (uint32_t i = 0; i < s->pile->levels.len; i++)
-        values[i] = level_of(s, i)->is_body ? scatter_number(s, 1.0f) : 0;
+    for (uint32_t i = 0; i < s->pile->levels.len; i++) {
+        const struct closure_level *level = level_of(s, i);
+        values[i] = level->is_body    ? scatter_number(s, 1.0f)
+                    : level->refracts ? scatter_number(s, 2.0f)
+                                      : 0;
+    }
     return at_hand(s, values, scatter_number(s, 0.0f));
 }
 

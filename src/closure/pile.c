@@ -7,11 +7,10 @@
  *     mix(bg, fg, m)     one or the other
  *     a leaf's weight    whether it is there
  *     add(a, b)          one or the other behind a gate of 2, where neither lets light through
- *     scale(a, c)        behind a gate of c, where a lets no light through; or of a leaf that is no
- *                        medium, what it reflects
+ *     scale(a, c)        behind a gate of c, where a lets no light through or nothing lies below
+ * it; or of a leaf that is no medium, what it reflects
  *
- * A leaf that refracts leads into a solid, so nothing may lie above or below it, and no body may
- * fill the mesh.
+ * A leaf that refracts leads into a solid, so nothing may lie below it but the medium of the solid.
  */
 #include "closure/scatter.h"
 
@@ -25,16 +24,16 @@ struct finder {
     struct ir_graph *graph;
     const struct closure_host *host;
     struct closure_pile *pile;
-    ir_ref number;  /* not used so far: even from 0 to below 1 */
-    bool refracts;  /* a leaf does */
-    bool is_seen_through, any_medium, any_body;
-    const char *why; /* the closure is no pile; NULL: it is */
+    ir_ref number; /* not used so far: even from 0 to below 1 */
+    bool is_seen_through, any_medium, any_walk, any_solid; /* any_walk: of a medium */
+    const char *why;                                       /* the closure is no pile; NULL: it is */
 };
 
 struct operand {
     ir_ref ref, is_here;
     ir_ref scale;  /* of what its leaves reflect; 0: 1 */
-    bool is_alone; /* nothing lies above or below it */
+    ir_ref medium; /* transmittance of the solid behind; 0: 1 */
+    bool is_last;  /* nothing lies below it */
 };
 
 static bool is_float(const struct ir_graph *g, ir_ref value)
@@ -45,7 +44,8 @@ static bool is_float(const struct ir_graph *g, ir_ref value)
 static ir_ref limited(struct ir_graph *g, ir_ref chance)
 {
     ir_type_id type = ir_type_of(g, chance);
-    return ir_op3(g, IR_CLAMP, chance, ir_const_splat(g, type, 0.0f), ir_const_splat(g, type, 1.0f));
+    return ir_op3(g, IR_CLAMP, chance, ir_const_splat(g, type, 0.0f),
+                  ir_const_splat(g, type, 1.0f));
 }
 
 /* True with this chance; the number becomes another one, which a chance above 1 would crowd. */
@@ -84,9 +84,8 @@ static void find_medium(struct finder *f, struct closure_level *level)
     level->extinction = extinction;
     level->anisotropy = closure_call(f->shader, f->host, level->leaf, LEAF_ANISOTROPY, NULL);
     level->is_body = !closure_has(f->shader, f->host, level->leaf, LEAF_SAMPLE);
-    f->any_body |= level->is_body;
-    f->any_medium |=
-        level->is_body || f->is_seen_through || !ir_const_is(f->graph, scattering, 0.0f);
+    f->any_medium = true;
+    f->any_walk |= level->is_body || f->is_seen_through || !ir_const_is(f->graph, scattering, 0.0f);
 }
 
 static void add_level(struct finder *f, struct closure_level level)
@@ -113,16 +112,17 @@ static void add_leaf(struct finder *f, struct operand at)
         refuse(f, "one of its closures comes from a library");
         return;
     }
-    struct closure_level level = {.leaf = at.ref, .is_here = at.is_here, .scale = at.scale};
+    struct closure_level level = {
+        .leaf = at.ref, .is_here = at.is_here, .scale = at.scale, .solid = at.medium};
     level.refracts = scatter_refracts(&s, at.ref);
-    f->refracts |= level.refracts;
+    f->any_solid |= level.refracts;
     find_medium(f, &level);
     if (!is_float(f->graph, weight))
         refuse(f, share_has_colors);
     else if (!ir_const_is(f->graph, weight, 1.0f))
         level.is_here = scatter_both(f->graph, at.is_here, draw(f, weight));
-    if (level.refracts && !at.is_alone)
-        refuse(f, "a closure that refracts lies on another one, or below it");
+    if (level.refracts && !at.is_last)
+        refuse(f, "a closure that refracts lies on another one");
     if (level.scale && level.extinction)
         refuse(f, scaled_medium);
     add_level(f, level);
@@ -171,7 +171,7 @@ static struct operand open_scale(struct finder *f, struct operand of)
     struct operand out = of;
     ir_ref scale = limited(f->graph, ir_arg(f->graph, of.ref, 1));
     out.ref = ir_arg(f->graph, of.ref, 0);
-    if (is_opaque(f, out.ref)) {
+    if (is_opaque(f, out.ref) || (of.is_last && !f->is_seen_through)) {
         add_gate(f, of, scale);
         return out;
     }
@@ -197,17 +197,17 @@ static void open_operands(struct finder *f, struct operand of, struct operand ou
         out[1] = open_scale(f, of);
         return;
     }
-    if (of.scale)
+    if (of.scale) /* of more than a lobe */
         refuse(f, scaled_medium);
     out[0] = out[1] = of;
     out[0].ref = ir_arg(f->graph, of.ref, 1);
     out[1].ref = ir_arg(f->graph, of.ref, 0);
-    if (node.op == IR_LAYER) {
-        out[0].is_alone = out[1].is_alone = false;
-        if (out[0].ref && ir_type_of(f->graph, out[0].ref) != IR_TYPE_BSDF) {
-            refuse(f, "a volume lies behind one of its closures");
-            out[0].ref = 0;
-        }
+    if (node.op == IR_LAYER && out[0].ref && ir_type_of(f->graph, out[0].ref) == IR_TYPE_VDF) {
+        ir_ref medium = closure_transmittance(f->shader, f->host, out[0].ref);
+        out[1].medium = closure_mul(f->graph, of.medium, medium);
+        out[0].ref = 0;
+    } else if (node.op == IR_LAYER) {
+        out[1].is_last = of.is_last && !out[0].ref;
     } else if (node.op == IR_CLOSURE_MIX) {
         ir_ref share = ir_arg(f->graph, of.ref, 2);
         if (is_float(f->graph, share))
@@ -279,9 +279,9 @@ bool closure_find_pile(struct shader *shader, const struct closure_host *host,
     for (uint32_t i = 0; i < num_closures; i++, f.number = number)
         find_levels(&f, (struct operand){.ref = closures[i],
                                          .is_here = out->is_part ? out->is_part[i] : 0,
-                                         .is_alone = true});
-    if (f.any_body && f.refracts)
-        refuse(&f, "it has a body and a closure that refracts");
-    shader->not_walked = f.any_medium ? f.why : NULL;
-    return f.any_medium && !f.why;
+                                         .is_last = true});
+    /* refracted light pays for clear media where it goes in, and where it comes out */
+    bool walks = f.any_walk || (f.any_medium && f.any_solid);
+    shader->not_walked = walks ? f.why : NULL;
+    return walks && !f.why;
 }

@@ -561,8 +561,8 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
     scatter_write_output(s, STR_out2, direction, is_inside);
     ir_ref weight = scatter_read(s, s->parts[0].weight), density = scatter_read(s, s->density);
     scatter_write_output(s, STR_out3, weight, density);
-    ir_ref is_body = s->pile ? matter_is_body(s) : nothing, medium = scatter_read(s, s->medium);
-    scatter_write_output(s, STR_out4, medium, is_body);
+    ir_ref inside = s->pile ? matter_inside(s) : nothing, medium = scatter_read(s, s->medium);
+    scatter_write_output(s, STR_out4, medium, inside);
     ir_ref seen = s->is_stack ? scatter_read(s, s->parts[0].seen_local) : seen_of(s, 0);
     scatter_write_output(s, STR_out5, seen, nothing);
     if (s->lighting->lights && !s->is_stack)

@@ -45,7 +45,7 @@ struct closure_scatter {
     ir_ref emission;
     const struct closure_pile *pile; /* NULL: a list of leaves */
     ir_ref level;                    /* of a pile: float, the level at hand */
-    ir_ref enters;                   /* a bool: light comes from outside the pile */
+    ir_ref enters, exits;            /* bools: light comes to the pile, and out of a solid */
 };
 
 void scatter_effect(struct closure_scatter *s, enum effect_kind kind, uint32_t index, ir_ref value);
@@ -90,8 +90,8 @@ void scatter_write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir
 ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid_angle);
 /* The emission of the level at hand, and its sample. */
 void matter_sample(struct closure_scatter *s);
-/* A float: 1 where the level at hand is a body. */
-ir_ref matter_is_body(struct closure_scatter *s);
+/* A float: 1 where the level at hand is a body, 2 where it refracts. */
+ir_ref matter_inside(struct closure_scatter *s);
 /* The outputs that only piles have. */
 void matter_write(struct closure_scatter *s);
 

@@ -175,8 +175,21 @@ pair() {
 }
 pair Dusty layer top red base ground
 pair Chipped mix fg ground bg glass '<input name="mix" type="float" value="0.4"/>'
-echo '</materialx>' >>among.mtlx
-for element in Coated Paper Tinted Sum DustyPile DustyList ChippedPile ChippedList; do
+cat >>among.mtlx <<'XML'
+  <slab name="amber" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0, 0, 0"/>
+    <input name="mean_free_path" type="vector3" value="0.05, 0.03, 0.02"/></slab>
+  <dielectric_bsdf name="gas" type="BSDF"><input name="scatter_mode" type="string" value="RT"/><input name="ior" type="float" value="1"/>
+    <input name="roughness" type="vector2" value="0.05, 0.05"/></dielectric_bsdf>
+  <anisotropic_vdf name="green" type="VDF"><input name="absorption" type="vector3" value="1, 0.1, 0.7"/></anisotropic_vdf>
+  <layer name="filled" type="BSDF"><input name="top" type="BSDF" nodename="glass"/><input name="base" type="VDF" nodename="green"/></layer>
+  <slab_layer name="bottle" type="BSDF"><input name="top" type="BSDF" nodename="air"/><input name="base" type="BSDF" nodename="filled"/></slab_layer>
+  <slab_layer name="balloon" type="BSDF"><input name="top" type="BSDF" nodename="amber"/><input name="base" type="BSDF" nodename="gas"/></slab_layer>
+  <surface name="BottlePile" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="bottle"/></surface>
+  <surface name="BottleList" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="filled"/></surface>
+  <surface name="Balloon" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="balloon"/></surface>
+</materialx>
+XML
+for element in Coated Paper Tinted Sum DustyPile DustyList ChippedPile ChippedList BottlePile BottleList Balloon; do
     check "$element is traced" trace $element.exr among.mtlx $element -m sphere --lights none --size 32 --paths 256
 done
 for channel in 'R 0.9' 'G 0.5' 'B 0.2'; do
@@ -186,13 +199,16 @@ for channel in 'R 0.9' 'G 0.5' 'B 0.2'; do
     check "a scaled pile, $1" near "$(ratio "$(channel Tinted.exr "$1")" "$coated")" "$2" 0.02
     check "a sum, $1" near "$(of "$(channel Sum.exr "$1") / ($(channel Paper.exr "$1") * 0.4 + $coated * 0.6)")" 1 0.02
     check "dust with a scale, $1" near "$(of "$(channel DustyPile.exr "$1") / $(channel DustyList.exr "$1")")" 1 0.02
+    check "above glass, $1" near "$(of "$(channel BottlePile.exr "$1") / $(channel BottleList.exr "$1")")" 1 0.02
     check "beside glass, $1" near "$(of "$(channel ChippedPile.exr "$1") / $(channel ChippedList.exr "$1")")" 1 0.02
 done
-for element in ChippedPile ChippedList; do
+for element in ChippedPile ChippedList Balloon; do
     check "$element as drawn" trace drawn_$element.exr among.mtlx $element -m sphere --lights none --size 32 --paths 256 --as-drawn
 done
 check 'beside glass, as drawn' near "$("$mean_ratio" drawn_ChippedPile.exr drawn_ChippedList.exr)" 1 0.01
-for element in Coated Tinted Sum DustyPile ChippedPile; do # or the pictures compare lists of leaves
+# light pays for the coat where it goes in and where it comes out
+check 'a balloon, as drawn' near "$("$mean_ratio" drawn_Balloon.exr Balloon.exr)" 1 0.02
+for element in Coated Tinted Sum DustyPile ChippedPile BottlePile Balloon; do # or the pictures compare lists of leaves
     check "$element is a pile" eval "'$mxgen' among.mtlx -e $element --integrator scatter --stdout | grep -q out9"
 done
 
