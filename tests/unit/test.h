@@ -16,7 +16,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static unsigned test_num_passed, test_num_failed;
+/* One of each for all files of a program. */
+__attribute__((weak)) unsigned test_num_passed, test_num_failed;
 
 static inline bool test_count(bool passed, const char *file, int line, const char *what)
 {
