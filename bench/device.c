@@ -324,7 +324,7 @@ int main(int argc, char **argv)
     }
     VkPhysicalDeviceProperties device;
     vkGetPhysicalDeviceProperties(b.gpu.physical, &device);
-    if (bench_is_processor(&b.gpu) && !b.any) {
+    if (gpu_is_processor(&b.gpu) && !b.any) {
         printf("skip: the only Vulkan device is a processor, %s; --any measures it\n",
                device.deviceName);
         return 0;

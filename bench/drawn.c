@@ -25,13 +25,6 @@ double bench_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-bool bench_is_processor(const struct gpu *gpu)
-{
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(gpu->physical, &properties);
-    return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-}
-
 double bench_frame(struct draw_canvas *canvas, struct draw_program *const *programs, size_t count,
                    float *out_pixels)
 {
@@ -39,7 +32,7 @@ double bench_frame(struct draw_canvas *canvas, struct draw_program *const *progr
     double begin = bench_seconds(), seconds = 0;
     if (!draw_frame(canvas, programs, count, out_pixels))
         bench_fail("a frame fails: %s", gpu->reason);
-    if (bench_is_processor(gpu))
+    if (gpu_is_processor(gpu))
         return bench_seconds() - begin;
     if (!draw_frame_seconds(canvas, &seconds))
         bench_fail("the device has no clock");

@@ -14,9 +14,6 @@ _Noreturn void bench_fail(const char *format, ...);
 /* Processor time of this program, in seconds: other programs do not count. */
 double bench_seconds(void);
 
-/* A device that is the processor: programs that share it slow it. */
-bool bench_is_processor(const struct gpu *gpu);
-
 /*
  * Draws a frame; returns its seconds: of a processor, those of this program; of another device,
  * those of its own clock, without the copy of the picture. Fails with what the device says.

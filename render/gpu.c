@@ -72,6 +72,13 @@ static uint32_t find_queue_family(VkPhysicalDevice device)
     return UINT32_MAX;
 }
 
+bool gpu_is_processor(const struct gpu *gpu)
+{
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(gpu->physical, &properties);
+    return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
 /* 0: unfit */
 static int rank_device(VkPhysicalDevice device)
 {

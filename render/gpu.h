@@ -45,6 +45,8 @@ struct gpu_image {
 /* Opens the first device that can draw, hardware before software. Call gpu_close in any case. */
 bool gpu_open(struct gpu *gpu);
 void gpu_close(struct gpu *gpu);
+/* True where the device is the processor, as lavapipe is: programs beside this one slow it. */
+bool gpu_is_processor(const struct gpu *gpu);
 
 /* Keeps the reason of a failure; returns result == VK_SUCCESS. */
 bool gpu_check(struct gpu *gpu, VkResult result, const char *what);

@@ -175,7 +175,7 @@ static void test_payload(struct bench *b, const char *element, int expected)
             printf("    %zu pixels differ\n", differing);
         double db = picture_psnr(forward.pixels, rays.pixels);
         printf("%-14s payload %.1f dB, %zu pixels differ\n", element, db, differing);
-        picture_require(db, expected);
+        picture_require(b, db, expected, LIMIT_ROUNDED);
     }
     drawing_close(&rays);
     drawing_close(&forward);
