@@ -110,7 +110,7 @@ bool meet_boundary(inout Path path, Hit hit)
 {
     uint side = side_of(hit, path.direction), at = find_around(OF_PATH, path.around, side);
     bool is_own = is_same_object(side, path.medium.body);
-    if (is_own && !is_in_body(path)) // in a solid
+    if (is_in_solid(path, side))
         return false;
     if (!is_own && at == path.around)
         return false;

@@ -88,7 +88,9 @@ void leave_matter(inout Path path, Point point, vec4 towards, bool is_even)
         path.phase = ENDED;
         return;
     }
-    if (has_inside && !AS_DRAWN)
+    if (down && is_in_solid(path, path.side))
+        leave_medium(path, path.medium.body);
+    else if (has_inside && !AS_DRAWN)
         enter_hollow(path, path.matter.y);
     if (is_even && (path.goes & BENT) == 0u)
         leave_evenly(path, point, down ? -point.normal : point.normal, towards);
@@ -148,7 +150,7 @@ void begin_light(inout Path path)
 void meet_from_solid(inout Path path, Point point, vec4 towards)
 {
     path.light += path.through * out1.rgb;
-    if (out4.w == 1.0) {
+    if (out4.w < 1.5) {
         count_turn(path);
         path.direction = draw_cosine(frame_of(point.normal), 1.0, next_random().xy);
         path.density = 0.0;
@@ -178,7 +180,7 @@ void enter_matter(inout Path path, Hit hit, Point point, vec4 towards)
     path.matter = at_level;
     path.goes = DOWN | BENT;
     path.depth = 0.0;
-    if (at_level.x == FROM_SOLID && out4.w > 0.5)
+    if (at_level.x == FROM_SOLID && (out4.w > 1.5 || out12.w > -0.5))
         meet_from_solid(path, point, towards);
     else
         go_through(path, point, towards);

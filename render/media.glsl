@@ -74,6 +74,12 @@ bool is_in_body(Path path)
     return (path.medium.body & IS_BODY) != 0u;
 }
 
+// The solid that this side bounds.
+bool is_in_solid(Path path, uint side)
+{
+    return is_same_object(side, path.medium.body) && !is_in_body(path);
+}
+
 // Out of this object, also where the path is in another one that overlaps. The sides of a solid may be objects of their own.
 void leave_medium(inout Path path, uint body)
 {

@@ -309,7 +309,7 @@ void enter_medium(inout Path path, Medium medium);
 void leave_medium(inout Path path, uint body);
 void copy_media(Path path, inout Shadow ray, uint number);
 bool is_in_body(Path path);
-bool is_same_object(uint body, uint other);
+bool is_in_solid(Path path, uint side);
 
 // ---- Lights ----
 
@@ -538,8 +538,7 @@ bool follow_ray(inout Path path)
         return true;
     }
     vec4 towards = draw_environment(next_random());
-    bool leaves = is_same_object(side_of(hit, path.direction), path.medium.body) && !is_in_body(path);
-    at_level = vec2(leaves ? FROM_SOLID : -1.0, next_random().x * (path.turns == 0u ? float(PARTS) : 1.0));
+    at_level = vec2(is_in_solid(path, side_of(hit, path.direction)) ? FROM_SOLID : -1.0, next_random().x * (path.turns == 0u ? float(PARTS) : 1.0));
     pick = path.turns == 0u ? path.number % PICKS : PICKS;
     Point point = shade(hit, path.direction, towards);
     pick = PICKS;

@@ -270,14 +270,19 @@ static ir_ref gate_at_hand(struct closure_scatter *s)
     return at_hand(s, values, scatter_grey(s, 1.0f));
 }
 
+static ir_ref emission_of(struct closure_scatter *s, const struct closure_level *level)
+{
+    if (!level->leaf)
+        return level->emission;
+    ir_ref light = closure_call(s->shader, s->host, level->leaf, LEAF_EMISSION, NULL);
+    return light && level->scale ? scatter_op2(s, IR_MUL, light, level->scale) : light;
+}
+
 static ir_ref emission_at_hand(struct closure_scatter *s)
 {
     ir_ref *values = new_values(s);
-    for (uint32_t i = 0; i < s->pile->levels.len; i++) {
-        const struct closure_level *level = level_of(s, i);
-        values[i] = level->leaf ? closure_call(s->shader, s->host, level->leaf, LEAF_EMISSION, NULL)
-                                : level->emission;
-    }
+    for (uint32_t i = 0; i < s->pile->levels.len; i++)
+        values[i] = emission_of(s, level_of(s, i));
     return at_hand(s, values, scatter_grey(s, 0.0f));
 }
 

@@ -14,10 +14,11 @@
  */
 #include "closure/scatter.h"
 
-enum { MAX_LEVELS = 48 };
+enum { MAX_LEVELS = 48, MAX_STEPS = 1024 }; /* steps: a closure may have several parents */
 
 static const char share_has_colors[] = "a share of its tree has colours",
-                  scaled_medium[] = "a scaled closure has a medium and lets light through";
+                  scaled_medium[] = "a scaled closure has a medium and lets light through",
+                  too_large[] = "its tree is too large";
 
 struct finder {
     struct shader *shader;
@@ -91,7 +92,7 @@ static void find_medium(struct finder *f, struct closure_level *level)
 static void add_level(struct finder *f, struct closure_level level)
 {
     if (f->pile->levels.len == MAX_LEVELS)
-        refuse(f, "its tree is too large");
+        refuse(f, too_large);
     else
         vec_push(f->shader->arena, &f->pile->levels, level);
 }
@@ -229,8 +230,10 @@ static void find_levels(struct finder *f, struct operand root)
 {
     VEC(struct operand) open = {0};
     vec_push(f->shader->arena, &open, root);
-    while (open.len) {
+    for (uint32_t steps = 0; open.len && f->why != too_large; steps++) {
         struct operand at = vec_last(&open), operands[2];
+        if (steps == MAX_STEPS)
+            f->why = too_large;
         open.len--;
         if (!at.ref)
             continue;

@@ -59,6 +59,12 @@ cat >white.mtlx <<'XML'
   <surface name="Paper" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="paper"/></surface>
   <mix name="Sheets" type="surfaceshader"><input name="bg" type="surfaceshader" nodename="Stack"/><input name="fg" type="surfaceshader" nodename="Sheet"/>
     <input name="mix" type="float" value="0.4"/></mix>
+  <slab name="snow" type="BSDF"><input name="diffuse_albedo" type="color3" value="1, 1, 1"/><input name="f0" type="color3" value="0, 0, 0"/>
+    <input name="mean_free_path" type="vector3" value="20, 20, 20"/></slab>
+  <dielectric_bsdf name="glass" type="BSDF"><input name="scatter_mode" type="string" value="RT"/><input name="roughness" type="vector2" value="0, 0"/></dielectric_bsdf>
+  <mix name="snow_and_glass" type="BSDF"><input name="fg" type="BSDF" nodename="snow"/><input name="bg" type="BSDF" nodename="glass"/><input name="mix" type="float" value="0.5"/></mix>
+  <slab_layer name="under_half" type="BSDF"><input name="top" type="BSDF" nodename="half"/><input name="base" type="BSDF" nodename="snow_and_glass"/></slab_layer>
+  <slab_surface name="Solid" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="under_half"/></slab_surface>
   <surface name="Holes" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="paper"/><input name="opacity" type="float" value="0.6"/></surface>
   <mix name="Mixed" type="surfaceshader"><input name="bg" type="surfaceshader" nodename="Sheets"/><input name="fg" type="surfaceshader" nodename="Holes"/>
     <input name="mix" type="float" value="0.3"/></mix>
@@ -70,7 +76,7 @@ cat >white.mtlx <<'XML'
   <slab_surface name="Clear" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="clear"/><input name="thin" type="boolean" value="true"/></slab_surface>
 </materialx>
 XML
-for element in Stack Sheet Mixed; do
+for element in Stack Sheet Mixed Solid; do # a body beside glass, below a coat that scatters
     check "$element in even light" trace even.exr white.mtlx $element -m sphere --lights none --environment white.hdr --size 32 --paths 256 --bounces 64
     light=$(of "($(channel even.exr R) + $(channel even.exr G) + $(channel even.exr B)) / 3 + 1 - $(channel even.exr A)")
     check "and no light is lost: $element" near "$light" 1 0.01
