@@ -70,6 +70,18 @@ check 'there is none' eval '! grep -q mx_sheen out'
 check 'payloads have code' eval '[ -z "$compile" ] || exits 0 "$compile" "$slabs" --form payload --targets vulkan,glsl'
 echo '<materialx version="1.39"><surface name="Black" type="surfaceshader"/></materialx>' >black.mtlx
 check 'a black surface is traced' exits 0 "$mxgen" black.mtlx --integrator scatter --stdout
+# A sum of a sum with itself, and so on: 2^40 ways from the surface to a closure.
+{
+    printf '<materialx version="1.39"><dielectric_bsdf name="x0" type="BSDF"/>'
+    for i in {0..39}; do
+        printf '<add name="x%d" type="BSDF"><input name="in1" type="BSDF" nodename="x%d"/><input name="in2" type="BSDF" nodename="x%d"/></add>' $((i + 1)) "$i" "$i"
+    done
+    printf '<slab name="milk" type="BSDF"><input name="mean_free_path" type="vector3" value="0.1, 0.1, 0.1"/></slab>'
+    printf '<slab_layer name="all" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="x40"/></slab_layer>'
+    printf '<surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="all"/></surface></materialx>\n'
+} >shared.mtlx
+check 'a pile of shared closures ends' exits 0 timeout 20 "$mxgen" shared.mtlx --target vulkan --integrator scatter --stdout
+check 'and says why it is none' grep -q 'its tree is too large' err
 check 'without a division by 0' eval '! grep -q "/ 0\.0" out'
 
 # Media over media: a weight is a coverage
