@@ -134,7 +134,10 @@ static bool is_operand(const struct ir_graph *g, enum ir_op op, const ir_ref *ar
     bool is_mix = op == IR_CLOSURE_MIX || op == IR_SHADER_MIX;
     *out = args[0];
     if (op == IR_LAYER || op == IR_CLOSURE_ADD) {
-        *out = args[0] ? args[0] : args[1];
+        /* a volume is behind nothing */
+        bool is_lost =
+            !args[0] && op == IR_LAYER && args[1] && ir_type_of(g, args[1]) == IR_TYPE_VDF;
+        *out = args[0] ? args[0] : is_lost ? 0 : args[1];
         return !args[0] || !args[1];
     }
     if (op == IR_CLOSURE_SCALE)

@@ -272,7 +272,9 @@ ir_ref closure_transmittance(struct shader *shader, const struct closure_host *h
 {
     struct ir_graph *g = shader->graph;
     struct closure_list list;
-    closure_flatten(shader, host, volume, &list);
+    struct closure_host at_rest = *host;
+    at_rest.way = 0;
+    closure_flatten(shader, &at_rest, volume, &list);
     ir_ref sum = 0;
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         const struct closure_leaf *leaf = &list.leaves.items[i];
