@@ -126,7 +126,9 @@ static ir_ref layer(struct ir_graph *g, ir_ref top, ir_ref base)
 static ir_ref recognised_layer(const struct recogniser *r, ir_ref top, ir_ref base)
 {
     struct ir_graph *g = r->graph;
-    if (!top || !is_bsdf(g, base)) /* a volume behind */
+    if (r->takes_all && base && !is_bsdf(g, base)) /* a volume is seen through lobes that refract */
+        return top;
+    if (!top || !is_bsdf(g, base))
         return layer(g, top, base);
     ir_ref piece = one_piece(g, top, base);
     if (piece)
@@ -192,11 +194,12 @@ static ir_ref recognise_node(const struct recogniser *r, ir_ref ref)
         args[i] = replaced(r, ir_arg(g, ref, i));
         any |= args[i] != ir_arg(g, ref, i);
     }
-    if (!any)
+    bool is_layer = node.op == IR_LAYER && node.type == IR_TYPE_BSDF;
+    bool has_volume = is_layer && args[1] && !is_bsdf(g, args[1]);
+    if (!any && !(has_volume && r->takes_all))
         return ref;
-    return node.op == IR_LAYER && node.type == IR_TYPE_BSDF
-               ? recognised_layer(r, args[0], args[1])
-               : ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+    return is_layer ? recognised_layer(r, args[0], args[1])
+                    : ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
 }
 
 ir_ref slabs_recognise(struct shader *shader, const struct slabs_host *host, bool takes_all,

@@ -70,6 +70,24 @@ check 'there is none' eval '! grep -q mx_sheen out'
 check 'payloads have code' eval '[ -z "$compile" ] || exits 0 "$compile" "$slabs" --form payload --targets vulkan,glsl'
 echo '<materialx version="1.39"><surface name="Black" type="surfaceshader"/></materialx>' >black.mtlx
 check 'a black surface is traced' exits 0 "$mxgen" black.mtlx --integrator scatter --stdout
+# A volume behind glass has no place behind a slab
+cat >filled.mtlx <<'END'
+<materialx version="1.39">
+  <dielectric_bsdf name="glass" type="BSDF"><input name="scatter_mode" type="string" value="RT"/></dielectric_bsdf>
+  <anisotropic_vdf name="smoke" type="VDF"><input name="absorption" type="vector3" value="1, 0.2, 0.1"/></anisotropic_vdf>
+  <layer name="filled" type="BSDF"><input name="top" type="BSDF" nodename="glass"/><input name="base" type="VDF" nodename="smoke"/></layer>
+  <slab name="red" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.8, 0.1, 0.1"/></slab>
+  <mix name="both" type="BSDF"><input name="fg" type="BSDF" nodename="red"/><input name="bg" type="BSDF" nodename="filled"/><input name="mix" type="float" value="0.4"/></mix>
+  <surface name="Filled" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></surface>
+  <slab_coverage name="nothing" type="BSDF"><input name="in" type="BSDF" nodename="red"/><input name="weight" type="float" value="0"/></slab_coverage>
+  <layer name="hollow" type="BSDF"><input name="top" type="BSDF" nodename="nothing"/><input name="base" type="VDF" nodename="smoke"/></layer>
+  <surface name="Hollow" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="hollow"/></surface>
+</materialx>
+END
+check 'glass with a volume beside a slab becomes one slab' exits 0 "$mxgen" inspect --slabs filled.mtlx -e Filled --max-closures 1
+check 'in two steps' grep -q "one slab for the mix 'both': closures 2 to 1" out
+check 'a volume behind nothing is nothing' exits 0 "$mxgen" filled.mtlx -e Hollow --target vulkan --stdout
+
 # A sum of a sum with itself, and so on: 2^40 ways from the surface to a closure.
 {
     printf '<materialx version="1.39"><dielectric_bsdf name="x0" type="BSDF"/>'
