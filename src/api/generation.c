@@ -406,18 +406,6 @@ static bool cannot_fail(const struct generation *g)
            && closure_is_surface(&g->result->shader, g->root);
 }
 
-/* A payload has no values beside its closure. */
-static void report_lost_aovs(struct generation *g)
-{
-    const struct shader *shader = &g->result->shader;
-    for (uint32_t i = 0; i < shader->aovs.len && generation_packs(g); i++)
-        if (shader->aovs.items[i].is_output && shader->aovs.items[i].element)
-            diag_add(diags_of(g), DIAG_ID_aov_left_out,
-                     doc_place(&g->document->layer.doc, shader->aovs.items[i].element),
-                     str_text(shader->strings, shader->aovs.items[i].name),
-                     "a payload holds one closure");
-}
-
 bool generation_emit(struct generation *g)
 {
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
@@ -439,7 +427,7 @@ bool generation_emit(struct generation *g)
     generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
-    report_lost_aovs(g);
+    generation_tell_lost_aovs(g);
     if (!is_emitted)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
@@ -458,72 +446,6 @@ bool generation_finish(struct generation *g)
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(&g->result->shader, &rules);
     return is_good(g);
-}
-
-/* The slots of the textures that the shader reads, each once. */
-static const char *list_slots(struct generation *g)
-{
-    const struct shader *shader = &g->result->shader;
-    struct text list;
-    str_id last = 0;
-    text_init(&list, &g->scratch);
-    for (uint32_t i = 0; i < shader->interface.len; i++) {
-        const struct shader_variable *v = &shader->variables.items[shader->interface.items[i]];
-        if (v->block != BLOCK_TEXTURES || !v->slot || v->slot == last)
-            continue;
-        last = v->slot;
-        text_fmt(&list, "%s'%s'", list.len ? ", " : "", str_text(shader->strings, last));
-    }
-    return text_cstr(&list);
-}
-
-/* A stack may have more textures than a target can read; reports that. */
-static bool check_textures(struct generation *g)
-{
-    const struct shader *shader = &g->result->shader;
-    const struct target *target = g->result->target;
-    uint32_t first = shader->first_of_block[BLOCK_TEXTURES],
-             num = shader->first_of_block[BLOCK_TEXTURES + 1] - first;
-    while (target && !target->max_textures)
-        target = target->base;
-    if (!g->desc.bindings || !target || num <= target->max_textures)
-        return true;
-    diag_add(diags_of(g), DIAG_ID_texture_limit, doc_place(&g->document->layer.doc, g->element),
-             (unsigned)num, (unsigned)target->max_textures, g->result->target->name, list_slots(g));
-    return false;
-}
-
-/* Reports AOVs beyond the attachments of the host. A path tracer has none. */
-static bool check_outputs(struct generation *g)
-{
-    const struct shader *shader = &g->result->shader;
-    uint32_t num =
-                 shader->first_of_block[BLOCK_OUTPUTS + 1] - shader->first_of_block[BLOCK_OUTPUTS],
-             limit = (uint32_t)g->options[OPTION_max_outputs].number;
-    bool has_one_attachment = shader->has_two_sources && !shader->is_function;
-    struct text list;
-    if (!shader->aovs.len || shader->scatters || generation_packs(g) || g->result->target->closures
-        || num <= (has_one_attachment ? 2 : limit))
-        return true;
-    text_init(&list, &g->scratch);
-    uint32_t last = g->element;
-    for (uint32_t i = 0; i < shader->aovs.len; i++) {
-        if (!shader->aovs.items[i].is_output)
-            continue;
-        text_fmt(&list, "%s'%s'", list.len ? ", " : "",
-                 str_text(shader->strings, shader->aovs.items[i].name));
-        last = shader->aovs.items[i].element ? shader->aovs.items[i].element : last;
-    }
-    if (has_one_attachment) {
-        diag_add(diags_of(g), DIAG_ID_options_clash, doc_place(&g->document->layer.doc, last),
-                 option_key(OPTION_transparency), "dual", "aov",
-                 str_text(&g->result->strings, shader->aovs.items[0].name),
-                 "a blend with two sources has one attachment");
-        return false;
-    }
-    diag_add(diags_of(g), DIAG_ID_aov_limit, doc_place(&g->document->layer.doc, last),
-             (unsigned)num, (unsigned)limit, text_cstr(&list));
-    return false;
 }
 
 /* ---- Spell ---- */
@@ -710,7 +632,7 @@ void generation_run_all(struct generation *g)
     else
         g->result->has_shader =
             built && generation_emit(g) && (!g->desc.only_diagnostics || g->desc.bindings)
-            && generation_finish(g) && check_textures(g) && check_outputs(g)
+            && generation_finish(g) && generation_keeps_textures(g) && generation_keeps_outputs(g)
             && !g->desc.only_diagnostics && (g->desc.without_source || generation_spell(g));
     if (!g->result->has_shader)
         drop_source(g->result);

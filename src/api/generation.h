@@ -197,6 +197,13 @@ bool generation_is_defined(struct generation *g, const struct ir_graph *graph, c
 bool generation_effects_are_defined(struct generation *g, const struct shader *shader,
                                     elem_id where);
 
+/* capacity.c: warns about AOVs that a payload has no room for. */
+void generation_tell_lost_aovs(struct generation *g);
+/* False, after a diagnostic, if a stack has more textures than the target can read. */
+bool generation_keeps_textures(struct generation *g);
+/* False, after a diagnostic, if AOVs are more than the attachments of the host. */
+bool generation_keeps_outputs(struct generation *g);
+
 /* combinations.c: false, after diagnostics, if options have no meaning together. */
 bool generation_check_combinations(struct generation *g);
 /* host_names.c: false, after diagnostics, if a name that the host chooses is none. */

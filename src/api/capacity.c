@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What a host has too little room for: the textures and the AOVs of a shader. */
+#include "api/generation.h"
+
+#include "shader/shader.h"
+
+static struct diag_list *diags_of(struct generation *g)
+{
+    return &g->result->object.diagnostics.list;
+}
+
+void generation_tell_lost_aovs(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    for (uint32_t i = 0; i < shader->aovs.len && generation_packs(g); i++)
+        if (shader->aovs.items[i].is_output && shader->aovs.items[i].element)
+            diag_add(diags_of(g), DIAG_ID_aov_left_out,
+                     doc_place(&g->document->layer.doc, shader->aovs.items[i].element),
+                     str_text(shader->strings, shader->aovs.items[i].name),
+                     "a payload holds one closure");
+}
+
+/* The slots of the textures that the shader reads, each once. */
+static const char *list_slots(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    struct text list;
+    str_id last = 0;
+    text_init(&list, &g->scratch);
+    for (uint32_t i = 0; i < shader->interface.len; i++) {
+        const struct shader_variable *v = &shader->variables.items[shader->interface.items[i]];
+        if (v->block != BLOCK_TEXTURES || !v->slot || v->slot == last)
+            continue;
+        last = v->slot;
+        text_fmt(&list, "%s'%s'", list.len ? ", " : "", str_text(shader->strings, last));
+    }
+    return text_cstr(&list);
+}
+
+bool generation_keeps_textures(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    const struct target *target = g->result->target;
+    uint32_t first = shader->first_of_block[BLOCK_TEXTURES],
+             num = shader->first_of_block[BLOCK_TEXTURES + 1] - first;
+    while (target && !target->max_textures)
+        target = target->base;
+    if (!g->desc.bindings || !target || num <= target->max_textures)
+        return true;
+    diag_add(diags_of(g), DIAG_ID_texture_limit, doc_place(&g->document->layer.doc, g->element),
+             (unsigned)num, (unsigned)target->max_textures, g->result->target->name, list_slots(g));
+    return false;
+}
+
+/* A path tracer has no attachments. */
+bool generation_keeps_outputs(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    uint32_t num =
+                 shader->first_of_block[BLOCK_OUTPUTS + 1] - shader->first_of_block[BLOCK_OUTPUTS],
+             limit = (uint32_t)g->options[OPTION_max_outputs].number;
+    bool has_one_attachment = shader->has_two_sources && !shader->is_function;
+    struct text list;
+    if (!shader->aovs.len || shader->scatters || generation_packs(g) || g->result->target->closures
+        || num <= (has_one_attachment ? 2 : limit))
+        return true;
+    text_init(&list, &g->scratch);
+    uint32_t last = g->element;
+    for (uint32_t i = 0; i < shader->aovs.len; i++) {
+        if (!shader->aovs.items[i].is_output)
+            continue;
+        text_fmt(&list, "%s'%s'", list.len ? ", " : "",
+                 str_text(shader->strings, shader->aovs.items[i].name));
+        last = shader->aovs.items[i].element ? shader->aovs.items[i].element : last;
+    }
+    if (has_one_attachment) {
+        diag_add(diags_of(g), DIAG_ID_options_clash, doc_place(&g->document->layer.doc, last),
+                 option_key(OPTION_transparency), "dual", "aov",
+                 str_text(&g->result->strings, shader->aovs.items[0].name),
+                 "a blend with two sources has one attachment");
+        return false;
+    }
+    diag_add(diags_of(g), DIAG_ID_aov_limit, doc_place(&g->document->layer.doc, last),
+             (unsigned)num, (unsigned)limit, text_cstr(&list));
+    return false;
+}
