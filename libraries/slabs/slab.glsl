@@ -460,8 +460,8 @@ vec4 mx_slab_facet(vec2 roughness, float glint_density, vec2 glint_uv, vec4 glin
 }
 
 // What it sends of the light l that it mirrors to v, over Fresnel's factor, so that the mean is the lobe. Glints are as many as their share of
-// the plane (Walter et al. 2007, equation 41). A visible normal weighs G2 / G1; the last factor undoes the blur by the facet's roughness, which
-// changes the distribution of slopes like its Laplacian does, so that the lobe is within 1 %.
+// the plane (Walter et al. 2007, equation 41). A visible normal weighs G2 / G1. The last factor undoes the blur by the facet's roughness: half a
+// variance, 0.007 in squares of alpha without the far tail, times the Laplacian of 1 / (1 + q)^2, GGX over slopes; the lobe is within 1 %.
 float mx_slab_facet_weight(vec2 alpha, bool is_glint, vec3 m, vec3 v, vec3 l)
 {
     float weight = 4.0 * mx_ggx_smith_visibility(v, l, alpha);
