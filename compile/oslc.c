@@ -60,7 +60,7 @@ static void remove_work(const struct work *work)
     rmdir(work->folder);
 }
 
-/* Its exit code; -1 where it did not run. */
+/* What waitpid tells of it; -1 where it did not run. */
 static int run(const struct work *work)
 {
     posix_spawn_file_actions_t actions;
@@ -82,7 +82,7 @@ static int run(const struct work *work)
         || waitpid(process, &status, 0) != process)
         status = -1;
     posix_spawn_file_actions_destroy(&actions);
-    return status >= 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return status;
 }
 
 /* ---- What it says ---- */
@@ -135,6 +135,17 @@ static void add_fault(struct compiled *out, mxg_stage stage, const char *text)
     compiled_add(out, stage, MXG_SEVERITY_ERROR, 0, text, strlen(text));
 }
 
+static void explain_failure(struct compiled *out, mxg_stage stage, int status)
+{
+    char text[128] = "oslc failed without a message";
+    if (status == -1)
+        snprintf(text, sizeof text, "oslc cannot be started");
+    else if (WIFSIGNALED(status))
+        snprintf(text, sizeof text, "oslc was ended (%s), perhaps because memory ran out",
+                 strsignal(WTERMSIG(status)));
+    add_fault(out, stage, text);
+}
+
 static void compile(struct compiled *out, mxg_stage stage, const char *source)
 {
     struct work work;
@@ -143,10 +154,10 @@ static void compile(struct compiled *out, mxg_stage stage, const char *source)
         return;
     }
     uint32_t before = out->errors;
-    int code = run(&work);
+    int status = run(&work);
     read_log(out, stage, work.log);
-    if (code != 0 && out->errors == before)
-        add_fault(out, stage, "oslc failed without a message");
+    if (status != 0 && out->errors == before)
+        explain_failure(out, stage, status);
     out->stages[stage].body_instructions = count_instructions(work.object);
     remove_work(&work);
 }

@@ -43,6 +43,7 @@ EXPECTED = {
 }
 NETWORK = {"osl_network_ladder20": "network-limit"} # with --osl-network
 GLSL_ONLY = {"verbatim_index_oob", "verbatim_stack"}
+NOT_FOR_OSLC = {"many_fn"} # it inlines each call, so its memory doubles with each level
 
 
 def targets():
@@ -104,7 +105,8 @@ with tempfile.TemporaryDirectory() as folder:
                 check_run(document, target, ["--interface", interface], temporary / "out")
         check_run(document, "osl", ["--osl-network"], temporary / "out")
         if COMPILE and EXPECTED[document.stem] == GOOD:
-            code, text = run([COMPILE, document, "--trust", "--targets", ",".join(targets()), "--interfaces", "complete,reduced"])
+            compiled = [target for target in targets() if target != "osl" or document.stem not in NOT_FOR_OSLC]
+            code, text = run([COMPILE, document, "--trust", "--targets", ",".join(compiled), "--interfaces", "complete,reduced"])
             check(code == 0, f"{document.name} does not compile: {text[:1000]}")
 
 if not COMPILE:
