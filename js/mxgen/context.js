@@ -11,7 +11,7 @@ import { Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
 const LIMITS = ["maxMemory", "maxFileMib", "maxElements", "maxNodes", "maxOutputMib", "maxErrors", "maxDepth", "maxIncludeDepth", "maxIncludes"];
-const OPTIONS = [...LIMITS, "resolver", "listFolder", "cancel", "warnings", "trust", "sourcePaths"];
+const OPTIONS = [...LIMITS, "resolver", "listFolder", "cancel", "readTexels", "warnings", "trust", "sourcePaths"];
 
 function bytesOf(data, what) {
     if (typeof data === "string")
@@ -29,14 +29,15 @@ class Host {
     #lent = new Map(); // addresses to free, by the handle of a blob
     #next = 1;
 
-    constructor(native, { resolver = null, listFolder = null, cancel = null }) {
-        for (const [name, callback] of Object.entries({ resolver, listFolder, cancel }))
+    constructor(native, { resolver = null, listFolder = null, cancel = null, readTexels = null }) {
+        for (const [name, callback] of Object.entries({ resolver, listFolder, cancel, readTexels }))
             if (callback !== null)
                 expect(callback, "function", name);
         this.#native = native;
         this.resolver = resolver;
         this.lister = listFolder;
         this.canceller = cancel;
+        this.texelReader = readTexels;
         this.raised = null; // { error } of a callback
     }
 
@@ -84,6 +85,18 @@ class Host {
             if (bytes.length <= capacity)
                 this.#native.bytes(names, bytes.length).set(bytes);
             return bytes.length;
+        });
+    }
+
+    readTexels(from, file, layer, size, texels) {
+        return this.#guard(0, () => {
+            const native = this.#native, read = this.texelReader(native.text(from), native.text(file), native.text(layer), size) ?? null;
+            if (read === null)
+                return 0;
+            if (read.length !== 4 * size * size)
+                throw new TypeError(`readTexels must return ${4 * size * size} numbers, not ${Array.isArray(read) || ArrayBuffer.isView(read) ? read.length : kindOf(read)}`);
+            new Float32Array(native.view.buffer, texels, read.length).set(read);
+            return 1;
         });
     }
 
@@ -366,7 +379,9 @@ function makeContext(native, options, number) {
         const desc = native.newStruct("mxg_context_desc", {
             ...values, trust: expect(trust, "boolean", "trust"), warnings: native.newOptionalText(warnings, "warnings"),
             sourcePaths: native.newTexts(sourcePaths, "a source path"), numSourcePaths: sourcePaths.length });
-        const out = native.space(4), status = native.lib.mxgen_js_context(desc, number, Boolean(options.listFolder), Boolean(options.cancel), out);
+        const out = native.space(4);
+        const status = native.lib.mxgen_js_context(desc, number, Boolean(options.listFolder), Boolean(options.cancel),
+            Boolean(options.readTexels), out);
         native.check(status, status === STATUS.errorArgument && warnings ? `warnings has an unknown word, or a limit is out of range: '${warnings}'` : "");
         return new Handle(native.pointer(out), pointer => {
             native.lib.mxg_context_destroy(pointer);

@@ -104,6 +104,11 @@ export interface ContextOptions {
     listFolder?: (from: string, folder: string) => Iterable<string> | null | undefined;
     /** Generation and inspection call it repeatedly, and stop when it returns true. */
     cancel?: () => boolean;
+    /**
+     * Reads a texture for the estimated errors of budgets: the means of `size` by `size` equal parts, rows from the top, red, green, blue and alpha
+     * each, without a change of colour space. null: it cannot be read, and counts as a few fixed colours.
+     */
+    readTexels?: (from: string, file: string, layer: string, size: number) => ArrayLike<number> | null | undefined;
     /** Limits (include/mxgen/mxgen.h); 0: the default. */
     maxMemory?: number;
     maxFileMib?: number;

@@ -106,6 +106,7 @@ export class Native {
             release: (host, blob) => this.#hosts.get(host).release(blob),
             list_folder: (host, ...rest) => this.#hosts.get(host).listFolder(...rest),
             cancel: host => this.#hosts.get(host).cancel(),
+            read_texels: (host, ...rest) => this.#hosts.get(host).readTexels(...rest),
             next_primitive: (host, ...rest) => this.#hosts.get(host).nextPrimitive(...rest),
             write: (_, data, size) => { this.#written.push(this.bytes(data, size).slice()); return 1; },
         };

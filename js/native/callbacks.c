@@ -14,16 +14,18 @@ static const mxg_resolver resolvers[] = {
  * tell which callbacks there are. `desc` has the other members.
  */
 MXG_API mxg_status mxgen_js_context(mxg_context_desc *desc, void *host, bool lists_folders,
-                                    bool cancels, mxg_context **out_context);
+                                    bool cancels, bool reads_texels, mxg_context **out_context);
 
 mxg_status mxgen_js_context(mxg_context_desc *desc, void *host, bool lists_folders, bool cancels,
-                            mxg_context **out_context)
+                            bool reads_texels, mxg_context **out_context)
 {
     mxg_resolver resolver = resolvers[lists_folders];
     resolver.user_data = host;
     desc->resolver = &resolver;
     desc->cancel = cancels ? host_cancel : NULL;
     desc->cancel_user_data = host;
+    desc->read_texels = reads_texels ? host_read_texels : NULL;
+    desc->texels_user_data = host;
     return mxg_context_create(desc, out_context);
 }
 

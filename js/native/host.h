@@ -25,6 +25,9 @@ IMPORT(list_folder)
 size_t host_list_folder(void *context, const char *from, const char *folder, char *names,
                         size_t capacity);
 IMPORT(cancel) bool host_cancel(void *context);
+IMPORT(read_texels)
+bool host_read_texels(void *context, const char *from, const char *file, const char *layer,
+                      uint32_t size, float *out_texels);
 
 /* Takes a piece of the text that the current call writes. */
 IMPORT(write) bool host_write(void *user_data, const char *data, size_t size);

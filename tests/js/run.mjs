@@ -335,6 +335,17 @@ test("callbacks that throw", () => {
     const shader = mxgen.createContext({ resolver: () => null, listFolder: () => ["a.1001.png", "b.png", "a.1012.png"] }).parse(tiles).generate("glsl", { element: "i" });
     assert.deepEqual(shader.variables.find(({ tiles: found }) => found.length).tiles, [{ file: "t/a.1001.png", u: 0, v: 0 }, { file: "t/a.1012.png", u: 1, v: 1 }]);
     assert.throws(() => mxgen.createContext({ resolver: () => null, listFolder: () => [5] }).parse(tiles).generate("glsl", { element: "i" }), TypeError);
+    const painted = `<materialx version="1.39"><image name="i" type="color3"><input name="file" type="filename" value="paint.png"/></image>
+        <slab name="a" type="BSDF"><input name="diffuse_albedo" type="color3" nodename="i"/></slab><slab name="b" type="BSDF"/>
+        <slab_mix name="m" type="BSDF"><input name="fg" type="BSDF" nodename="a"/><input name="bg" type="BSDF" nodename="b"/><input name="mix" type="float" value="0.5"/></slab_mix>
+        <slab_surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="m"/></slab_surface></materialx>`;
+    const drawn = readTexels => mxgen.createContext({ readTexels }).parse(painted).generate("glsl", { element: "S", options: { "max-error": 5 } });
+    const asked = [];
+    assert(drawn((from, file, layer, size) => { asked.push([file, layer]); return new Float32Array(4 * size * size).fill(0.5); }));
+    assert.deepEqual(asked, [["paint.png", ""]]);
+    assert(drawn(() => null));
+    assert.throws(() => drawn(() => [1, 2]), TypeError);
+    assert.throws(() => drawn(() => { throw fault; }), error => error === fault);
     let reentered;
     const context = mxgen.createContext({ resolver: () => { try { context.parse(GOLD); } catch (error) { reentered = error; } return null; } });
     assert.throws(() => context.load("x"), DocumentError);
@@ -582,7 +593,7 @@ test("every function and member is declared, and every function of C is used", (
                     mxg_shader_info: "ShaderInfo", mxg_block_info: "BlockInfo", mxg_option: "Option", mxg_semantic: "Semantic", mxg_tile: "Tile",
                     mxg_diagnostic_kind: "DiagnosticKind", mxg_renderable: "Renderable", mxg_pass_resource: "PassResource", mxg_pass_member: "PassMember",
                     mxg_pass: "PassInfo", mxg_property: "Property", mxg_context_desc: "ContextOptions" };
-    const hidden = ["size", "numValues", "numTiles", "numMembers", "numInputs", "numOutputs", "realloc", "reallocUserData", "cancelUserData", "sandbox", "includeRoots",
+    const hidden = ["size", "numValues", "numTiles", "numMembers", "numInputs", "numOutputs", "realloc", "reallocUserData", "cancelUserData", "texelsUserData", "sandbox", "includeRoots",
                     "numIncludeRoots", "numSourcePaths", "nodeCodes", "numNodeCodes", "dialects", "numDialects"]; // nodes in C and targets of a host: not from JavaScript
     for (const [struct, name] of Object.entries(shown)) {
         const body = declared.match(new RegExp(`export interface ${name} \\{([^}]*)\\}`))[1];
