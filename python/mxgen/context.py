@@ -34,6 +34,10 @@ Resolver = Callable[[str, str], Union[File, bytes, str, None]]
 #: Lists the files of a texture folder: (canonical name of the referring file, folder) to names, or None: no such folder.
 ListFolder = Callable[[str, str], Union[Sequence[str], None]]
 
+#: Reads a texture for the estimated errors of budgets: (canonical name of the referring file, file, layer, size) to the means of size by size
+#: equal parts, rows from the top, RGBA each, without a change of colour space; None: it cannot be read, and counts as a few fixed colours.
+ReadTexels = Callable[[str, str, str, int], Union[Sequence[float], None]]
+
 
 class Rewriting(enum.IntEnum):
     """What `Context.rewrite` does."""
@@ -63,13 +67,15 @@ class _Holder(Native):
 class _Host:
     """The callbacks of a context, as C calls them. An exception in a callback waits until the call of C returns."""
 
-    def __init__(self, resolver: Resolver | None, list_folder: ListFolder | None, cancel: Callable[[], bool] | None) -> None:
-        for name, callback in ("resolver", resolver), ("list_folder", list_folder), ("cancel", cancel):
+    def __init__(self, resolver: Resolver | None, list_folder: ListFolder | None, cancel: Callable[[], bool] | None,
+                 read_texels: ReadTexels | None) -> None:
+        for name, callback in ("resolver", resolver), ("list_folder", list_folder), ("cancel", cancel), ("read_texels", read_texels):
             if callback is not None and not callable(callback):
                 raise TypeError(f"{name} must be callable, not {type(callback).__name__}")
         self.resolver = resolver
         self.list_folder = list_folder
         self.cancel = cancel
+        self.read_texels = read_texels
         self.raised: BaseException | None = None
         self._lent: dict[int, list[Any]] = {}
         self._next = 1
@@ -153,12 +159,28 @@ def callback_cancel(user_data: Any) -> bool:
     return host.raised is not None or bool(host.cancel())
 
 
+@ffi.def_extern(error=False, onerror=_keep_exception)
+def callback_read_texels(user_data: Any, origin: Any, file: Any, layer: Any, size: int, out_texels: Any) -> bool:
+    """mxg_context_desc.read_texels"""
+    host = _host_of(user_data)
+    assert host.read_texels is not None
+    texels = None if host.raised is not None else host.read_texels(py_text(origin), py_text(file), py_text(layer), size)
+    if texels is None:
+        return False
+    count = 4 * size * size
+    if len(texels) != count:
+        raise ValueError(f"read_texels must return {count} numbers, not {len(texels)}")
+    ffi.cast("float *", out_texels)[0:count] = list(texels)
+    return True
+
+
 class Context(Native):
     """Loads documents and libraries. All arguments have defaults, and names as in mxg_context_desc:
 
     resolver       finds files; None: files of the file system
     list_folder    lists texture folders, beside a resolver
     cancel         is called repeatedly by generation and inspection, and stops them when it returns True
+    read_texels    reads textures for the estimated errors of budgets
     max_...        limits (include/mxgen/mxgen.h); 0: the default
     warnings       changes the severity of diagnostics: "error,no-unused-input"
     trust          accepts shader source in documents
@@ -168,13 +190,14 @@ class Context(Native):
     with a context; give each thread its own to generate at the same time."""
 
     def __init__(self, *, resolver: Resolver | None = None, list_folder: ListFolder | None = None,
-                 cancel: Callable[[], bool] | None = None, max_memory: int = 0, max_file_mib: int = 0, max_elements: int = 0,
+                 cancel: Callable[[], bool] | None = None, read_texels: ReadTexels | None = None,
+                 max_memory: int = 0, max_file_mib: int = 0, max_elements: int = 0,
                  max_nodes: int = 0, max_output_mib: int = 0, max_errors: int = 0, max_depth: int = 0, max_include_depth: int = 0,
                  max_includes: int = 0, warnings: str | None = None, trust: bool = False, sandbox: bool = False,
                  include_roots: Sequence[str | os.PathLike[str]] = ()) -> None:
         if list_folder is not None and resolver is None:
             raise ValueError("list_folder needs a resolver")
-        self._host = _Host(resolver, list_folder, cancel)
+        self._host = _Host(resolver, list_folder, cancel, read_texels)
         self._host_handle = ffi.new_handle(self._host)
         self._lock = threading.Lock()
         self._user: int | None = None
@@ -189,6 +212,9 @@ class Context(Native):
         if cancel is not None:
             desc.cancel = lib.callback_cancel
             desc.cancel_user_data = self._host_handle
+        if read_texels is not None:
+            desc.read_texels = lib.callback_read_texels
+            desc.texels_user_data = self._host_handle
         if warnings is not None:
             desc.warnings = keep_text(c_text(warnings, "warnings"), keep)
         if isinstance(include_roots, str):

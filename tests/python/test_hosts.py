@@ -107,6 +107,31 @@ class Resolvers(unittest.TestCase):
         context = mxgen.Context(resolver=lambda _origin, _reference: None, list_folder=lambda _origin, _folder: None)
         context.parse(text[:start] + text[end:], name="tiles.mtlx").validate()
 
+    def test_texels(self):
+        text = '''<materialx version="1.39"><image name="i" type="color3"><input name="file" type="filename" value="paint.png"/></image>
+            <slab name="a" type="BSDF"><input name="diffuse_albedo" type="color3" nodename="i"/></slab><slab name="b" type="BSDF"/>
+            <slab_mix name="m" type="BSDF"><input name="fg" type="BSDF" nodename="a"/><input name="bg" type="BSDF" nodename="b"/>
+            <input name="mix" type="float" value="0.5"/></slab_mix>
+            <slab_surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="m"/></slab_surface></materialx>'''
+        asked = []
+
+        def draw(read_texels):
+            mxgen.Context(read_texels=read_texels).parse(text).generate("glsl", element="S", options={"max-error": 5})
+
+        def paint(_origin, file, layer, size):
+            asked.append((file, layer))
+            return [0.5] * (4 * size * size)
+
+        def fail(_origin, _file, _layer, _size):
+            raise LookupError
+
+        draw(paint)
+        self.assertEqual(asked, [("paint.png", "")])
+        draw(lambda *_arguments: None)
+        for wrong, error in ((fail, LookupError), (lambda *_arguments: [1.0, 2.0], ValueError), (lambda *_arguments: 5, TypeError)):
+            with self.assertRaises(error):
+                draw(wrong)
+
     def test_cancel(self):
         document = mxgen.Context(cancel=lambda: True).parse(common.GOLD)
         with self.assertRaises(mxgen.CancelledError):
