@@ -71,10 +71,10 @@ void meet_lobe(inout Path path, Point point, vec4 towards)
     path.goes = out2.w > 0.5 ? ACROSS : BENT;
 }
 
-// Away from the surface, where the path has met it.
+// Away from the surface, where the path has met it, unless it has no light left.
 void leave_at_once(inout Path path, Point point)
 {
-    path.phase = GOING;
+    path.phase = is_light(path.through) ? GOING : ENDED;
     path.origin = beside(point, path.direction);
     path.medium.collisions = 0u;
 }
@@ -121,7 +121,8 @@ void go_through(inout Path path, Point point, vec4 towards)
         if (AS_DRAWN && path.matter.x >= 0.0)
             path.through *= out11.rgb; // it comes out through the same media
         leave_at_once(path, point);
-        cross_surface(path, point, out4.rgb);
+        if (path.phase == GOING)
+            cross_surface(path, point, out4.rgb);
         return;
     }
     bool down = (path.goes & DOWN) != 0u;
@@ -157,10 +158,9 @@ void meet_from_solid(inout Path path, Point point, vec4 towards)
         path.goes = 0u;
     } else
         meet_lobe(path, point, towards);
-    if (path.goes != ACROSS) {
-        leave_at_once(path, point);
+    leave_at_once(path, point);
+    if (path.goes != ACROSS || path.phase == ENDED)
         return;
-    }
     cross_surface(path, point, vec3(1.0));
     path.side ^= 1u; // light comes out on the other one
     path.goes = BENT;

@@ -94,7 +94,7 @@ class Host {
             if (read === null)
                 return 0;
             if (read.length !== 4 * size * size)
-                throw new TypeError(`readTexels must return ${4 * size * size} numbers, not ${Array.isArray(read) || ArrayBuffer.isView(read) ? read.length : kindOf(read)}`);
+                throw new TypeError(`readTexels must return ${4 * size * size} numbers, not ${read.length ?? kindOf(read)}`);
             new Float32Array(native.view.buffer, texels, read.length).set(read);
             return 1;
         });

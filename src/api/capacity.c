@@ -4,11 +4,6 @@
 
 #include "shader/shader.h"
 
-static struct diag_list *diags_of(struct generation *g)
-{
-    return &g->result->object.diagnostics.list;
-}
-
 void generation_tell_lost_aovs(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;

@@ -4,11 +4,6 @@
 
 #include <assert.h>
 
-static struct diag_list *diags_of(struct generation *g)
-{
-    return &g->result->object.diagnostics.list;
-}
-
 /* Options and targets have no place in a file. */
 static const struct diag_place nowhere = {0};
 

@@ -81,6 +81,11 @@ struct generation {
     void *user_data; /* for the caller's `steps` */
 };
 
+static inline struct diag_list *diags_of(struct generation *g)
+{
+    return &g->result->object.diagnostics.list;
+}
+
 /* False: there is no description, or it names no target, or it has members of a later version. */
 bool generation_names_target(const mxg_generate_desc *desc);
 

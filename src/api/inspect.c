@@ -5,11 +5,6 @@
 #include <assert.h>
 #include <stdlib.h>
 
-static struct diag_list *diags_of(struct generation *g)
-{
-    return &g->result->object.diagnostics.list;
-}
-
 /* ---- Elements ---- */
 
 static bool is_renderable(const mxg_document *document, elem_id element)

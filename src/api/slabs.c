@@ -16,11 +16,6 @@ double mxg_color_difference(const float a[3], const float b[3])
 
 static const struct diag_place nowhere = {0};
 
-static struct diag_list *diags_of(struct generation *g)
-{
-    return &g->result->object.diagnostics.list;
-}
-
 /* ---- The options ---- */
 
 /* The bit of "-fuzz"; 0, after a message, for another word. */

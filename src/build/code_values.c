@@ -134,11 +134,10 @@ static bool is_operand(const struct ir_graph *g, enum ir_op op, const ir_ref *ar
     bool is_mix = op == IR_CLOSURE_MIX || op == IR_SHADER_MIX;
     *out = args[0];
     if (op == IR_LAYER || op == IR_CLOSURE_ADD) {
-        /* a volume is behind nothing */
-        bool is_lost =
-            !args[0] && op == IR_LAYER && args[1] && ir_type_of(g, args[1]) == IR_TYPE_VDF;
-        *out = args[0] ? args[0] : is_lost ? 0 : args[1];
-        return !args[0] || !args[1];
+        if (args[0] && args[1])
+            return false;
+        *out = ir_other_operand(g, op, args[0], args[1]);
+        return true;
     }
     if (op == IR_CLOSURE_SCALE)
         return !args[0] || ir_const_is(g, args[1], 1.0f);

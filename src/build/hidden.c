@@ -82,10 +82,8 @@ static ir_ref rebuilt(struct hider *h, ir_ref ref)
     if (is_same)
         return ref;
     if ((node.op == IR_LAYER || node.op == IR_SLAB_LAYER || node.op == IR_CLOSURE_ADD)
-        && (!args[0] || !args[1])) {
-        bool fits = args[1] && ir_type_of(h->graph, args[1]) == node.type; /* no volume alone */
-        return args[0] ? args[0] : fits ? args[1] : 0;
-    }
+        && (!args[0] || !args[1]))
+        return ir_other_operand(h->graph, (enum ir_op)node.op, args[0], args[1]);
     if (ir_type_is_closure(node.type) && !has_operand)
         return 0;
     return ir_build(h->graph, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);

@@ -224,19 +224,6 @@ static ir_ref medium_above(struct closure_scatter *s)
     return above;
 }
 
-/* A sample that refracts is known to no light. */
-static void sample_refraction(struct closure_scatter *s, const struct closure_level *level,
-                              ir_ref direction, ir_ref *density)
-{
-    ir_ref in_front = scatter_is_in_front(s, direction), nothing = scatter_number(s, 0.0f);
-    *density = where(s, in_front, *density, nothing);
-    scatter_effect(s, EFFECT_ASSIGN, s->is_inside,
-                   where(s, in_front, nothing, scatter_number(s, 1.0f)));
-    if (level->solid)
-        scatter_effect(s, EFFECT_ASSIGN, s->medium,
-                       ir_convert(s->graph, IR_TYPE_VEC3, level->solid));
-}
-
 /* A lobe reflects light, or lets it go on. */
 static void sample_lobe(struct closure_scatter *s, const struct closure_level *level)
 {
@@ -254,7 +241,7 @@ static void sample_lobe(struct closure_scatter *s, const struct closure_level *l
     scatter_effect(s, EFFECT_ASSIGN, s->direction, results[0]);
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside, scatter_number(s, 0.0f));
     if (level->refracts)
-        sample_refraction(s, level, results[0], &density);
+        scatter_take_side(s, results[0], level->solid, &density);
     scatter_effect(s, EFFECT_ASSIGN, s->parts[0].weight,
                    closure_mul(s->graph, weight, level->scale));
     scatter_effect(s, EFFECT_ASSIGN, s->density, density);

@@ -172,11 +172,20 @@ static void weigh(struct closure_scatter *s, const struct scattering *leaf, ir_r
     }
 }
 
+void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref medium, ir_ref *density)
+{
+    ir_ref in_front = scatter_is_in_front(s, direction), nothing = scatter_number(s, 0.0f),
+           one = scatter_number(s, 1.0f);
+    *density = ir_op3(s->graph, IR_SELECT, in_front, *density, nothing);
+    ir_ref is_inside = ir_op3(s->graph, IR_SELECT, in_front, nothing, one);
+    scatter_effect(s, EFFECT_ASSIGN, s->is_inside, is_inside);
+    if (medium)
+        scatter_effect(s, EFFECT_ASSIGN, s->medium, ir_convert(s->graph, IR_TYPE_VEC3, medium));
+}
+
 static void sample(struct closure_scatter *s, const struct scattering *leaf)
 {
-    struct ir_graph *g = s->graph;
-    ir_ref pick = scatter_read(s, s->pick), nothing = scatter_number(s, 0.0f),
-           one = scatter_number(s, 1.0f);
+    ir_ref pick = scatter_read(s, s->pick), nothing = scatter_number(s, 0.0f);
     ir_ref is_it = scatter_op2(s, IR_GE, pick, nothing);
     is_it = scatter_op2(s, IR_LAND, is_it, scatter_op2(s, IR_LT, pick, leaf->share));
     ir_ref results[3]; /* direction, f cos / pdf, pdf */
@@ -186,17 +195,11 @@ static void sample(struct closure_scatter *s, const struct scattering *leaf)
     weigh(s, leaf, results[0], results[1]);
     ir_ref density =
         scatter_op2(s, IR_MUL, results[2], scatter_op2(s, IR_DIV, leaf->share, s->total));
-    if (has(s, leaf->leaf, LEAF_REFRACTION)) {
-        ir_ref in_front = scatter_is_in_front(s, results[0]), medium = medium_of(s, leaf);
-        density = ir_op3(g, IR_SELECT, in_front, density, nothing);
-        scatter_effect(s, EFFECT_ASSIGN, s->is_inside,
-                       ir_op3(g, IR_SELECT, in_front, nothing, one));
-        if (medium)
-            scatter_effect(s, EFFECT_ASSIGN, s->medium, ir_convert(g, IR_TYPE_VEC3, medium));
-    }
+    if (has(s, leaf->leaf, LEAF_REFRACTION))
+        scatter_take_side(s, results[0], medium_of(s, leaf), &density);
     scatter_effect(s, EFFECT_ASSIGN, s->density, density);
     scatter_effect(s, EFFECT_END, 0, 0);
-    scatter_effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(g, IR_NEG, leaf->share));
+    scatter_effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(s->graph, IR_NEG, leaf->share));
 }
 
 /* The leaf among those of all parts, new or not. */

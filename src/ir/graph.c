@@ -393,6 +393,13 @@ bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out
     return true;
 }
 
+ir_ref ir_other_operand(const struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b)
+{
+    assert(!a || !b);
+    bool is_volume = b && op == IR_LAYER && ir_type_of(graph, b) == IR_TYPE_VDF;
+    return a ? a : is_volume ? 0 : b;
+}
+
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f)
 {
     struct ir_value value;

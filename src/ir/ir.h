@@ -375,6 +375,11 @@ static inline const union ir_word *ir_constant_words(const struct ir_graph *grap
 }
 /* The value of a constant of a built-in type; false for other nodes. */
 bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
+/*
+ * What is left of an operator of closures of which one operand is absent, 0: the other one. A
+ * volume behind nothing is nothing.
+ */
+ir_ref ir_other_operand(const struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b);
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
 
 /*

@@ -282,9 +282,9 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
 static ir_ref layered(struct walk *w, ir_ref top, ir_ref base)
 {
     ir_ref args[2] = {top, base};
-    if (!top && base && ir_type_of(w->graph, base) == IR_TYPE_VDF) /* of a lobe that is gone */
-        return 0;
-    return top && base ? ir_build(w->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2) : top ? top : base;
+    if (!top || !base)
+        return ir_other_operand(w->graph, IR_LAYER, top, base);
+    return ir_build(w->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2);
 }
 
 static ir_ref sum_of(struct ir_graph *g, ir_ref a, ir_ref b)
