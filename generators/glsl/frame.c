@@ -70,7 +70,8 @@ static void write_members(struct spell *spell, enum shader_block block)
         spell_indent(spell, 1);
         if (variable->flat && !shader_is_called(spell->shader))
             spell_text(spell, "flat ");
-        spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
+        spell_declare(spell, PHRASE_PLAIN, variable,
+                      spell_name_of(spell->shader->strings, variable->name));
         spell_text(spell, ";\n");
     }
 }
@@ -89,7 +90,8 @@ static void write_uniform_block(struct spell *spell, enum shader_block block)
 static void write_uniform(struct spell *spell, const struct shader_variable *variable)
 {
     spell_text(spell, "uniform ");
-    spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
+    spell_declare(spell, PHRASE_PLAIN, variable,
+                  spell_name_of(spell->shader->strings, variable->name));
     bool fixed = variable->block != BLOCK_PUBLIC_UNIFORMS || !spell->shader->rules.neutral_names;
     if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed
         && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
@@ -165,7 +167,8 @@ static void write_attributes(struct spell *spell, enum shader_block block, const
         if (variable->flat && *qualifier)
             spell_text(spell, "flat ");
         spell_text(spell, qualifier);
-        spell_declare(spell, variable, spell->variables[spell->shader->interface.items[i]]);
+        spell_declare(spell, PHRASE_PLAIN, variable,
+                      spell->variables[spell->shader->interface.items[i]]);
         spell_text(spell, ";\n");
     }
 }

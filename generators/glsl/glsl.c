@@ -14,26 +14,26 @@ static const struct lang_form forms[IR_NUM_OPS] = {
     [IR_ROUND] = {"roundEven($0)", LANG_PREC_POSTFIX, false},
 };
 
+/*
+ * A `const` parameter becomes a SPIR-V value. Other parameters are variables, which each call
+ * copies.
+ */
+static const char *const phrases[NUM_PHRASES] = {
+    [PHRASE_PARAM_IN] = "const $T $N",
+};
+
 const struct lang_syntax glsl_syntax = {
     .name = "glsl",
     .base = &lang_syntax_portable,
     .forms = forms,
     .reserved = reserved,
     .num_reserved = sizeof reserved / sizeof *reserved,
-    /*
-     * a `const` parameter becomes a SPIR-V value; other parameters are variables, which each call
-     * copies
-     */
-    .param_in = "const ",
-    .param_in_assigned = "",
-    .constant = "const ",
+    .phrases = phrases,
     .wide_constants = true,
     .sizes_count_layers = true,
     .in_images = true,
     .infinity = LANG_INFINITY,
     .nan = LANG_NAN,
-    .param_out = "out ",
-    .param_inout = "inout ",
 };
 
 static const char *const versions[] = {"450", "330", "400", "410", "420",

@@ -2,8 +2,6 @@
 /* The forms of HLSL that depend on types, and the functions that it lacks (helpers). */
 #include "generators/hlsl/hlsl.h"
 
-static const char parts[] = "xyzw";
-
 /* The number of rows of a vector or matrix. */
 static unsigned rows_of(ir_type_id type)
 {
@@ -93,43 +91,7 @@ static const struct lang_pieces *choice(struct spell *spell, const struct lang_u
     return call_of(spell, "choose($0, $1, $2)");
 }
 
-/* ---- Constructors and conversions ---- */
-
-/* "(float3)$0", or a multiple of the identity. */
-static const struct lang_pieces *from_scalar(struct spell *spell, ir_type_id type)
-{
-    if (ir_type_is_vector(type))
-        return lang_form_of(spell->scratch, "($T)$0", LANG_PREC_UNARY);
-    struct text *text = new_text(spell);
-    for (unsigned i = 0; i < ir_type_components(type); i++) {
-        text_str(text, i ? ", " : "$0 * $T(");
-        text_str(text, i % (rows_of(type) + 1) ? "0.0" : "1.0");
-    }
-    text_char(text, ')');
-    return lang_form_of(spell->scratch, text_cstr(text), LANG_PREC_PRODUCT);
-}
-
-/*
- * The last operand may have more components than the vector needs. HLSL requires an explicit cut.
- */
-static const struct lang_pieces *construct(struct spell *spell, const struct lang_use *use)
-{
-    unsigned left = ir_type_components(use->type), last = use->num_operands - 1;
-    if (left <= 1)
-        return NULL;
-    if (use->num_operands == 1 && ir_type_components(use->operands[0]) == 1)
-        return from_scalar(spell, use->type);
-    for (unsigned i = 0; i < last; i++)
-        left -= ir_type_components(use->operands[i]);
-    if (ir_type_components(use->operands[last]) == left)
-        return NULL;
-    struct text *text = new_text(spell);
-    text_str(text, "$T(");
-    for (unsigned i = 0; i < last; i++)
-        text_fmt(text, "$%u, ", i);
-    text_fmt(text, "$%u.%.*s)", last, (int)left, parts);
-    return call_of(spell, text_cstr(text));
-}
+/* ---- Conversions of matrices; the syntax has those of vectors ---- */
 
 static const struct lang_pieces *grow(struct spell *spell, const struct lang_use *use)
 {
@@ -141,15 +103,10 @@ static const struct lang_pieces *grow(struct spell *spell, const struct lang_use
 static const struct lang_pieces *convert(struct spell *spell, const struct lang_use *use)
 {
     ir_type_id from = use->operands[0], to = use->type;
-    if (ir_type_is_matrix(from) && ir_type_is_matrix(to))
-        return rows_of(from) < rows_of(to)
-                   ? grow(spell, use)
-                   : lang_form_of(spell->scratch, "($T)$0", LANG_PREC_UNARY);
-    if (ir_type_components(from) <= ir_type_components(to) || !ir_type_is_vector(to))
+    if (!ir_type_is_matrix(from) || !ir_type_is_matrix(to))
         return NULL;
-    struct text *text = new_text(spell);
-    text_fmt(text, "$0.%.*s", (int)ir_type_components(to), parts);
-    return call_of(spell, text_cstr(text));
+    return rows_of(from) < rows_of(to) ? grow(spell, use)
+                                       : lang_form_of(spell->scratch, "($T)$0", LANG_PREC_UNARY);
 }
 
 /* ---- Hooks ---- */
@@ -158,7 +115,7 @@ typedef const struct lang_pieces *form_writer(struct spell *spell, const struct 
 
 static form_writer *const writers[IR_NUM_OPS] = {
     [IR_MUL] = product,   [IR_EQ] = equality,     [IR_NE] = equality,
-    [IR_SELECT] = choice, [IR_CONVERT] = convert, [IR_CONSTRUCT] = construct,
+    [IR_SELECT] = choice, [IR_CONVERT] = convert,
 };
 
 /*

@@ -24,7 +24,8 @@ static void write_location(struct spell *spell, uint32_t location)
 /* Writes the variable under its own name. */
 static void write_variable(struct spell *spell, const struct shader_variable *variable)
 {
-    spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
+    spell_declare(spell, PHRASE_PLAIN, variable,
+                  spell_name_of(spell->shader->strings, variable->name));
 }
 
 /* ---- Buffers ---- */
@@ -179,8 +180,9 @@ static void write_results(struct spell *spell)
 {
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
     {
-        spell_text(spell, "static ");
-        write_variable(spell, spell_interface_variable(spell, i));
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        spell_declare(spell, PHRASE_VARIABLE, variable,
+                      spell_name_of(spell->shader->strings, variable->name));
         spell_text(spell, ";\n");
     }
 }
@@ -278,10 +280,10 @@ static void close_main(struct spell *spell)
 {
     if (spell->stage_id == STAGE_VERTEX && shares_vertex_data(spell))
         SPELL(spell, "    vd_out = ", spell_frame_name(spell, "vd"), ";\n");
+    spell_text(spell, "}\n");
 }
 
 const struct target_frame hlsl_frame = {.declare = declare,
                                         .open = open_main,
                                         .close = close_main,
-                                        .declare_for_function = declare_for_function,
-                                        .variable = "static "};
+                                        .declare_for_function = declare_for_function};

@@ -62,6 +62,11 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_SAMPLER_ARRAY] = "Texture2DArray",
 };
 
+static const char *const phrases[NUM_PHRASES] = {
+    [PHRASE_CONSTANT] = "static const $T $N = $V;",
+    [PHRASE_VARIABLE] = "static $T $N",
+};
+
 static const struct lang_syntax syntax = {
     .name = "hlsl",
     .base = &lang_syntax_portable,
@@ -70,13 +75,11 @@ static const struct lang_syntax syntax = {
     .forms_alone = forms_alone,
     .reserved = reserved,
     .num_reserved = sizeof reserved / sizeof *reserved,
-    .param_in = "",
-    .param_in_assigned = "",
-    .param_out = "out ",
-    .param_inout = "inout ",
-    .constant = "static const ",
+    .phrases = phrases,
     .lists_components = true,
     .array_braces = true,
+    .exact_constructors = true,
+    .splat = {"($T)$0", LANG_PREC_UNARY, false},
     .sampler_type = "SamplerState",
     .infinity = "asfloat(0x7f800000u)",
     .nan = "asfloat(0x7fc00000u)",

@@ -82,7 +82,7 @@ static bool write_native(struct osl *osl, uint32_t id, struct text *out)
     return false;
 }
 
-/* Constants that functions read; arrays are local to functions (lang_syntax.defines_constants). */
+/* Constants that functions read; arrays are local to functions (lang_syntax.arrays_are_local). */
 static void write_constants(const struct osl *osl, struct text *out)
 {
     const struct spell *spell = osl->spell;

@@ -59,6 +59,14 @@ static bool write_value(const struct lang_style *style, ir_type_id type, const u
     return true;
 }
 
+/* There are no variables at file scope. */
+static const char *const phrases[NUM_PHRASES] = {
+    [PHRASE_LOCAL_CONSTANT] = "$T $N",
+    [PHRASE_CONSTANT] = "#define $N $V",
+    [PHRASE_PARAM_OUT] = "output $T $N",
+    [PHRASE_PARAM_INOUT] = "output $T $N",
+};
+
 const struct lang_syntax osl_syntax = {
     .name = "osl",
     .base = &lang_syntax_portable,
@@ -66,13 +74,10 @@ const struct lang_syntax osl_syntax = {
     .forms = forms,
     .reserved = reserved,
     .num_reserved = sizeof reserved / sizeof *reserved,
-    .param_in = "",
-    .param_in_assigned = "",
-    .param_out = "output ",
-    .param_inout = "output ",
+    .phrases = phrases,
     .copies_params = true,
     .plain_scalars = true,
-    .defines_constants = true,
+    .arrays_are_local = true,
     .array_braces = true,
     .infinity = OSL_INFINITY,
     .nan = OSL_NAN,

@@ -697,6 +697,8 @@ typedef struct mxg_variable {
     int32_t integer; /* the exact default of an integer */
     /* of a stack: the slot or vertical layer that the input belongs to: "050", "000|010" */
     const char *slot;
+    /* of the sampler beside a texture; equal to `binding` where both have one */
+    uint32_t sampler_binding;
 } mxg_variable;
 MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
 MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);

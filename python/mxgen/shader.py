@@ -141,6 +141,8 @@ class Variable:
     integer: int
     #: of a stack: the slot that the input belongs to
     slot: str
+    #: of the sampler beside a texture; equal to `binding` where both have one
+    sampler_binding: int
     _shader: Shader = field(repr=False, compare=False)
     _index: int = field(repr=False, compare=False)
 

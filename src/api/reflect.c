@@ -121,11 +121,13 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
         return MXG_ERROR_ARGUMENT;
     const struct shader_variable *v = result_variable(result, index);
     assert(v->block < NUM_BLOCKS);
+    const struct lang_syntax *syntax = result->target->syntax;
+    const char *block_type = shader_block_type(&result->shader, syntax, v);
     mxg_variable full = {
         .name = text_of(result, v->name),
         .block = (mxg_block)v->block,
         .stages = v->stages,
-        .type = lang_syntax_type(result->target->syntax, v->type),
+        .type = block_type ? block_type : lang_syntax_type(syntax, v->type),
         .document_type = text_of(result, v->doc_type),
         .path = text_of(result, v->path),
         .slot = text_of(result, v->slot),
@@ -151,6 +153,7 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
         .num_tiles = v->num_tiles,
         .unittype = text_of(result, v->unittype),
         .flat = v->flat,
+        .sampler_binding = v->sampler_binding,
     };
     set_default(v, &full);
     set_user_interface(result, v, &full);

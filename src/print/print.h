@@ -24,6 +24,37 @@ struct lang_form {
     bool infix;
 };
 
+/*
+ * Phrases: texts of a language with $T for the name of a type, $N for a name, $V for a value, $P
+ * for parameters, $L for a length, and $0…$2 for operands.
+ */
+enum lang_phrase {
+    /* the length of an array follows the name, if the language has no PHRASE_ARRAY */
+    PHRASE_PLAIN,          /* type and name alone, in a declaration of a frame: "$T $N" */
+    PHRASE_LOCAL,          /* "$T $N", "var $N: $T" */
+    PHRASE_LOCAL_CONSTANT, /* a local with a constant value: "const $T $N" */
+    PHRASE_CONSTANT,       /* at file scope: "const $T $N = $V;", "#define $N $V" */
+    PHRASE_VARIABLE,       /* at file scope: "$T $N", "static $T $N" */
+    PHRASE_MEMBER,         /* of a struct: "$T $N;" */
+    PHRASE_STRUCT_END,     /* "};" */
+    PHRASE_PARAM_IN,       /* without assignments: "const $T $N" */
+    PHRASE_PARAM_ASSIGNED, /* an input with assignments */
+    PHRASE_PARAM_OUT,      /* "out $T $N", "$N: ptr<function, $T>" */
+    PHRASE_PARAM_INOUT,
+    PHRASE_FUNCTION,   /* the head of a function: "$T $N($P)" */
+    PHRASE_PROCEDURE,  /* the head of a function without a result: "void $N($P)" */
+    PHRASE_ARRAY,      /* the type of an array: "array<$T, $L>"; NULL: lengths follow names */
+    PHRASE_REFERENCE,  /* an argument for a result: "$0", "&$0" */
+    PHRASE_REFERENCED, /* such a parameter in its function: "$0", "(*$0)" */
+    PHRASE_FOR,        /* "for ($0; $1; $2)" */
+    PHRASE_WHILE,      /* "while ($0)" */
+    PHRASE_DO,         /* the line before the body: "do {" */
+    PHRASE_DO_END,     /* the line after it: "} while ($0);" */
+    PHRASE_INCREMENT,  /* "++$0" */
+    PHRASE_DECREMENT,  /* "--$0" */
+    NUM_PHRASES
+};
+
 struct lang_style;
 
 struct lang_syntax {
@@ -31,6 +62,7 @@ struct lang_syntax {
     /* has the rows that are absent here; NULL for the portable syntax */
     const struct lang_syntax *base;
     const char *const *type_names; /* [IR_NUM_TYPES], NULL entries: from base */
+    const char *const *phrases;    /* [NUM_PHRASES], NULL entries: from base */
     const struct lang_form *forms; /* [IR_NUM_OPS], text NULL: from base */
     /*
      * [IR_NUM_OPS], text NULL: from `forms`. The forms for a shader without neighbours on the
@@ -39,22 +71,31 @@ struct lang_syntax {
     const struct lang_form *forms_alone;
     const char *const *reserved; /* identifiers that must be renamed, sorted by byte value */
     uint32_t num_reserved;
-    /* prefix of a parameter without assignments: "const " in GLSL, "" elsewhere */
-    const char *param_in;
-    const char *param_in_assigned;       /* prefix of a parameter with assignments: "" in GLSL */
-    const char *param_out, *param_inout; /* "out ", "inout "; OSL: "output " */
     /* parameters are read-only: an assigned parameter is copied to a local first */
     bool copies_params;
-    bool plain_scalars; /* the language has no bool and uint: their literals are int literals */
-    /* no variables at file scope: "#define X 1.0"; functions declare arrays */
-    bool defines_constants;
-    const char *constant;            /* prefix of a constant at file scope: "const " */
+    bool plain_scalars;    /* the language has no bool and uint: their literals are int literals */
+    bool arrays_are_local; /* functions declare the constant arrays that they read */
+    bool one_per_declaration;        /* "float x, y;" is two declarations */
+    bool always_braces;              /* also around a single statement */
     bool float_literals_need_suffix; /* 1.0f */
     const char *infinity, *nan;      /* expressions, the highest precedence (docs/ir.md) */
     /* max(v, vec3(0.0)), although the language also has max(v, 0.0) */
     bool wide_constants;
     bool lists_components; /* vec3(1.0, 1.0, 1.0), because the language has no vec3(1.0) */
     bool array_braces;     /* array constructors are {a, b} instead of float[2](a, b) */
+    /*
+     * Constructors take as many components as they need: v.xy for vec2(v), and a product with the
+     * identity for mat3(x).
+     */
+    bool exact_constructors;
+    /* a vector of a scalar: "($T)$0"; text NULL: the constructor */
+    struct lang_form splat;
+    /*
+     * The type of a boolean in a block of uniforms, and the form of its value: "uint", "$0 != 0u".
+     * NULL: a block has booleans.
+     */
+    const char *block_bool;
+    struct lang_form block_bool_value;
     /*
      * The type of the sampler beside each texture, "SamplerState t_sampler" beside "Texture2D t",
      * also among parameters and arguments. NULL: textures are samplers.
@@ -76,6 +117,7 @@ struct lang_syntax {
 const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op);
 const struct lang_form *lang_syntax_forms_alone(const struct lang_syntax *syntax);
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
+const char *lang_syntax_phrase(const struct lang_syntax *syntax, enum lang_phrase phrase);
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len);
 
 /* style.c: a syntax prepared for printing, with the rows of its bases and with parsed forms. */
@@ -102,6 +144,7 @@ struct lang_style {
     struct arena *arena;
     bool from_images; /* copy the text of functions from library images */
     struct text_word types[IR_NUM_TYPES];
+    const char *phrases[NUM_PHRASES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* parsed forms, each on first use */
 };
 
@@ -179,10 +222,81 @@ const char *lang_member_name(const struct lang_style *style, const struct strpoo
                              str_id name);
 /* The suffix of the sampler beside a texture. No other name has it. */
 #define LANG_SAMPLER_SUFFIX "_sampler"
-/* "float x[3]": a variable with its type. */
+
+/* declare.c: declarations by the phrases of the syntax. */
+
+/* The name of a type, or of the type of an array's elements, with the length of the array or 0. */
+struct lang_type_text {
+    struct text_word name;
+    uint32_t length;
+};
+struct lang_type_text lang_type_text(const struct lang_style *style, const struct lang_names *names,
+                                     const struct lang_unit *unit, ir_type_id type);
+/* The name of a built-in type, which names->type receives. */
+static inline struct text_word lang_type_name(const struct lang_style *style,
+                                              const struct lang_names *names, ir_type_id type)
+{
+    assert(type < IR_NUM_TYPES);
+    if (names && names->type)
+        names->type(names->user_data, type);
+    return style->types[type];
+}
+/* "float[3]", "array<f32, 3>" */
+void lang_put_type(const struct lang_style *style, struct lang_type_text type, struct text *out);
+
+/* A declaration while it is written. */
+struct lang_declaration {
+    const char *rest; /* of the phrase */
+    struct lang_type_text type;
+    struct text_word name;
+};
+/* Writes the phrase up to $V or $P, which the caller writes; or to its end. */
+void lang_declare(const struct lang_style *style, struct lang_declaration *declaration,
+                  struct text *out);
+/* Begins a declaration: lang_declare writes what follows $V or $P. */
+static inline struct lang_declaration lang_open(const struct lang_style *style,
+                                                enum lang_phrase phrase, struct lang_type_text type,
+                                                struct text_word name, struct text *out)
+{
+    struct lang_declaration declaration = {style->phrases[phrase], type, name};
+    lang_declare(style, &declaration, out);
+    return declaration;
+}
+/*
+ * Writes a phrase up to its next '$' and moves *phrase past the letter, which it returns; '\0': the
+ * phrase is at its end.
+ */
+char lang_next(const char **phrase, struct text *out);
+/* Writes a phrase with one operand. */
+void lang_put_phrase(const char *phrase, struct text_word operand, struct text *out);
+/* ", SamplerState t_sampler" after the parameter of a texture, if textures have separate samplers.
+ */
+void lang_put_sampler(const struct lang_style *style, struct text_word texture, struct text *out);
+/* A variable of a unit's type. */
 void lang_print_variable(const struct lang_style *style, const struct lang_names *names,
-                         const struct lang_unit *unit, ir_type_id type, const char *name,
-                         struct text *out);
+                         const struct lang_unit *unit, enum lang_phrase phrase, ir_type_id type,
+                         struct text_word name, struct text *out);
+static inline struct text_word lang_word(const char *text)
+{
+    return (struct text_word){text, strlen(text)};
+}
+
+/*
+ * convert.c: the form of a conversion or a constructor in a language with its own splat or with
+ * exact constructors; NULL: the form of the syntax. The form lives as long as the arena.
+ */
+const struct lang_pieces *lang_conversion(const struct lang_syntax *syntax,
+                                          const struct lang_use *use, struct arena *arena);
+/* True if forms depend on types, by the names' hook or by lang_conversion. */
+static inline bool lang_is_typed(const struct lang_syntax *syntax, const struct lang_names *names)
+{
+    return (names && names->form) || syntax->exact_constructors || syntax->splat.text;
+}
+/* The form for these types; NULL: the form of the syntax. */
+const struct lang_pieces *lang_typed_form(const struct lang_syntax *syntax,
+                                          const struct lang_names *names,
+                                          const struct lang_use *use, struct arena *arena);
+
 /*
  * Writes a value: vec3(1.0) for equal components, with parentheses if `least` requires them, for
  * example (-1.0). `strings` may be NULL if the value is not a string.

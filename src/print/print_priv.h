@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Shared by print.c and value.c. */
+/* Shared by the files of this room. */
 #ifndef MXG_PRINT_PRINT_PRIV_H
 #define MXG_PRINT_PRINT_PRIV_H
 
 #include "print/print.h"
 #include "tree/ast.h"
+
+/* ---- value.c ---- */
 
 const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit,
                                 uint32_t id);
@@ -17,27 +19,57 @@ const char *print_struct_name(const struct lang_names *names, const struct lang_
 const char *print_maker(const struct lang_names *names, const struct lang_unit *unit,
                         ir_type_id type);
 
-/*
- * The text of a type before and after the name of a variable: the lengths of arrays follow the
- * name.
- */
-/* The name of a built-in type. */
-static inline void print_type_name(const struct lang_style *style, const struct lang_names *names,
-                                   ir_type_id type, struct text *out)
-{
-    assert(type < IR_NUM_TYPES);
-    if (names && names->type)
-        names->type(names->user_data, type);
-    text_put(out, style->types[type]);
-}
-
-void print_base_type(const struct lang_style *style, const struct lang_names *names,
-                     const struct lang_unit *unit, ir_type_id type, struct text *out);
-void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out);
-
 /* The start of an array constructor: "float[3](" or "{". */
 void print_open_array(const struct lang_style *style, const struct lang_names *names,
                       const struct lang_unit *unit, ir_type_id type, struct text *out);
+
+/* Writes a value of any type but structs from consecutive words. Returns the word after it. */
+const union ir_word *print_words(const struct lang_style *style, const struct lang_unit *unit,
+                                 ir_type_id type, const union ir_word *words, struct text *out);
+
+/* ---- The state while a function is printed ---- */
+
+struct printer {
+    struct lang_style *style;
+    const struct lang_names *names;
+    const struct lang_unit *unit, *layer;
+    const struct lang_function *fn;
+    struct text *out;
+    struct text_word *locals; /* by slot: its name in the output */
+    uint32_t *visible;        /* slots in scope, innermost last */
+    uint32_t num_visible;
+    unsigned indent;
+    bool is_typed; /* the target has forms that depend on types */
+};
+
+static inline const struct lang_node *node_at(const struct printer *p, lang_ref ref)
+{
+    return ast_node(p->layer, ref);
+}
+
+/* ---- expression.c ---- */
+
+/* Names a slot, by the names in scope. */
+void print_bring_into_scope(struct printer *p, uint32_t slot);
+/* A name like `wanted` that nothing in scope has. */
+struct text_word print_free_name(struct printer *p, struct text_word wanted);
+/* Declares a slot by a phrase. */
+void print_variable(struct printer *p, enum lang_phrase phrase, uint32_t slot);
+void print_expression(struct printer *p, const struct lang_node *node, enum lang_precedence least);
+void print_form(struct printer *p, const struct lang_pieces *form, ir_type_id type,
+                const struct lang_node *const *operands);
+/* The form of the target for the types of the operands; NULL: it has none. */
+const struct lang_pieces *print_typed_form(struct printer *p, enum ir_op op, uint32_t attr,
+                                           ir_type_id type, const struct lang_node *const *operands,
+                                           unsigned num_operands);
+
+/* ---- statement.c ---- */
+
+/*
+ * Writes the statements between braces in their own scope. `body` is a block or a single statement;
+ * NULL: it is empty.
+ */
+void print_body(struct printer *p, const struct lang_node *body);
 
 /*
  * texts.c: writes the text of a function from its image. false: the image has none, or the text

@@ -13,6 +13,8 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
         const char *name = lang_syntax_type(syntax, type);
         style->types[type] = (struct text_word){name, strlen(name)};
     }
+    for (int phrase = 0; phrase < NUM_PHRASES; phrase++)
+        style->phrases[phrase] = lang_syntax_phrase(syntax, (enum lang_phrase)phrase);
 }
 
 /* The precedence that an operand needs, by the characters around it in the form. */

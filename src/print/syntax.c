@@ -70,6 +70,30 @@ static const char *const type_names[IR_NUM_TYPES] = {
 #undef IR_TYPE
 };
 
+static const char *const phrases[NUM_PHRASES] = {
+    [PHRASE_PLAIN] = "$T $N",
+    [PHRASE_LOCAL] = "$T $N",
+    [PHRASE_LOCAL_CONSTANT] = "const $T $N",
+    [PHRASE_CONSTANT] = "const $T $N = $V;",
+    [PHRASE_VARIABLE] = "$T $N",
+    [PHRASE_MEMBER] = "$T $N;",
+    [PHRASE_STRUCT_END] = "};",
+    [PHRASE_PARAM_IN] = "$T $N",
+    [PHRASE_PARAM_ASSIGNED] = "$T $N",
+    [PHRASE_PARAM_OUT] = "out $T $N",
+    [PHRASE_PARAM_INOUT] = "inout $T $N",
+    [PHRASE_FUNCTION] = "$T $N($P)",
+    [PHRASE_PROCEDURE] = "void $N($P)",
+    [PHRASE_REFERENCE] = "$0",
+    [PHRASE_REFERENCED] = "$0",
+    [PHRASE_FOR] = "for ($0; $1; $2)",
+    [PHRASE_WHILE] = "while ($0)",
+    [PHRASE_DO] = "do {",
+    [PHRASE_DO_END] = "} while ($0);",
+    [PHRASE_INCREMENT] = "++$0",
+    [PHRASE_DECREMENT] = "--$0",
+};
+
 static const char *const keywords[] = {
     "bool",      "break",  "bvec2",  "bvec3", "bvec4", "const",   "continue", "do",
     "else",      "false",  "float",  "for",   "if",    "in",      "inout",    "int",
@@ -82,13 +106,9 @@ const struct lang_syntax lang_syntax_portable = {
     .type_names = type_names,
     .forms = forms,
     .forms_alone = forms_alone,
-    .constant = "const ",
+    .phrases = phrases,
     .reserved = keywords,
     .num_reserved = sizeof keywords / sizeof *keywords,
-    .param_in = "",
-    .param_in_assigned = "",
-    .param_out = "out ",
-    .param_inout = "inout ",
     .infinity = LANG_INFINITY,
     .nan = LANG_NAN,
 };
@@ -121,6 +141,15 @@ const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type)
         if (syntax->type_names && syntax->type_names[type])
             return syntax->type_names[type];
     return ir_type_text(type);
+}
+
+const char *lang_syntax_phrase(const struct lang_syntax *syntax, enum lang_phrase phrase)
+{
+    assert(phrase < NUM_PHRASES);
+    for (; syntax; syntax = syntax->base)
+        if (syntax->phrases && syntax->phrases[phrase])
+            return syntax->phrases[phrase];
+    return NULL;
 }
 
 /* The list of a target replaces that of its base: a word may be reserved in the base alone. */

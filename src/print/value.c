@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Prints types, values and the declarations at file scope. */
+/* Prints names and values. */
 #include "print/print_priv.h"
 
 #include <assert.h>
@@ -32,47 +32,6 @@ const char *print_maker(const struct lang_names *names, const struct lang_unit *
     return names && names->maker
                ? names->maker(names->user_data, print_struct_name(names, unit, type))
                : NULL;
-}
-
-void print_base_type(const struct lang_style *style, const struct lang_names *names,
-                     const struct lang_unit *unit, ir_type_id type, struct text *out)
-{
-    while (ast_is_user_type(type) && lang_user_type(unit, type, NULL)->array_length)
-        type = lang_user_type(unit, type, NULL)->element;
-    if (ast_is_user_type(type))
-        text_str(out, print_struct_name(names, unit, type));
-    else
-        print_type_name(style, names, type, out);
-}
-
-void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out)
-{
-    while (ast_is_user_type(type)) {
-        const struct ir_user_type *user = lang_user_type(unit, type, NULL);
-        if (!user->array_length)
-            return;
-        text_char(out, '[');
-        text_u32(out, user->array_length);
-        text_char(out, ']');
-        type = user->element;
-    }
-}
-
-void lang_print_type(const struct lang_style *style, const struct lang_names *names,
-                     const struct lang_unit *unit, ir_type_id type, struct text *out)
-{
-    print_base_type(style, names, unit, type, out);
-    print_lengths(unit, type, out);
-}
-
-void lang_print_variable(const struct lang_style *style, const struct lang_names *names,
-                         const struct lang_unit *unit, ir_type_id type, const char *name,
-                         struct text *out)
-{
-    print_base_type(style, names, unit, type, out);
-    text_char(out, ' ');
-    text_str(out, name);
-    print_lengths(unit, type, out);
 }
 
 enum { SHORT_FLOAT = 7 }; /* characters of a number that has no shorter form */
@@ -182,10 +141,8 @@ void lang_print_value(const struct lang_style *style, const struct strpool *stri
         text_char(out, ')');
 }
 
-/* Writes a value of any type but structs from consecutive words. Returns the word after it. */
-static const union ir_word *print_words(const struct lang_style *style,
-                                        const struct lang_unit *unit, ir_type_id type,
-                                        const union ir_word *words, struct text *out)
+const union ir_word *print_words(const struct lang_style *style, const struct lang_unit *unit,
+                                 ir_type_id type, const union ir_word *words, struct text *out)
 {
     if (!ast_is_user_type(type)) {
         lang_print_value(style, unit->strings, type, words, LANG_PREC_COMMA, out);
@@ -209,63 +166,4 @@ void print_open_array(const struct lang_style *style, const struct lang_names *n
     if (!style->syntax->array_braces)
         lang_print_type(style, names, unit, type, out);
     text_char(out, style->syntax->array_braces ? '{' : '(');
-}
-
-void lang_print_constant(const struct lang_style *style, const struct lang_names *names,
-                         const struct lang_unit *unit, uint32_t global_id, struct text *out)
-{
-    const struct lang_unit *layer;
-    const struct lang_global *global = lang_global(unit, global_id, &layer);
-    assert(global->words + global->num_words <= layer->words.len);
-    const char *name = print_global_name(names, unit, global_id);
-    bool is_local = style->syntax->defines_constants && ast_is_user_type(global->type);
-    bool defines = style->syntax->defines_constants && !is_local;
-    text_str(out, defines ? "#define " : is_local ? "" : style->syntax->constant);
-    if (defines)
-        text_str(out, name);
-    else
-        lang_print_variable(style, names, unit, global->type, name, out);
-    text_str(out, defines ? " " : " = ");
-    print_words(style, unit, global->type, layer->words.items + global->words, out);
-    text_str(out, defines ? "\n" : ";\n");
-}
-
-static bool is_builtin(const char *name)
-{
-    for (int op = 0; op < IR_NUM_OPS; op++)
-        if (ir_op_info((enum ir_op)op)->flags & OP_BUILTIN
-            && strcmp(ir_op_info((enum ir_op)op)->text, name) == 0)
-            return true;
-    return false;
-}
-
-const char *lang_member_name(const struct lang_style *style, const struct strpool *strings,
-                             str_id name)
-{
-    const char *text = str_text(strings, name);
-    if (!lang_syntax_is_reserved(style->syntax, text, str_len(strings, name)) || is_builtin(text))
-        return text;
-    struct text longer;
-    text_init(&longer, style->arena);
-    text_fmt(&longer, "%s_", text);
-    return text_cstr(&longer);
-}
-
-void lang_print_struct(const struct lang_style *style, const struct lang_names *names,
-                       const struct lang_unit *unit, ir_type_id type, struct text *out)
-{
-    const struct lang_unit *layer;
-    const struct ir_user_type *user = lang_user_type(unit, type, &layer);
-    assert(user->first_member + user->num_members <= layer->members.len);
-    text_str(out, "struct ");
-    text_str(out, print_struct_name(names, unit, type));
-    text_str(out, " {\n");
-    for (uint32_t i = 0; i < user->num_members; i++) {
-        const struct ir_member *member = &layer->members.items[user->first_member + i];
-        text_str(out, "    ");
-        lang_print_variable(style, names, unit, member->type,
-                            lang_member_name(style, unit->strings, member->name), out);
-        text_str(out, ";\n");
-    }
-    text_str(out, "};\n");
 }

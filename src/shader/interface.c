@@ -35,6 +35,15 @@ bool shader_block_has_uniforms(enum shader_block block)
     return block == BLOCK_PUBLIC_UNIFORMS || block == BLOCK_PRIVATE_UNIFORMS || block >= BLOCK_OWN;
 }
 
+const char *shader_block_type(const struct shader *shader, const struct lang_syntax *syntax,
+                              const struct shader_variable *variable)
+{
+    enum shader_block block = (enum shader_block)variable->block;
+    bool is_in_block =
+        shader->rules.blocks && (shader_block_has_uniforms(block) || block == BLOCK_LIGHT_DATA);
+    return variable->type == IR_TYPE_BOOL && is_in_block ? syntax->block_bool : NULL;
+}
+
 /*
  * room for the variables of a shading model, because variables are large and moving them is
  * expensive

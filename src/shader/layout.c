@@ -153,7 +153,8 @@ static void place_uniform(struct shader *shader, struct shader_variable *variabl
 static void bind_own_blocks(struct shader *shader, uint32_t first_texture)
 {
     const uint32_t *first = shader->first_of_block;
-    uint32_t binding = first_texture + first[BLOCK_TEXTURES + 1] - first[BLOCK_TEXTURES];
+    uint32_t textures = first[BLOCK_TEXTURES + 1] - first[BLOCK_TEXTURES],
+             binding = first_texture + textures * (shader->rules.sampler_bindings ? 2 : 1);
     for (int block = BLOCK_OWN; block < NUM_BLOCKS; block++)
         if (first[block + 1] > first[block])
             shader->buffers[block].binding = binding++;
@@ -186,6 +187,9 @@ void shader_layout(struct shader *shader)
             if (rules->bindings) {
                 variable->set = rules->set;
                 variable->binding = texture++;
+                variable->sampler_binding = variable->binding;
+                if (rules->sampler_bindings)
+                    variable->sampler_binding = texture++;
             }
             break;
         default:

@@ -80,6 +80,8 @@ static void put_place(struct reflect *r, const struct shader_variable *variable)
         if (r->shader->rules.bindings) {
             json_put_number(&r->json, "set", variable->set);
             json_put_number(&r->json, "binding", variable->binding);
+            if (r->shader->rules.sampler_bindings)
+                json_put_number(&r->json, "samplerBinding", variable->sampler_binding);
         }
     } else if (shader_has_locations(r->shader, block)) {
         json_put_number(&r->json, "location", variable->location);

@@ -32,6 +32,13 @@ struct shader;
 const char *shader_block_name(const struct shader *shader, enum shader_block block);
 /* True for the blocks that can be buffers, except the array of lights. */
 bool shader_block_has_uniforms(enum shader_block block);
+struct shader_variable;
+/*
+ * The type that the source declares a variable with, if it is not that of its values: a boolean in
+ * a block of a language that has none there. NULL: the type of the values.
+ */
+const char *shader_block_type(const struct shader *shader, const struct lang_syntax *syntax,
+                              const struct shader_variable *variable);
 
 /* The possible values of the alpha output: 1; 0 or 1; any. */
 enum shader_alpha { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND };
@@ -103,6 +110,7 @@ struct shader_variable {
     uint32_t first_tile, num_tiles;
     /* layout.c */
     uint32_t set, binding, location;
+    uint32_t sampler_binding; /* of a texture: the binding of its sampler */
     uint32_t offset, size, array_stride, matrix_stride; /* in a block, in bytes */
 };
 
@@ -233,6 +241,7 @@ struct shader_layout_rules {
     bool blocks; /* uniforms stand in blocks */
     enum shader_packing packing;
     bool bindings;          /* sets and bindings are numbered, locations given */
+    bool sampler_bindings;  /* the sampler of a texture has a binding of its own, the next one */
     bool neutral_names;     /* public variables are numbered: equal topology, equal names */
     bool one_stage;         /* there is no vertex stage */
     bool typed_textures;    /* texture() gives one or three channels where no more are wanted */

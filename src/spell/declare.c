@@ -84,17 +84,18 @@ bool spell_functions_read_vertex_data(const struct spell *spell)
 
 /* ---- Declarations ---- */
 
-void spell_declare(struct spell *spell, const struct shader_variable *variable,
-                   struct spell_name name)
+void spell_declare(struct spell *spell, enum lang_phrase phrase,
+                   const struct shader_variable *variable, struct spell_name name)
 {
+    struct lang_type_text type = spell_type_text(spell, variable->type);
+    if (variable->array_length)
+        type.length = variable->array_length;
+    const char *block_type = shader_block_type(spell->shader, spell->style->syntax, variable);
+    if (block_type)
+        type.name = lang_word(block_type);
     if (spell_is_half_variable(spell, variable))
-        spell_text(spell, "mediump ");
-    spell_variable(spell, variable->type, name);
-    if (variable->array_length) {
-        text_char(spell->out, '[');
-        text_u32(spell->out, variable->array_length);
-        text_char(spell->out, ']');
-    }
+        type.name = spell_half_type(spell, type.name);
+    (void)lang_open(spell->style, phrase, type, spell_word(name), spell->out);
 }
 
 /* True if this stage uses a variable of the block. */

@@ -30,40 +30,29 @@ static const char *struct_name(const struct spell *spell, str_id name)
     return str_text(spell->shader->strings, name);
 }
 
-static void write_lengths(struct spell *spell, ir_type_id type)
+struct lang_type_text spell_type_text(const struct spell *spell, ir_type_id type)
 {
-    for (const struct ir_user_type *user; (user = user_type(spell, type)) && user->array_length;
-         type = user->element) {
-        text_char(spell->out, '[');
-        text_u32(spell->out, user->array_length);
-        text_char(spell->out, ']');
-    }
-}
-
-static void write_base_type(struct spell *spell, ir_type_id type)
-{
-    const struct ir_user_type *user;
-    while ((user = user_type(spell, type)) && user->array_length)
+    const struct ir_user_type *user = user_type(spell, type);
+    uint32_t length = user ? user->array_length : 0;
+    if (length) {
         type = user->element;
-    if (user)
-        spell_text(spell, struct_name(spell, user->name));
-    else
-        lang_print_type(spell->style, &spell->lang_names, spell->shader->unit, type, spell->out);
+        user = user_type(spell, type);
+    }
+    return (struct lang_type_text){user ? lang_word(struct_name(spell, user->name))
+                                        : lang_type_name(spell->style, &spell->lang_names, type),
+                                   length};
 }
 
 void spell_type(struct spell *spell, ir_type_id type)
 {
-    write_base_type(spell, type);
-    write_lengths(spell, type);
+    lang_put_type(spell->style, spell_type_text(spell, type), spell->out);
 }
 
-void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name)
+void spell_variable(struct spell *spell, enum lang_phrase phrase, ir_type_id type,
+                    struct spell_name name)
 {
-    write_base_type(spell, type);
-    text_char(spell->out, ' ');
-    spell_name(spell, name);
-    if (type >= IR_TYPE_FIRST_USER)
-        write_lengths(spell, type);
+    (void)lang_open(spell->style, phrase, spell_type_text(spell, type), spell_word(name),
+                    spell->out);
 }
 
 static void write_swizzle(struct spell *spell, ir_ref ref, uint32_t attr)
@@ -207,6 +196,19 @@ static bool is_named(const struct spell *spell, ir_ref ref)
            || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
 }
 
+void spell_read(struct spell *spell, const struct shader_variable *variable, struct text_word name,
+                enum lang_precedence least)
+{
+    const struct lang_form *form = &spell->style->syntax->block_bool_value;
+    bool differs = shader_block_type(spell->shader, spell->style->syntax, variable),
+         parentheses = differs && (enum lang_precedence)form->precedence < least;
+    if (parentheses)
+        text_char(spell->out, '(');
+    lang_put_phrase(differs ? form->text : "$0", name, spell->out);
+    if (parentheses)
+        text_char(spell->out, ')');
+}
+
 /* Writes a node as its local, as a variable, or as an expression. */
 static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_precedence least)
 {
@@ -214,6 +216,9 @@ static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_prec
     const struct ir_node *node = &spell->shader->graph->nodes.items[ref];
     if (local)
         spell_name(spell, spell->let_names.items[local - 1]);
+    else if (node->op == IR_UNIFORM && node->type == IR_TYPE_BOOL)
+        spell_read(spell, &spell->shader->variables.items[node->attr],
+                   spell_word(spell->variables[node->attr]), least);
     else if (node->op == IR_UNIFORM || node->op == IR_STREAM)
         spell_name(spell, spell->variables[node->attr]);
     else
@@ -305,21 +310,28 @@ static void write_verbatim(struct spell *spell, ir_ref ref, str_id expression)
 }
 
 /* Writes the current light, a member of it, or its number. */
-static void write_light(struct spell *spell, uint32_t attr)
+static void write_light(struct spell *spell, uint32_t attr, enum lang_precedence least)
 {
     if (attr == IR_LIGHT_INDEX) {
         spell_text(spell, spell->loop_index);
         return;
     }
-    SPELL(spell, spell_frame_name(spell, "u_lightData"), "[", spell->loop_index, "]");
-    if (ir_is_light_member(attr)) {
-        text_char(spell->out, '.');
-        spell_name(spell, spell->variables[attr]);
+    struct text light;
+    text_init(&light, spell->scratch);
+    text_fmt(&light, "%s[%s]", spell_frame_name(spell, "u_lightData"), spell->loop_index);
+    if (!ir_is_light_member(attr)) {
+        text_mem(spell->out, light.data, light.len);
+        return;
     }
+    text_char(&light, '.');
+    text_mem(&light, spell->variables[attr].text, spell->variables[attr].len);
+    spell_read(spell, &spell->shader->variables.items[attr],
+               (struct text_word){text_cstr(&light), light.len}, least);
 }
 
 /* Writes an op that has neither operands nor a form: a name. */
-static void write_source(struct spell *spell, const struct ir_node *node)
+static void write_source(struct spell *spell, const struct ir_node *node,
+                         enum lang_precedence least)
 {
     switch (node->op) {
     case IR_UNIFORM:
@@ -330,7 +342,7 @@ static void write_source(struct spell *spell, const struct ir_node *node)
         text_u32(spell->out, node->attr & 0xffff);
         break;
     case IR_LOCAL: spell_name(spell, spell->locals[node->attr]); break;
-    case IR_CONTEXT: write_light(spell, node->attr); break;
+    case IR_CONTEXT: write_light(spell, node->attr, least); break;
     case IR_SAMPLE:
         spell_text(spell, node->attr == IR_SAMPLE_TURN ? spell->loop_turn.text : spell->loop_index);
         break;
@@ -372,10 +384,10 @@ static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_no
     case IR_RESULT: write_result(spell, ir_arg(graph, ref, 0), node->attr, least); break;
     case IR_CONTEXT: /* an operand numbers the loop or the light, whose text is the same */
     case IR_SAMPLE:
-    case IR_LOCAL: write_source(spell, node); break;
+    case IR_LOCAL: write_source(spell, node, least); break;
     default:
         if (node->num_args == 0)
-            write_source(spell, node);
+            write_source(spell, node, least);
         else
             write_form(spell, node, lang_style_form(spell->style, node->op), least);
     }
@@ -407,7 +419,7 @@ static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref re
         types[use.num_operands] = ir_type_of(spell->shader->graph, operand);
         use.named |= (uint32_t)is_named(spell, operand) << use.num_operands;
     }
-    return spell->lang_names.form(spell->lang_names.user_data, &use);
+    return lang_typed_form(spell->style->syntax, &spell->lang_names, &use, spell->scratch);
 }
 
 void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node,

@@ -19,22 +19,55 @@ static void write_members(struct spell *spell, enum shader_block block)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_indent(spell, 1);
-        spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
-        spell_text(spell, ";\n");
+        spell_declare(spell, PHRASE_MEMBER, variable,
+                      spell_name_of(spell->shader->strings, variable->name));
+        spell_text(spell, "\n");
     }
+}
+
+static void open_struct(struct spell *spell, const char *name)
+{
+    SPELL(spell, "struct ", name, " {\n");
+}
+
+static void close_struct(struct spell *spell)
+{
+    SPELL(spell, spell->style->phrases[PHRASE_STRUCT_END], "\n");
+}
+
+/* Declares a variable of a struct: "Surface result", "var result: Surface". */
+static void write_variable(struct spell *spell, enum lang_phrase phrase, const char *type,
+                           const char *name)
+{
+    (void)lang_open(spell->style, phrase, (struct lang_type_text){lang_word(type), 0},
+                    lang_word(name), spell->out);
 }
 
 /* Several functions in one file declare them once. */
 static void declare_lights(struct spell *spell)
 {
-    const char *const parameters[] = {"int i, ", " P, out ", " L, out ", " radiance);\n#endif\n"};
-    spell_text(spell, "#ifndef MXG_LIGHTS\n#define MXG_LIGHTS\nint mxg_light_count();\n"
-                      "void mxg_light(");
-    for (unsigned i = 0; i < 4; i++) {
-        spell_text(spell, parameters[i]);
-        if (i < 3)
-            spell_type(spell, IR_TYPE_VEC3);
+    static const struct {
+        enum lang_phrase phrase;
+        ir_type_id type;
+        const char *name;
+    } parameters[] = {{PHRASE_PARAM_ASSIGNED, IR_TYPE_INT, "i"},
+                      {PHRASE_PARAM_ASSIGNED, IR_TYPE_VEC3, "P"},
+                      {PHRASE_PARAM_OUT, IR_TYPE_VEC3, "L"},
+                      {PHRASE_PARAM_OUT, IR_TYPE_VEC3, "radiance"}};
+    const struct lang_type_text none = {{"", 0}, 0}, count = spell_type_text(spell, IR_TYPE_INT);
+    spell_text(spell, "#ifndef MXG_LIGHTS\n#define MXG_LIGHTS\n");
+    struct lang_declaration head =
+        lang_open(spell->style, PHRASE_FUNCTION, count, lang_word("mxg_light_count"), spell->out);
+    lang_declare(spell->style, &head, spell->out);
+    spell_text(spell, ";\n");
+    head = lang_open(spell->style, PHRASE_PROCEDURE, none, lang_word("mxg_light"), spell->out);
+    for (unsigned i = 0; i < sizeof parameters / sizeof *parameters; i++) {
+        spell_text(spell, i ? ", " : "");
+        spell_variable(spell, parameters[i].phrase, parameters[i].type,
+                       (struct spell_name){parameters[i].name, strlen(parameters[i].name)});
     }
+    lang_declare(spell->style, &head, spell->out);
+    spell_text(spell, ";\n#endif\n");
 }
 
 void spell_declare_function(struct spell *spell)
@@ -44,28 +77,33 @@ void spell_declare_function(struct spell *spell)
         declare_lights(spell);
     if (spell->shares_vertex_data) {
         const char *type = spell_frame_name(spell, "VertexData");
-        SPELL(spell, "struct ", type, " {\n");
+        open_struct(spell, type);
         write_members(spell, BLOCK_VERTEX_DATA);
-        SPELL(spell, "};\n", spell->frame->variable ? spell->frame->variable : "", type, " ",
-              spell_frame_name(spell, "vd"), ";\n");
+        close_struct(spell);
+        write_variable(spell, PHRASE_VARIABLE, type, spell_frame_name(spell, "vd"));
+        spell_text(spell, ";\n");
     }
-    SPELL(spell, "struct ", spell->shader->function_type, " {\n");
+    open_struct(spell, spell->shader->function_type);
     write_members(spell, BLOCK_OUTPUTS);
-    spell_text(spell, "};\n");
+    close_struct(spell);
 }
 
 void spell_open_function(struct spell *spell)
 {
     const char *type = spell->shader->function_type, *between = "";
-    SPELL(spell, type, " ", spell->shader->function, "(");
+    struct lang_declaration head =
+        lang_open(spell->style, PHRASE_FUNCTION, (struct lang_type_text){lang_word(type), 0},
+                  lang_word(spell->shader->function), spell->out);
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_text(spell, between);
-        spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
+        spell_declare(spell, PHRASE_PARAM_ASSIGNED, variable,
+                      spell_name_of(spell->shader->strings, variable->name));
         between = ", ";
     }
-    spell_text(spell, ")\n{\n");
+    lang_declare(spell->style, &head, spell->out);
+    spell_text(spell, "\n{\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const char *name =
@@ -73,10 +111,12 @@ void spell_open_function(struct spell *spell)
         if (spell->shares_vertex_data)
             SPELL(spell, "    ", spell_frame_name(spell, "vd"), ".", name, " = ", name, ";\n");
     }
-    SPELL(spell, "    ", type, " result;\n");
+    spell_indent(spell, 1);
+    write_variable(spell, PHRASE_LOCAL, type, "result");
+    spell_text(spell, ";\n");
 }
 
 void spell_close_function(struct spell *spell)
 {
-    spell_text(spell, "    return result;\n");
+    spell_text(spell, "    return result;\n}\n");
 }

@@ -55,13 +55,19 @@ void spell_write_maker(const struct spell *spell, const struct spell_maker *make
     assert(user->array_length == 0 && user->first_member + user->num_members <= layer->members.len);
     const struct ir_member *members = layer->members.items + user->first_member;
     const char *made = local_name(spell, members, user->num_members);
-    text_fmt(out, "%s %s(", maker->type_name, maker->name);
+    const struct lang_style *style = spell->style;
+    const struct lang_type_text type = {lang_word(maker->type_name), 0};
+    struct lang_declaration head =
+        lang_open(style, PHRASE_FUNCTION, type, lang_word(maker->name), out);
     for (uint32_t i = 0; i < user->num_members; i++) {
         text_str(out, i ? ", " : "");
-        lang_print_variable(spell->style, &spell->lang_names, unit, members[i].type,
-                            member_name(spell, &members[i]), out);
+        lang_print_variable(style, &spell->lang_names, unit, PHRASE_PARAM_ASSIGNED, members[i].type,
+                            lang_word(member_name(spell, &members[i])), out);
     }
-    text_fmt(out, ")\n{\n    %s %s;\n", maker->type_name, made);
+    lang_declare(style, &head, out);
+    text_str(out, "\n{\n    ");
+    (void)lang_open(style, PHRASE_LOCAL, type, lang_word(made), out);
+    text_str(out, ";\n");
     for (uint32_t i = 0; i < user->num_members; i++) {
         const char *member = member_name(spell, &members[i]);
         text_fmt(out, "    %s.%s = %s;\n", made, member, member);

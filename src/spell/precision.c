@@ -126,6 +126,15 @@ void spell_find_kinds(struct spell *spell)
         spell->kinds[ref] = (uint8_t)kind_of(spell, ref);
 }
 
+struct text_word spell_half_type(struct spell *spell, struct text_word type)
+{
+    struct text half;
+    text_init(&half, spell->scratch);
+    text_str(&half, "mediump ");
+    text_put(&half, type);
+    return (struct text_word){text_cstr(&half), half.len};
+}
+
 bool spell_is_half(const struct spell *spell, ir_ref ref)
 {
     ir_type_id type = ir_type_of(spell->shader->graph, ref);

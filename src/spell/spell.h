@@ -67,6 +67,7 @@ struct spell {
 /* Fills spell->kinds, which the functions below read. */
 void spell_find_kinds(struct spell *spell);
 bool spell_is_half(const struct spell *spell, ir_ref ref);
+struct text_word spell_half_type(struct spell *spell, struct text_word type); /* "mediump vec3" */
 /* A uniform or a texture. */
 bool spell_is_half_variable(const struct spell *spell, const struct shader_variable *variable);
 
@@ -88,9 +89,14 @@ void spell_argument(struct spell *spell, ir_ref ref);
  * arguments.
  */
 unsigned spell_call_open(struct spell *spell, ir_ref call);
+struct lang_type_text spell_type_text(const struct spell *spell, ir_type_id type);
 void spell_type(struct spell *spell, ir_type_id type);
-/* "float x[3]" */
-void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name);
+/* Writes the value of a variable of the interface, whose name or path is `name`. */
+void spell_read(struct spell *spell, const struct shader_variable *variable, struct text_word name,
+                enum lang_precedence least);
+/* Declares a variable by a phrase: "float x[3]", "var x: array<f32, 3>". */
+void spell_variable(struct spell *spell, enum lang_phrase phrase, ir_type_id type,
+                    struct spell_name name);
 
 /* The name of a portable function that the current text calls. */
 static inline const char *spell_function_name(const struct spell *spell, uint32_t function)
@@ -129,9 +135,9 @@ const struct shader_variable *spell_interface_variable(const struct spell *spell
 /* True if the stage uses the variable, or a variable of the block. */
 bool spell_uses(const struct spell *spell, const struct shader_variable *variable);
 bool spell_uses_block(const struct spell *spell, enum shader_block block);
-/* Writes "vec3 name[4]": a variable of this type under another name. */
-void spell_declare(struct spell *spell, const struct shader_variable *variable,
-                   struct spell_name name);
+/* Declares a variable of the interface by a phrase, under another name: "vec3 name[4]". */
+void spell_declare(struct spell *spell, enum lang_phrase phrase,
+                   const struct shader_variable *variable, struct spell_name name);
 /* Writes the structs of the stage's functions. */
 void spell_structs(struct spell *spell);
 
@@ -202,6 +208,10 @@ static inline void spell_text(struct spell *spell, const char *text)
 static inline void spell_name(struct spell *spell, struct spell_name name)
 {
     text_mem(spell->out, name.text, name.len);
+}
+static inline struct text_word spell_word(struct spell_name name)
+{
+    return (struct text_word){name.text, name.len};
 }
 static inline struct spell_name spell_name_of(const struct strpool *strings, str_id id)
 {

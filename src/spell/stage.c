@@ -120,9 +120,21 @@ static const char *function_name(void *user_data, uint32_t id)
 
 static const char *global_name(void *user_data, uint32_t id)
 {
-    const struct spell *spell = user_data;
+    struct spell *spell = user_data;
     uint32_t variable = shader_global_variable(spell->shader, id);
-    return variable == UINT32_MAX ? NULL : spell->variables[variable].text;
+    if (variable == UINT32_MAX)
+        return NULL;
+    struct spell_name name = spell->variables[variable];
+    if (!shader_block_type(spell->shader, spell->style->syntax,
+                           &spell->shader->variables.items[variable]))
+        return name.text;
+    struct text value, *out = spell->out;
+    text_init(&value, spell->scratch);
+    spell->out = &value;
+    spell_read(spell, &spell->shader->variables.items[variable], spell_word(name),
+               LANG_PREC_POSTFIX);
+    spell->out = out;
+    return text_cstr(&value);
 }
 
 static const char *user_type_name(void *user_data, ir_type_id type)
@@ -259,7 +271,8 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
         spell_close_function(spell);
     else if (spell->frame->close)
         spell->frame->close(spell);
-    spell_text(spell, "}\n");
+    else
+        spell_text(spell, "}\n");
     if (spell->out != out)
         join(spell, out, &body);
 }
@@ -291,7 +304,6 @@ static void init(struct spell *spell)
         ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->locals.len + 1);
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
-    spell->write_node = spell->target->form ? spell_typed_node : spell_node;
     spell->lang_names = (struct lang_names){.user_data = spell,
                                             .function = function_name,
                                             .global = global_name,
@@ -314,6 +326,8 @@ static void init(struct spell *spell)
     if (spell->options->shader_name)
         names_take(&spell->names, spell->options->shader_name, strlen(spell->options->shader_name));
     spell->shares_vertex_data = shader->is_function && spell_functions_read_vertex_data(spell);
+    spell->write_node =
+        lang_is_typed(spell->style->syntax, &spell->lang_names) ? spell_typed_node : spell_node;
     spell_find_kinds(spell);
     spell_name_interface(spell);
     spell_take_source_names(spell);

@@ -88,17 +88,15 @@ static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
 }
 
 /* "color c": the local of a node, or of one of its results. */
-static void write_typed(struct spell *spell, ir_ref ref, ir_type_id type, struct spell_name name)
+static void write_typed(struct spell *spell, enum lang_phrase phrase, ir_ref ref, ir_type_id type,
+                        struct spell_name name)
 {
     const char *own_type = spell->target->node_type ? spell->target->node_type(spell, ref) : NULL;
+    struct lang_type_text text =
+        own_type ? (struct lang_type_text){lang_word(own_type), 0} : spell_type_text(spell, type);
     if (spell_is_half(spell, ref) && type == ir_type_of(spell->shader->graph, ref))
-        spell_text(spell, "mediump ");
-    if (!own_type) {
-        spell_variable(spell, type, name);
-        return;
-    }
-    SPELL(spell, own_type, " ");
-    spell_name(spell, name);
+        text.name = spell_half_type(spell, text.name);
+    (void)lang_open(spell->style, phrase, text, spell_word(name), spell->out);
 }
 
 /* ---- Calls with several results ---- */
@@ -144,6 +142,12 @@ static struct call_out describe_out(const struct spell *spell, ir_ref call, unsi
                              verbatim->has_initial};
 }
 
+/* The argument for a result, which is a local: "x", "&x". */
+static void write_reference(struct spell *spell, struct spell_name local)
+{
+    lang_put_phrase(spell->style->phrases[PHRASE_REFERENCE], spell_word(local), spell->out);
+}
+
 /*
  * Portable functions have `in`, `inout` and `out` parameters in any order. The operands of the call
  * belong to the first two kinds. An `inout` argument is a local that starts with the value of the
@@ -162,7 +166,7 @@ static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t 
         if (mode == LANG_IN)
             spell_argument(spell, ir_arg(spell->shader->graph, call, operand));
         else
-            spell_name(spell, spell->let_names.items[first_name + 1 + out++]);
+            write_reference(spell, spell->let_names.items[first_name + 1 + out++]);
         operand += mode != LANG_OUT;
     }
     assert(operand == ir_get(spell->shader->graph, call)->num_args);
@@ -182,7 +186,7 @@ static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t firs
     for (unsigned i = 0; i < outs; i++) {
         if (written++)
             text_mem(spell->out, ", ", 2);
-        spell_name(spell, spell->let_names.items[first_name + 1 + i]);
+        write_reference(spell, spell->let_names.items[first_name + 1 + i]);
     }
 }
 
@@ -223,6 +227,7 @@ static struct spell_name parts_base(struct spell *spell, ir_ref call, unsigned o
 /* Writes "float x, y;", and a separate declaration for each `inout` argument. */
 static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
 {
+    const struct lang_syntax *syntax = spell->target->syntax;
     const struct ir_node *node = ir_get(spell->shader->graph, call);
     struct spell_name base =
         outs > 1 ? parts_base(spell, call, outs) : spell_call_base(spell, call);
@@ -233,7 +238,7 @@ static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsi
         struct spell_name name =
             add_local(spell, part_name(spell, base, is_whole ? NULL : out.part), call);
         bool joins = i > 0 && !out.inout && !last.inout && out.type == last.type
-                     && out.type < IR_TYPE_FIRST_USER;
+                     && out.type < IR_TYPE_FIRST_USER && !syntax->one_per_declaration;
         if (joins) {
             text_mem(spell->out, ", ", 2);
             spell_name(spell, name);
@@ -241,7 +246,7 @@ static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsi
             if (i > 0)
                 text_mem(spell->out, ";\n", 2);
             open_line(spell, indent, node->origin);
-            write_typed(spell, call, out.type, name);
+            write_typed(spell, PHRASE_LOCAL, call, out.type, name);
         }
         if (out.inout) {
             text_mem(spell->out, " = ", 3);
@@ -264,7 +269,7 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
     assert(spell->let_names.len == first + 1 + outs);
     open_line(spell, indent, node->origin);
     if (node->type != IR_TYPE_VOID) {
-        spell_variable(spell, node->type, spell->let_names.items[first]);
+        spell_variable(spell, PHRASE_LOCAL, node->type, spell->let_names.items[first]);
         text_mem(spell->out, " = ", 3);
     }
     write_call_arguments(spell, call, first, outs);
@@ -286,9 +291,8 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
     }
     struct spell_name name = add_local(spell, spell_local_base(spell, ref), ref);
     open_line(spell, indent, node->origin);
-    if (node->op == IR_CONST && !spell->target->syntax->defines_constants)
-        spell_text(spell, "const ");
-    write_typed(spell, ref, node->type, name);
+    write_typed(spell, node->op == IR_CONST ? PHRASE_LOCAL_CONSTANT : PHRASE_LOCAL, ref, node->type,
+                name);
     text_mem(spell->out, " = ", 3);
     spell_expression(spell, ref, LANG_PREC_ASSIGN);
     text_mem(spell->out, ";\n", 2);
@@ -309,38 +313,60 @@ static const char *private_name(const struct spell *spell, str_id asked)
  * Over all lights from the last one: a driver that knows a loop's first number unrolls it, which
  * makes the shader by a third longer and no faster.
  */
+static void write_last_light(struct spell *spell)
+{
+    if (spell->shader->is_function) {
+        spell_text(spell, "mxg_light_count() - 1");
+        return;
+    }
+    SPELL(spell, "min(", private_name(spell, STR_u_numActiveLightSources), ", ");
+    spell_number(spell, spell->shader->max_lights);
+    spell_text(spell, ") - 1");
+}
+
 /* The turn is carried from sample to sample. */
 static void write_first_turn(struct spell *spell, unsigned indent, ir_ref turn)
 {
     spell->loop_turn = names_unique(&spell->names, "turn", 4);
     open_line(spell, indent, 0);
-    spell_variable(spell, IR_TYPE_VEC2, spell->loop_turn);
+    spell_variable(spell, PHRASE_LOCAL, IR_TYPE_VEC2, spell->loop_turn);
     text_mem(spell->out, " = ", 3);
     spell_expression(spell, turn, LANG_PREC_ASSIGN);
     text_mem(spell->out, ";\n", 2);
 }
 
+/* The parts of the loop's head: `part` '0' begins it, '1' continues it, '2' goes on. */
+static void write_loop_part(struct spell *spell, const struct effect *effect, char part)
+{
+    struct spell_name i = {spell->loop_index, strlen(spell->loop_index)};
+    bool lights = effect->kind == EFFECT_LIGHTS;
+    if (part == '2') {
+        lang_put_phrase(spell->style->phrases[lights ? PHRASE_DECREMENT : PHRASE_INCREMENT],
+                        spell_word(i), spell->out);
+    } else if (part == '1') {
+        SPELL(spell, i.text, lights ? " >= 0" : " < ",
+              lights ? "" : private_name(spell, STR_u_envRadianceSamples));
+    } else {
+        spell_variable(spell, PHRASE_LOCAL, IR_TYPE_INT, i);
+        spell_text(spell, " = ");
+        if (lights)
+            write_last_light(spell);
+        else
+            spell_text(spell, "0");
+    }
+}
+
 static void write_loop(struct spell *spell, unsigned indent, const struct effect *effect)
 {
-    bool lights = effect->kind == EFFECT_LIGHTS;
     if (effect->value)
         write_first_turn(spell, indent, effect->value);
     if (!spell->loop_index)
         spell->loop_index = names_unique(&spell->names, "i", 1).text;
-    const char *i = spell->loop_index;
     open_line(spell, indent, 0);
-    if (!lights) {
-        SPELL(spell, "for (int ", i, " = 0; ", i, " < ",
-              private_name(spell, STR_u_envRadianceSamples), "; ++", i, ") {\n");
-        return;
-    }
-    if (spell->shader->is_function) {
-        SPELL(spell, "for (int ", i, " = mxg_light_count() - 1; ", i, " >= 0; --", i, ") {\n");
-        return;
-    }
-    SPELL(spell, "for (int ", i, " = min(", private_name(spell, STR_u_numActiveLightSources), ", ");
-    spell_number(spell, spell->shader->max_lights);
-    SPELL(spell, ") - 1; ", i, " >= 0; --", i, ") {\n");
+    const char *rest = spell->style->phrases[PHRASE_FOR];
+    for (char part; (part = lang_next(&rest, spell->out));)
+        write_loop_part(spell, effect, part);
+    spell_text(spell, " {\n");
 }
 
 static void write_if(struct spell *spell, unsigned indent, ir_ref condition, bool braces)
@@ -353,10 +379,15 @@ static void write_if(struct spell *spell, unsigned indent, ir_ref condition, boo
 
 static void write_discard(struct spell *spell, unsigned indent, ir_ref condition)
 {
+    bool braces = condition && spell->style->syntax->always_braces;
     if (condition)
-        write_if(spell, indent++, condition, false);
+        write_if(spell, indent++, condition, braces);
     open_line(spell, indent, 0);
     spell_text(spell, "discard;\n");
+    if (!braces)
+        return;
+    open_line(spell, indent - 1, 0);
+    spell_text(spell, "}\n");
 }
 
 static void write_variable(struct spell *spell, unsigned indent, const struct effect *effect)
@@ -368,7 +399,7 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
                                  : spell_name_of(spell->shader->strings, local->name);
     spell->locals[effect->index] = names_unique(&spell->names, name.text, name.len);
     open_line(spell, indent, 0);
-    spell_variable(spell, local->type, spell->locals[effect->index]);
+    spell_variable(spell, PHRASE_LOCAL, local->type, spell->locals[effect->index]);
     if (effect->value) {
         text_mem(spell->out, " = ", 3);
         spell_expression(spell, effect->value, LANG_PREC_ASSIGN);
@@ -378,10 +409,17 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
 
 static void write_result(struct spell *spell, unsigned indent, const struct effect *effect)
 {
-    char name[16] = "return";
-    size_t len = effect->index ? (size_t)snprintf(name, sizeof name, "r%u", (unsigned)effect->index)
-                               : strlen(name);
-    write_assignment(spell, indent, (struct spell_name){name, len}, effect->index ? " = " : " ",
+    if (!effect->index) {
+        write_assignment(spell, indent, (struct spell_name){"return", 6}, " ", effect->value);
+        return;
+    }
+    char number[16];
+    struct text name;
+    size_t len = (size_t)snprintf(number, sizeof number, "r%u", (unsigned)effect->index);
+    text_init(&name, spell->scratch);
+    lang_put_phrase(spell->style->phrases[PHRASE_REFERENCED], (struct text_word){number, len},
+                    &name);
+    write_assignment(spell, indent, (struct spell_name){text_cstr(&name), name.len}, " = ",
                      effect->value);
 }
 
@@ -437,9 +475,11 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
 }
 
 /* A single plain statement in an `if` needs no braces. */
-static bool holds_one_statement(const struct effect_list *list, uint32_t opening)
+static bool holds_one_statement(const struct spell *spell, const struct effect_list *list,
+                                uint32_t opening)
 {
-    if (opening + 2 >= list->len || list->items[opening + 2].kind != EFFECT_END)
+    if (spell->style->syntax->always_braces || opening + 2 >= list->len
+        || list->items[opening + 2].kind != EFFECT_END)
         return false;
     uint8_t kind = list->items[opening + 1].kind;
     return kind == EFFECT_ACCUMULATE || kind == EFFECT_ASSIGN;
@@ -460,7 +500,7 @@ void spell_statements(struct spell *spell, const struct effect_list *statements,
     for (uint32_t i = 0; i < statements->len; i++) {
         const struct effect *effect = &statements->items[i];
         uint8_t kind = effect->kind;
-        if (kind == EFFECT_IF && holds_one_statement(statements, i)) {
+        if (kind == EFFECT_IF && holds_one_statement(spell, statements, i)) {
             write_if(spell, indent, effect->value, false);
             write_effect(spell, indent + 1, &statements->items[i + 1]);
             i += 2;
@@ -486,37 +526,45 @@ void spell_statements(struct spell *spell, const struct effect_list *statements,
             spell->local_of[statements->items[i].value] = 0;
 }
 
+/* A parameter of a graph's function: "p0", or "r1" of its second result. */
+static void write_parameter(struct spell *spell, enum lang_phrase phrase, ir_type_id type,
+                            const char *letter, uint32_t index)
+{
+    struct text name;
+    text_init(&name, spell->scratch);
+    text_str(&name, letter);
+    text_u32(&name, index);
+    struct text_word own = {text_cstr(&name), name.len};
+    names_take(&spell->names, own.bytes, own.len);
+    bool is_texture = type == IR_TYPE_SAMPLER || type == IR_TYPE_SAMPLER_ARRAY;
+    (void)lang_open(spell->style, type == IR_TYPE_SAMPLER ? PHRASE_PLAIN : phrase,
+                    spell_type_text(spell, type), own, spell->out);
+    if (is_texture)
+        lang_put_sampler(spell->style, own, spell->out);
+}
+
 void spell_graph_function(struct spell *spell, const struct shader_function *function)
 {
     assert(function->function < spell->shader->graph->functions.len);
     const struct ir_graph *graph = spell->shader->graph;
     const struct ir_function *fn = &graph->functions.items[function->function];
+    const ir_ref *results = graph->function_results.items + fn->first_result;
     assert(fn->num_results > 0);
-    const struct lang_syntax *syntax = spell->target->syntax;
     names_open_scope(&spell->names);
-    spell_type(spell, ir_type_of(graph, graph->function_results.items[fn->first_result]));
-    text_char(spell->out, ' ');
-    spell_text(spell, spell->graph_functions[function->function]);
-    text_char(spell->out, '(');
-    char name[16];
-    for (uint32_t i = 0; i + 1 < fn->num_params + fn->num_results; i++) {
-        bool in = i < fn->num_params;
-        uint32_t index = in ? i : i - fn->num_params + 1;
-        size_t len = (size_t)snprintf(name, sizeof name, "%c%u", in ? 'p' : 'r', (unsigned)index);
-        names_take(&spell->names, arena_strndup(spell->scratch, name, len), len);
-        if (i)
-            text_mem(spell->out, ", ", 2);
-        ir_type_id type =
-            in ? graph->param_types.items[fn->first_param_type + index]
-               : ir_type_of(graph, graph->function_results.items[fn->first_result + index]);
-        spell_text(spell, !in                       ? syntax->param_out
-                          : type == IR_TYPE_SAMPLER ? ""
-                                                    : syntax->param_in);
-        spell_variable(spell, type, (struct spell_name){name, len});
-        if (spell_has_sampler(spell, type))
-            SPELL(spell, ", ", syntax->sampler_type, " ", name, LANG_SAMPLER_SUFFIX);
+    struct lang_declaration head = lang_open(
+        spell->style, PHRASE_FUNCTION, spell_type_text(spell, ir_type_of(graph, results[0])),
+        lang_word(spell->graph_functions[function->function]), spell->out);
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        spell_text(spell, i ? ", " : "");
+        write_parameter(spell, PHRASE_PARAM_IN, graph->param_types.items[fn->first_param_type + i],
+                        "p", i);
     }
-    text_mem(spell->out, ")\n{\n", 4);
+    for (uint32_t i = 1; i < fn->num_results; i++) {
+        spell_text(spell, fn->num_params || i > 1 ? ", " : "");
+        write_parameter(spell, PHRASE_PARAM_OUT, ir_type_of(graph, results[i]), "r", i);
+    }
+    lang_declare(spell->style, &head, spell->out);
+    text_mem(spell->out, "\n{\n", 3);
     spell_statements(spell, &function->statements, 1);
     text_mem(spell->out, "}\n\n", 3);
 }

@@ -47,6 +47,7 @@ enum target_caps {
     CAP_STORES = 1 << 21,            /* pixel stages can write images: the deferred pipeline */
     CAP_MEDIUMP = 1 << 22,           /* declarations can have a lower precision: --precision */
     CAP_TWO_SOURCES = 1 << 23,       /* a pixel stage has a second source for blending */
+    CAP_SAMPLER_BINDINGS = 1 << 24, /* with CAP_BINDINGS: a texture and its sampler have one each */
     /* not in the tables of targets: two that follow from their members */
     CAP_LIGHTING = 1 << 29, /* the shader computes lights and layers: it has no closures */
     CAP_NETWORKS = 1 << 30, /* has `network` */
@@ -96,15 +97,15 @@ struct target_network {
 struct target_frame {
     /* declares structs, uniforms, textures, stage inputs and outputs, below the first lines */
     void (*declare)(struct spell *spell);
-    void (*open)(struct spell *spell);  /* writes "void main()\n{\n" and the first lines of main */
-    void (*close)(struct spell *spell); /* writes the last lines of main, without its brace */
+    void (*open)(struct spell *spell); /* writes "void main()\n{\n" and the first lines of main */
+    /* writes the last lines of main, its brace and what follows it; NULL: the brace */
+    void (*close)(struct spell *spell);
     /*
      * Declares structs, uniforms and textures for a shader that is a function in a file of the host
      * (spell/function.c); nothing that stands once per file. NULL: the option `form` has no
      * function.
      */
     void (*declare_for_function)(struct spell *spell);
-    const char *variable; /* prefix of a variable at file scope, "static "; NULL: none */
 };
 
 struct target {

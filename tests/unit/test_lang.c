@@ -171,6 +171,7 @@ static void test_print_target(void)
         [IR_RSQRT] = {"1.0f / sqrt($0)", LANG_PREC_PRODUCT, false},
         [IR_MOD] = {"$0 - $1 * floor($0 / $1)", LANG_PREC_SUM, false},
     };
+    static const char *const phrases[NUM_PHRASES] = {[PHRASE_PARAM_IN] = "const $T $N"};
     const struct lang_syntax target = {
         .name = "target",
         .base = &lang_syntax_portable,
@@ -178,10 +179,7 @@ static void test_print_target(void)
         .forms = forms,
         .reserved = reserved,
         .num_reserved = 3,
-        .param_in = "const ",
-        .param_in_assigned = "",
-        .param_out = "out ",
-        .param_inout = "inout ",
+        .phrases = phrases,
         .infinity = "INFINITY",
         .nan = "NAN",
         .float_literals_need_suffix = true,
