@@ -335,7 +335,7 @@ static void write_first_turn(struct spell *spell, unsigned indent, ir_ref turn)
     text_mem(spell->out, ";\n", 2);
 }
 
-/* The parts of the loop's head: `part` '0' begins it, '1' continues it, '2' goes on. */
+/* A part of the loop's head: '0' its start, '1' its condition, '2' its step. */
 static void write_loop_part(struct spell *spell, const struct effect *effect, char part)
 {
     struct spell_name i = {spell->loop_index, strlen(spell->loop_index)};
