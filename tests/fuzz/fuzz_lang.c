@@ -50,8 +50,8 @@ static const char *print(struct arena *arena, const struct lang_unit *unit)
             continue;
         }
         text_str(&out, global->kind == LANG_GLOBAL_UNIFORM ? "uniform " : "in ");
-        lang_print_variable(&style, NULL, unit, global->type, str_text(unit->strings, global->name),
-                            &out);
+        lang_print_variable(&style, NULL, unit, PHRASE_PLAIN, global->type,
+                            lang_word(str_text(unit->strings, global->name)), &out);
         text_str(&out, ";\n");
     }
     for (uint32_t i = 0; i < unit->functions.len; i++)
