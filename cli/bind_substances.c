@@ -52,7 +52,7 @@ char *substance_graph(const struct bind_substances *substances, const char *name
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    mxg_element element = mxg_document_find(substances->document, name);
+    mxg_element element = mxg_document_find_element(substances->document, name);
     mxg_element_info info = {sizeof info};
     if (!out)
         return cli_format("%s", "");
@@ -94,7 +94,7 @@ static bool draw(struct bind_substances *substances, const char *document, const
 static char *document_of(const struct bind_substances *substances, const char *folder,
                          const char *name)
 {
-    mxg_element element = mxg_document_find(substances->document, name);
+    mxg_element element = mxg_document_find_element(substances->document, name);
     mxg_element_info info = {sizeof info};
     if (!element || mxg_document_element(substances->document, element, &info) != MXG_OK
         || strcmp(info.type, "material") != 0)
