@@ -175,14 +175,6 @@ static bool apply_settings(struct cli *cli)
     return true;
 }
 
-bool cli_renew_options(struct cli *cli)
-{
-    mxg_options_destroy(cli->options);
-    cli->options = NULL;
-    return report_status(&cli->report, mxg_options_create(cli->context, &cli->options))
-           && apply_settings(cli);
-}
-
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit)
 {

@@ -64,8 +64,6 @@ enum cli_wants {
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit);
 void cli_finish(struct cli *cli);
-/* Drops what the command has set since. False after a message. */
-bool cli_renew_options(struct cli *cli);
 
 /*
  * Appends the arguments that give another mxgen program the same library, limits and options of
