@@ -8,9 +8,9 @@
  *     max-instructions = 2_000
  */
 #include "check/budget.h"
-#include "cli/args.h"
-#include "cli/cli.h"
-#include "cli/toml.h"
+#include "program/args.h"
+#include "program/cli.h"
+#include "program/toml.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen bind: the layers of each primitive of a stage under a look. */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/cli.h"
-#include "cli/files.h"
-#include "cli/memory.h"
-#include "cli/stage.h"
+#include "cli/commands.h"
+#include "program/cli.h"
+#include "program/files.h"
+#include "program/memory.h"
+#include "program/stage.h"
 
 #include <stdlib.h>
 #include <string.h>

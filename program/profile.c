@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/profile.h"
+
+#include "program/args.h"
+#include "program/files.h"
+#include "program/toml.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool complain(const char *name, const struct toml *toml, const char *what)
+{
+    fprintf(stderr, "mxgen: %s:%u: error: %s\n", name, (unsigned)toml->number, what);
+    return false;
+}
+
+static bool read_lines(mxg_options *options, const char *name, const char *text)
+{
+    struct store store = {0};
+    struct toml toml = {.store = &store, .rest = text};
+    bool good = true;
+    while (good && toml_next(&toml)) {
+        const char *value = toml.kind == TOML_PAIR ? toml_text(&store, toml.value) : NULL;
+        if (!value)
+            good = complain(name, &toml, "a line is a comment, or an option, '=' and a value");
+        else if (mxg_options_set(options, toml.name.text, value) != MXG_OK)
+            good = complain(name, &toml, mxg_options_error(options));
+    }
+    store_finish(&store);
+    return good;
+}
+
+static bool read_file(mxg_options *options, const char *name)
+{
+    size_t size;
+    char *text = files_read(name, &size);
+    if (!text) {
+        fprintf(stderr, "mxgen: cannot read the profile '%s': %s\n", name, strerror(errno));
+        return false;
+    }
+    bool good = read_lines(options, name, text);
+    free(text);
+    return good;
+}
+
+/* "desktop, console, mobile" */
+static bool complain_of_name(const char *name)
+{
+    const char *names[16];
+    size_t num = 0;
+    while (num < sizeof names / sizeof *names && profile_texts[2 * num]) {
+        names[num] = profile_texts[2 * num];
+        ++num;
+    }
+    const char *near = args_closest(name, names, num);
+    fprintf(stderr, "mxgen: there is no profile '%s'; ", name);
+    if (near)
+        fprintf(stderr, "did you mean '%s'?\n", near);
+    for (size_t i = 0; !near && i < num; ++i)
+        fprintf(stderr, "%s%s", i ? ", " : "profiles are ", names[i]);
+    if (!near)
+        fprintf(stderr, ", and files that end with .toml\n");
+    return false;
+}
+
+bool profile_apply(mxg_options *options, const char *name)
+{
+    size_t len = strlen(name);
+    if (len > 5 && strcmp(name + len - 5, ".toml") == 0)
+        return read_file(options, name);
+    for (size_t i = 0; profile_texts[i]; i += 2)
+        if (strcmp(profile_texts[i], name) == 0)
+            return read_lines(options, name, profile_texts[i + 1]);
+    return complain_of_name(name);
+}
