@@ -120,10 +120,6 @@ __attribute__((format(printf, 1, 2)))
 char *
 cli_format(const char *format, ...);
 
-/* FNV-1a of a text and of the previous hash; the first is CLI_HASH_OF_NOTHING. */
-#define CLI_HASH_OF_NOTHING 0xcbf29ce484222325u
-uint64_t cli_hash(uint64_t hash, const char *text);
-
 /*
  * A copy of `len` bytes with a NUL after them, which the caller frees; ends the program if memory
  * is exhausted.
