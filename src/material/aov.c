@@ -4,7 +4,7 @@
  * they blend closures. The <aov> nodes of a definition belong to the surfaces that it gives; a
  * later value of an AOV of one surface replaces the earlier one.
  */
-#include "build/dynamic.h"
+#include "dynamic/dynamic.h"
 
 bool build_is_aov(const struct document *doc, elem_id element)
 {

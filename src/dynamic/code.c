@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* One use of a node in C: its arguments, its faults, its results. */
-#include "build/code.h"
+#include "dynamic/code.h"
 
 #include "base/structs.h"
 

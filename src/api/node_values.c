@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The values that the code of a node builds. */
-#include "build/code.h"
+#include "dynamic/code.h"
 
 #include "base/hash.h"
 #include "lower/lower.h"

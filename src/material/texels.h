@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The texels of a document's textures, for estimates of budgets: the host reads them. */
-#ifndef MXG_BUILD_TEXELS_H
-#define MXG_BUILD_TEXELS_H
+#ifndef MXG_MATERIAL_TEXELS_H
+#define MXG_MATERIAL_TEXELS_H
 
 #include "build/build_priv.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Nodes whose implementation is code of a host. */
-#include "build/code.h"
+#include "dynamic/code.h"
 
 /* mxg_build_fn: applies the definition that stands instead of this one. */
 static bool apply_instead(void *user_data, mxg_build *build, mxg_ref *results)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* What the code of a node takes from its shader and its library: definitions, streams, uniforms. */
-#include "build/code.h"
+#include "dynamic/code.h"
 
 #include "base/structs.h"
 #include "tree/ast.h"

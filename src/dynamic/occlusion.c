@@ -3,7 +3,7 @@
  * <ambientocclusion>: how open the surface is, from 0 to 1. A path tracer traces it for each node
  * of other numbers, as a stream; rasters have it from a map of the host or from a primvar.
  */
-#include "build/dynamic.h"
+#include "dynamic/dynamic.h"
 #include "closure/closure.h"
 
 #include <stdio.h>

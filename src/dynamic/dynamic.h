@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Code of mxgen for nodes: what its files share. */
-#ifndef MXG_BUILD_DYNAMIC_H
-#define MXG_BUILD_DYNAMIC_H
+#ifndef MXG_DYNAMIC_DYNAMIC_H
+#define MXG_DYNAMIC_DYNAMIC_H
 
-#include "build/code.h"
+#include "dynamic/code.h"
 
 /* The argument of an input; 0: absent, or the definition has no such input. */
 ir_ref dynamic_arg(const mxg_build *build, str_id name);

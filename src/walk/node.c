@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From the arguments of a node to its results, by the implementation for the target. */
-#include "build/code.h"
+#include "dynamic/code.h"
 #include "lower/lower.h"
 
 static void call_expressions(struct builder *b, const struct implementation *impl,

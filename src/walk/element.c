@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "build/code.h"
+#include "dynamic/code.h"
 #include "print/print.h"
 
 #include <assert.h>

@@ -5,8 +5,8 @@
  * Code of a host is foreign: no jump may cross it (base/mem.h). So each function of node.h that
  * takes memory sets its own trap, and the code runs to its end before the builder jumps on.
  */
-#ifndef MXG_BUILD_CODE_H
-#define MXG_BUILD_CODE_H
+#ifndef MXG_DYNAMIC_CODE_H
+#define MXG_DYNAMIC_CODE_H
 
 #include "build/build_priv.h"
 
@@ -63,10 +63,6 @@ void code_fault(struct mxg_build *build, const char *fault, const char *word);
 void code_run(struct builder *b, const struct frame *frame, mxg_build_fn build, void *user_data,
               const char *foreign, ir_ref *results);
 
-/* code_table.c: finds the codes that the target has. */
-void code_find_all(struct builder *b);
-/* An implementation of kind IMPL_CODE for a definition; NULL: no code of a host serves it. */
-const struct implementation *code_implementation(struct builder *b, uint32_t nodedef);
 /* code_node.c: builds a node whose implementation is such a one. */
 void code_build(struct builder *b, const struct frame *frame, ir_ref *results);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The nodes of slabs (docs/slabs.md): each is an op of the IR, which the walk of src/slabs reads.
  */
-#include "build/dynamic.h"
+#include "dynamic/dynamic.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "build/texels.h"
+#include "material/texels.h"
 
 #include "slabs/slabs.h"
 

@@ -4,8 +4,8 @@
  * code for a node like that of a host (mxgen/node.h). Few of them need more of the builder than a
  * host has.
  */
-#include "build/code.h"
-#include "build/dynamic.h"
+#include "dynamic/code.h"
+#include "dynamic/dynamic.h"
 
 #include <stdio.h>
 

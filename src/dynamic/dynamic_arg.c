@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Arguments and faults of the definitions that code of mxgen serves. */
-#include "build/dynamic.h"
+#include "dynamic/dynamic.h"
 
 ir_ref dynamic_arg(const mxg_build *build, str_id name)
 {
