@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/bind_substances.h"
 
-#include "check/picture.h"
+#include "check/signature.h"
 #include "program/files.h"
 #include "program/folder.h"
 

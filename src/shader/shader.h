@@ -133,7 +133,7 @@ struct shader_light {
 
 /* Verbatim source, the callee of a VERBATIM node. The id of the callee is its index. */
 struct shader_verbatim {
-    /* in source_refs: the sources that the call needs, in their order (shader/source.h) */
+    /* in source_refs: the sources that the call needs, in their order (shader/verbatim.h) */
     uint32_t first_source, num_sources;
     bool needs_neighbours; /* shader_needs_neighbours */
     /* the function, with the operands and an `out` argument per RESULT; 0: use `expression` */

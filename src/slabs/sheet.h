@@ -59,7 +59,7 @@ struct slab_sheet {
     VEC(ir_ref) unread;        /* what the estimate knows no value of */
     bool is_recognised;        /* the slabs stand for other closures */
     struct slab_report report; /* of the budget */
-    bool is_asked;             /* the caller has a budget; otherwise it is one closure */
+    bool is_asked;             /* the caller has a budget; otherwise it is one slab */
     VEC(struct slab_drawn) drawn;
 };
 
