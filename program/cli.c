@@ -4,6 +4,7 @@
 #include "program/files.h"
 #include "program/help.h"
 #include "program/memory.h"
+#include "program/name_table.h"
 #include "program/profile.h"
 #include "program/texels.h"
 #include "program/warnings.h"
@@ -175,14 +176,6 @@ static bool apply_settings(struct cli *cli)
     return true;
 }
 
-bool cli_renew_options(struct cli *cli)
-{
-    mxg_options_destroy(cli->options);
-    cli->options = NULL;
-    return report_status(&cli->report, mxg_options_create(cli->context, &cli->options))
-           && apply_settings(cli);
-}
-
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit)
 {
@@ -289,16 +282,16 @@ void cli_finish(struct cli *cli)
 
 bool cli_find_target(const char *name, size_t len, mxg_target *out)
 {
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
         out->size = sizeof *out;
-        mxg_get_target(i, out);
+        mxg_catalogue_target(i, out);
         if ((strlen(out->name) == len && memcmp(out->name, name, len) == 0)
             || (strlen(out->materialx_name) == len && memcmp(out->materialx_name, name, len) == 0))
             return true;
     }
     fprintf(stderr, "mxgen: unknown target '%.*s'; expected one of", (int)len, name);
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
-        mxg_get_target(i, out);
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
+        mxg_catalogue_target(i, out);
         fprintf(stderr, "%s %s", i ? "," : ":", out->name);
     }
     fputs(" [unknown-target]\n", stderr);
@@ -309,7 +302,7 @@ static bool applies_to_one(uint32_t option, const char *const *targets, size_t n
 {
     bool applies = false;
     for (size_t i = 0; i < num_targets; ++i)
-        applies |= mxg_option_applies(option, targets[i]);
+        applies |= mxg_catalogue_has_option(option, targets[i]);
     return applies;
 }
 
@@ -320,10 +313,10 @@ static void print_inapplicable(uint32_t option, const char *key, const char *con
     for (size_t i = 0; i < num_targets; ++i)
         fprintf(stderr, "%s '%s'", i ? "," : "", targets[i]);
     const char *before = "; it applies to";
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
         mxg_target target = {sizeof target};
-        mxg_get_target(i, &target);
-        if (!mxg_option_applies(option, target.name))
+        mxg_catalogue_target(i, &target);
+        if (!mxg_catalogue_has_option(option, target.name))
             continue;
         fprintf(stderr, "%s '%s'", before, target.name);
         before = ",";
@@ -333,9 +326,9 @@ static void print_inapplicable(uint32_t option, const char *key, const char *con
 
 bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets)
 {
-    for (uint32_t option = 0; option < mxg_num_options(); ++option) {
+    for (uint32_t option = 0; option < mxg_catalogue_num_options(); ++option) {
         mxg_option known = {sizeof known};
-        mxg_get_option(option, &known);
+        mxg_catalogue_option(option, &known);
         if (applies_to_one(option, targets, num_targets))
             continue;
         for (size_t i = 0; i < cli->parser.num_settings; ++i) {
@@ -396,7 +389,7 @@ char *cli_file_name(const char *element_path)
      * end, so that names stay distinct.
      */
     enum { MAX_NAME = 200 };
-    unsigned hash = (unsigned)cli_hash(CLI_HASH_OF_NOTHING, element_path);
+    unsigned hash = (unsigned)names_hash(NAMES_HASH_OF_NOTHING, element_path);
     char *name = strlen(element_path) > MAX_NAME
                      ? cli_format("%.*s-%08x", MAX_NAME, element_path, hash)
                      : cli_format("%s", element_path);
@@ -405,13 +398,6 @@ char *cli_file_name(const char *element_path)
             *c = '.';
     }
     return name;
-}
-
-uint64_t cli_hash(uint64_t hash, const char *text)
-{
-    for (; *text; ++text)
-        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
-    return hash;
 }
 
 char *cli_copy(const char *text, size_t len)

@@ -42,13 +42,14 @@ static char *part_of(const char *name)
 static char *add_primitive(struct importer *in, const char *parent, const char *name)
 {
     char *part = part_of(name), *path = cli_format("%s/%s", parent, part);
-    for (unsigned number = 2; mxg_scene_find(in->site->scene, path) != UINT32_MAX; ++number) {
+    for (unsigned number = 2; mxg_scene_find_primitive(in->site->scene, path) != UINT32_MAX;
+         ++number) {
         free(path);
         path = cli_format("%s/%s_%u", parent, part, number);
     }
     free(part);
     in->good = report_status(in->site->report,
-                             mxg_scene_add(in->site->scene, (const char *const *)&path, 1))
+                             mxg_scene_add_paths(in->site->scene, (const char *const *)&path, 1))
                && in->good;
     return path;
 }
@@ -105,7 +106,8 @@ static void add_object(struct importer *in, const struct aiMesh *mesh, const cha
         mesh_finish(&made);
         return;
     }
-    struct scene_object *object = site_add(in->site, mxg_scene_find(in->site->scene, path), world);
+    struct scene_object *object =
+        site_add(in->site, mxg_scene_find_primitive(in->site->scene, path), world);
     object->mesh = made;
     add_primvars(mesh, object);
     if (!mesh_complete(&object->mesh, import_missing(mesh)))

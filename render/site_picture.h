@@ -14,8 +14,8 @@ struct site_subjects {
 };
 
 /*
- * Binds a look (NULL: as for mxg_bind) to the site, and groups its objects. false after reporting
- * an error. Call site_subjects_finish in any case.
+ * Binds a look (NULL: as for mxg_bindings_create) to the site, and groups its objects. false after
+ * reporting an error. Call site_subjects_finish in any case.
  */
 bool site_subjects_make(struct painter *painter, const struct site *site,
                         const mxg_document *document, const char *path, const char *look,

@@ -59,7 +59,7 @@ struct diag_list {
     void (*trace)(void *user_data, struct diag_list *list);
     void *trace_data;
     VEC(struct diag) items;
-    uint32_t num_errors, num_warnings;
+    uint32_t num_errors;
     uint32_t num_guesses; /* number of suggestions so far: diag_guess_begin */
     uint32_t max_errors;  /* the list counts further errors but does not keep them; 0 = unlimited */
     /*
@@ -153,7 +153,6 @@ struct diag_guess {
     const char *word, *best;
     const char *aliases[DIAG_MAX_ALIASES]; /* NULL after the last */
     size_t len, best_distance, best_score;
-    uint64_t places[256]; /* bit set of positions for each byte of the word */
 };
 bool diag_may_guess(const struct diag_list *list);
 bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const char *word);
