@@ -3,7 +3,7 @@
  * Reads a module's words once (SPIR-V specification, section 2.3): decorations, types and constants
  * precede the variables that use them. The modules are those of glslang, which are valid.
  */
-#include "interface.h"
+#include "spirv_interface.h"
 
 #include <stdlib.h>
 

@@ -268,7 +268,7 @@ struct shader {
     VEC(struct shader_verbatim) verbatim;
     VEC(ir_type_id) result_types;                  /* of verbatim functions */
     const struct source_language *source_language; /* of the target; NULL: it has none */
-    VEC(struct shader_source) sources;             /* source.h */
+    VEC(struct shader_source) sources;             /* verbatim.h */
     VEC(struct source_function) source_functions;
     VEC(uint32_t) source_refs;
     VEC(struct shader_token) tokens; /* of all sources */
