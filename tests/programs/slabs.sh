@@ -33,7 +33,7 @@ check 'keeps the coat' eval 'says "the mix" && ! says "the layer"'
 check 'too few bytes' exits 1 "$mxgen" "$slabs" -e CarPaint --max-bytes 8 -o made
 check 'are impossible' says '[budget-impossible]'
 check 'slabs within an error' exits 1 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-error 0.01 -o made
-check 'too' says '1 closures, an error of 0.01'
+check 'too' says '1 slabs, an error of 0.01'
 check 'no number' exits 2 "$mxgen" "$slabs" --max-error much -o made
 check 'is an error' says "expected a number of 0..100"
 
