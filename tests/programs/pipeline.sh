@@ -141,7 +141,7 @@ assert {"Paint/transmission", "Paint/thin_walled"} <= compiled and "Paint/specul
 check "glass" as_slabs -e Glass --interface reduced --slabs
 check "is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction' is no slab" out
 check "and lights itself" eval '! grep -q mx_word0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
-check "glass in a budget" as_slabs -e Glass --interface reduced --max-closures 4
+check "glass in a budget" as_slabs -e Glass --interface reduced --max-slabs 4
 check "is stored" eval 'grep -q mx_word0 models/Glass.frag && ! grep -q drawn-forward out'
 cat >absent.mtlx <<'X'
 <materialx version="1.39">
@@ -158,7 +158,7 @@ stores_red() {
 check "a top of weight 0 hides nothing" stores_red
 check "but all with --layering occluding" eval '! stores_red --layering occluding && test -s absent/SR.frag'
 check "what only glows" as_slabs -e Flat --interface reduced
-check "passes do not become slabs" "$mxgen" pipeline slabs --slabs --max-closures 1
+check "passes do not become slabs" "$mxgen" pipeline slabs --slabs --max-slabs 1
 check "but stay as they are" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'
 
 # ---- payloads of rays ----
