@@ -6,6 +6,7 @@ mxgen=$(realpath "$1") compiles=$2
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../programs/common.sh"
 . "$here/materials.sh"
+messages=$(dirname "$mxgen")/docs/messages.md
 quick=(--no-compile -t glsl,essl)
 base=(--baseline base.json)
 
@@ -216,6 +217,6 @@ if python3 -c 'import jsonschema' 2>/dev/null; then
 else
     skip 'python3-jsonschema is not installed: reports are not compared with the schema'
 fi
-check 'all reports tell the same' "$here/reports.py" all.json all.sarif all.xml all.html
+check 'all reports tell the same' "$here/reports.py" all.json all.sarif all.xml all.html "$messages"
 
 finish check-gate

@@ -5,6 +5,7 @@ mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../programs/common.sh"
 . "$here/materials.sh"
+messages=$(dirname "$mxgen")/docs/messages.md
 
 mkdir show
 material Good >'show/a good.mtlx'
@@ -17,7 +18,7 @@ echo '<materialx version="1.39"><nodedef name="ND_x" node="x"><output name="out"
 check 'all reports at once' exits 1 "$mxgen" check show --no-compile -t glsl,essl --json r.json --sarif r.sarif --junit r.xml --html r.html
 check 'the run had what they must tell' says r.json '[x.get("stage", "passed") for x in d]' \
     "['passed', 'load', 'passed', 'validate', 'passed', 'validate']"
-check 'they tell the same' "$here/reports.py" r.json r.sarif r.xml r.html
+check 'they tell the same' "$here/reports.py" r.json r.sarif r.xml r.html "$messages"
 check 'two reports in one file' exits 1 "$mxgen" check show --no-compile --json one.json --sarif one.json
 check 'are told' grep -q '\[output-clash\]' err
 check 'or on standard output' exits 2 "$mxgen" check show --no-compile --json - --html -
@@ -25,7 +26,7 @@ check 'of a merge, too' exits 2 "$mxgen" check merge r.json --json - --html -
 check 'but for nobody' exits 1 "$mxgen" check show --no-compile --json /dev/null --sarif /dev/null
 check 'with times too' exits 1 "$mxgen" check show --no-compile --stats --json t.json --sarif t.sarif --junit t.xml --html t.html
 check 'which JUnit has' grep -q '<testcase [^>]* time="[0-9.]*"' t.xml
-check 'they still tell the same' "$here/reports.py" t.json t.sarif t.xml t.html
+check 'they still tell the same' "$here/reports.py" t.json t.sarif t.xml t.html "$messages"
 
 # Messages with notes
 mkdir notes
@@ -38,7 +39,7 @@ cat >notes/twice.mtlx <<'END'
 END
 check 'a document with notes' exits 0 "$mxgen" check notes --no-compile --json n.json --sarif n.sarif --junit n.xml --html n.html
 check 'has them in its record' says n.json '[n["line"] for m in d[0]["messages"] for n in m["notes"]]' '[2]'
-check 'and in all reports' "$here/reports.py" n.json n.sarif n.xml n.html
+check 'and in all reports' "$here/reports.py" n.json n.sarif n.xml n.html "$messages"
 
 # The date of the page, and a temporary folder that is not there
 check 'the date can be fixed' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html a.html >out; grep -q "<time>2023-11-14 22:13 UTC</time>" a.html'

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The example of every message: the wrong version reports the message, the right one does not. Also checks docs/messages.md.
-# Arguments: the program, the documentation, the root of the project.
+# The example of every message: the wrong version reports the message, the right one does not. The page of all messages.
+# Arguments: the program, the page, the root of the project.
 mxgen=$(realpath "$1")
-documentation=$(realpath "$2")
+page=$(realpath "$2")
 root=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
@@ -63,7 +63,7 @@ check 'are those of each' eval 'diff <(ls all) <(ls examples) && diff all/type-m
 check 'an unknown id' exits 2 "$mxgen" explain typ-mismatch
 check 'is compared' grep -q "did you mean 'type-mismatch'" err
 check 'one as Markdown' eval '"$mxgen" explain cycle --markdown | sed -n 2p | grep -qx "## cycle"'
-"$mxgen" explain --markdown >messages.md
-check 'docs/messages.md is what mxgen explain --markdown prints' diff messages.md "$documentation"
+check 'the page of messages has a section for each' eval 'diff <(sed -n "s/^## //p" "$page") <(echo "$ids")'
+check 'its table links to each section' eval 'diff <(sed -n "s/^| \[\([a-z0-9-]*\)\](#\1) |.*/\1/p" "$page") <(echo "$ids")'
 
 finish explain
