@@ -2,7 +2,7 @@
 #include "bench/foreign.h"
 
 #include "bench/drawn.h"
-#include "cli/files.h"
+#include "program/files.h"
 
 #include <stdio.h>
 #include <string.h>

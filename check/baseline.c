@@ -4,8 +4,8 @@
 #include "check/compare.h"
 #include "check/json.h"
 #include "check/record_io.h"
-#include "cli/cli.h"
-#include "cli/files.h"
+#include "program/cli.h"
+#include "program/files.h"
 
 #include <stdlib.h>
 #include <string.h>

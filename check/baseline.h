@@ -6,7 +6,7 @@
 #ifndef MXG_CHECK_BASELINE_H
 #define MXG_CHECK_BASELINE_H
 
-#include "cli/names.h"
+#include "program/names.h"
 #include "check/record.h"
 #include "check/report_reader.h"
 #include "check/root.h"

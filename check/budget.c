@@ -2,8 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/budget.h"
 
-#include "cli/cli.h"
-#include "cli/files.h"
+#include "program/cli.h"
+#include "program/files.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -5,8 +5,8 @@
 #include "check/json.h"
 #include "check/protocol.h"
 #include "check/record_io.h"
-#include "cli/cli.h"
-#include "cli/files.h"
+#include "program/cli.h"
+#include "program/files.h"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -10,7 +10,7 @@
 #ifndef MXG_CHECK_CACHE_H
 #define MXG_CHECK_CACHE_H
 
-#include "cli/args.h"
+#include "program/args.h"
 #include "check/record.h"
 
 #include <jansson.h>

@@ -14,7 +14,7 @@
 #include "check/progress.h"
 #include "check/protocol.h"
 #include "check/record_io.h"
-#include "cli/files.h"
+#include "program/files.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -4,8 +4,11 @@
 #define MXG_CHECK_CHECK_H
 
 #include "check/sink.h"
-#include "cli/cli.h"
-#include "cli/outputs.h"
+#include "program/cli.h"
+#include "program/outputs.h"
+
+/* The command `mxgen check`; returns its exit code. */
+int command_check(const struct command *command, int argc, char **argv);
 
 /* The requested reports, and the totals. */
 struct check_reports {

@@ -4,8 +4,8 @@
 
 #include "check/picture.h"
 #include "check/place.h"
-#include "cli/cli.h"
-#include "cli/names.h"
+#include "program/cli.h"
+#include "program/names.h"
 
 #include <assert.h>
 #include <inttypes.h>

@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/examine.h"
 
-#include "cli/memory.h"
+#include "program/memory.h"
 #include "compile/compile.h"
 
 #include <stdlib.h>

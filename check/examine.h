@@ -4,7 +4,7 @@
 #define MXG_CHECK_EXAMINE_H
 
 #include "check/protocol.h"
-#include "cli/cli.h"
+#include "program/cli.h"
 
 struct examiner {
     struct cli *cli;

@@ -2,8 +2,8 @@
 /* --render: a picture of an element, which the program mxgen-render draws. */
 #define _POSIX_C_SOURCE 200809L
 #include "check/picture.h"
-#include "cli/drawn.h"
-#include "cli/folder.h"
+#include "program/drawn.h"
+#include "program/folder.h"
 #include "check/examine.h"
 
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #include "check/examine.h"
 #include "check/json.h"
 #include "check/picture.h"
-#include "cli/slab_view.h"
+#include "program/slab_view.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/gate.h"
 
-#include "cli/cli.h"
-#include "cli/files.h"
+#include "program/cli.h"
+#include "program/files.h"
 
 #include <stdlib.h>
 #include <string.h>

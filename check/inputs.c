@@ -2,8 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/inputs.h"
 
-#include "cli/cli.h"
-#include "cli/memory.h"
+#include "program/cli.h"
+#include "program/memory.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -7,8 +7,8 @@
 #ifndef MXG_CHECK_INPUTS_H
 #define MXG_CHECK_INPUTS_H
 
-#include "cli/names.h"
-#include "cli/args.h"
+#include "program/names.h"
+#include "program/args.h"
 
 struct check_inputs {
     struct input_source *sources; /* the innermost first */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/json.h"
 
-#include "cli/memory.h"
-#include "cli/utf8.h"
+#include "program/memory.h"
+#include "program/utf8.h"
 
 #include <stdlib.h>
 

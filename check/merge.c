@@ -9,7 +9,7 @@
 #include "check/json.h"
 #include "check/record_io.h"
 #include "check/report_reader.h"
-#include "cli/memory.h"
+#include "program/memory.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

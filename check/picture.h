@@ -6,7 +6,7 @@
 #ifndef MXG_CHECK_PICTURE_H
 #define MXG_CHECK_PICTURE_H
 
-#include "cli/store.h"
+#include "program/store.h"
 
 #include <stdint.h>
 

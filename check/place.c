@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/place.h"
 
-#include "cli/cli.h"
+#include "program/cli.h"
 
 #include <string.h>
 

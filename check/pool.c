@@ -3,8 +3,8 @@
 #include "check/pool.h"
 
 #include "check/protocol.h"
-#include "cli/cli.h"
-#include "cli/parent.h"
+#include "program/cli.h"
+#include "program/parent.h"
 
 #include <errno.h>
 #include <fcntl.h>

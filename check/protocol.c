@@ -2,8 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/protocol.h"
 
-#include "cli/cli.h"
-#include "cli/memory.h"
+#include "program/cli.h"
+#include "program/memory.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #ifndef MXG_CHECK_RECORD_H
 #define MXG_CHECK_RECORD_H
 
-#include "cli/store.h"
+#include "program/store.h"
 
 #include <mxgen/mxgen.h>
 

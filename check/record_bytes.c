@@ -4,7 +4,7 @@
  * Members have no names, so both sides must come from one build.
  */
 #include "check/record_io.h"
-#include "cli/utf8.h"
+#include "program/utf8.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "check/root.h"
 
-#include "cli/cli.h"
+#include "program/cli.h"
 
 #include <stdlib.h>
 #include <string.h>

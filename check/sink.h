@@ -8,8 +8,8 @@
 
 #include "check/progress.h"
 #include "check/record.h"
-#include "cli/args.h"
-#include "cli/files.h"
+#include "program/args.h"
+#include "program/files.h"
 
 enum { MAX_TARGETS = 16, MAX_SHARDS = 1000000 };
 

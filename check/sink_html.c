@@ -6,9 +6,9 @@
  */
 #include "check/sink.h"
 #include "check/spool.h"
-#include "cli/cli.h"
-#include "cli/groups.h"
-#include "cli/markup.h"
+#include "program/cli.h"
+#include "program/groups.h"
+#include "program/markup.h"
 
 #include <errno.h>
 #include <inttypes.h>

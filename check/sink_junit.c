@@ -6,8 +6,8 @@
  */
 #include "check/sink.h"
 #include "check/spool.h"
-#include "cli/cli.h"
-#include "cli/markup.h"
+#include "program/cli.h"
+#include "program/markup.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -6,7 +6,7 @@
 #include "check/json.h"
 #include "check/place.h"
 #include "check/sink.h"
-#include "cli/names.h"
+#include "program/names.h"
 
 #include <ctype.h>
 #include <inttypes.h>

@@ -6,8 +6,8 @@
  */
 #include "check/sink.h"
 #include "check/spool.h"
-#include "cli/groups.h"
-#include "cli/memory.h"
+#include "program/groups.h"
+#include "program/memory.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/spool.h"
 
-#include "cli/cli.h"
+#include "program/cli.h"
 
 #include <errno.h>
 #include <stdlib.h>

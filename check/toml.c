@@ -9,8 +9,8 @@
  *     max-instructions = 2_000
  */
 #include "check/budget.h"
-#include "cli/args.h"
-#include "cli/cli.h"
+#include "program/args.h"
+#include "program/cli.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -7,8 +7,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/examine.h"
 #include "check/record_io.h"
-#include "cli/parent.h"
-#include "cli/memory.h"
+#include "program/parent.h"
+#include "program/memory.h"
 #include "compile/compile.h"
 
 #include <malloc.h>

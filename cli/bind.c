@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen bind: the layers of each primitive of a stage under a look. */
 #define _POSIX_C_SOURCE 200809L
+#include "cli/commands.h"
 #include "cli/bind_page.h"
-#include "cli/cli.h"
-#include "cli/files.h"
-#include "cli/memory.h"
-#include "cli/stage.h"
+#include "program/cli.h"
+#include "program/files.h"
+#include "program/memory.h"
+#include "program/stage.h"
 
 #include <stdlib.h>
 #include <string.h>

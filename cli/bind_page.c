@@ -5,9 +5,9 @@
  */
 #include "cli/bind_page.h"
 
-#include "cli/cli.h"
-#include "cli/markup.h"
-#include "cli/memory.h"
+#include "program/cli.h"
+#include "program/markup.h"
+#include "program/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 #include "cli/bind_substances.h"
 
 #include "check/picture.h"
-#include "cli/files.h"
-#include "cli/folder.h"
+#include "program/files.h"
+#include "program/folder.h"
 
 #include <errno.h>
 #include <stdlib.h>

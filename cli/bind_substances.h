@@ -3,7 +3,7 @@
 #ifndef MXG_CLI_BIND_SUBSTANCES_H
 #define MXG_CLI_BIND_SUBSTANCES_H
 
-#include "cli/cli.h"
+#include "program/cli.h"
 
 struct bind_substances {
     struct cli *cli;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen help --completion SHELL: scripts that complete commands, options and their values. */
-#include "cli/help.h"
+#include "program/help.h"
 
 #include <stdlib.h>
 #include <string.h>

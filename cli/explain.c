@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen explain: prints cause, cure and example of messages, and the interface of nodes. */
+#include "cli/commands.h"
 #include "cli/nodes.h"
 #include "doc/explain.h"
 

@@ -3,9 +3,10 @@
  * mxgen format and mxgen upgrade: write documents again, in one layout or in version 1.39. Both
  * keep comments and includes.
  */
-#include "cli/cli.h"
-#include "cli/files.h"
-#include "cli/outputs.h"
+#include "cli/commands.h"
+#include "program/cli.h"
+#include "program/files.h"
+#include "program/outputs.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -3,8 +3,9 @@
  * mxgen FILE|FOLDER...: shaders of the renderable elements of documents, as files or on standard
  * output.
  */
-#include "cli/files.h"
-#include "cli/folder.h"
+#include "cli/commands.h"
+#include "program/files.h"
+#include "program/folder.h"
 #include "cli/generate.h"
 
 #include <stddef.h>

@@ -3,8 +3,8 @@
 #ifndef MXG_CLI_GENERATE_H
 #define MXG_CLI_GENERATE_H
 
-#include "cli/cli.h"
-#include "cli/outputs.h"
+#include "program/cli.h"
+#include "program/outputs.h"
 
 struct generate {
     struct cli cli;

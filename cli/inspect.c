@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen inspect: the state of the compiler after each stage, as text. */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/cli.h"
-#include "cli/drawn.h"
-#include "cli/folder.h"
-#include "cli/slab_view.h"
-#include "cli/stage.h"
+#include "cli/commands.h"
+#include "program/cli.h"
+#include "program/drawn.h"
+#include "program/folder.h"
+#include "program/slab_view.h"
+#include "program/stage.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -4,9 +4,10 @@
  * templates.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/files.h"
+#include "cli/commands.h"
+#include "program/files.h"
 #include "cli/nodes.h"
-#include "cli/outputs.h"
+#include "program/outputs.h"
 #include "doc/library.h"
 
 #include <stdlib.h>

@@ -4,9 +4,11 @@
  * shaders.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/cli.h"
-#include "cli/files.h"
-#include "cli/help.h"
+#include "check/check.h"
+#include "cli/commands.h"
+#include "program/cli.h"
+#include "program/files.h"
+#include "program/help.h"
 
 #include <string.h>
 #include <unistd.h>

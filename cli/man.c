@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen help --man: the manual page mxgen(1), with the macros of man(7). */
-#include "cli/help.h"
+#include "program/help.h"
 
 #include <string.h>
 

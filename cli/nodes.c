@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/nodes.h"
 
-#include "cli/args.h"
+#include "program/args.h"
 
 #include <stdio.h>
 #include <stdlib.h>

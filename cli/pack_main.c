@@ -8,8 +8,8 @@
  * Folders are relative to ROOT, so the image does not depend on the location of ROOT.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/files.h"
-#include "cli/report.h"
+#include "program/files.h"
+#include "program/report.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen pipeline: the passes of the deferred pipeline that belong to no material
  * (docs/deferred.md). */
-#include "cli/cli.h"
-#include "cli/files.h"
+#include "cli/commands.h"
+#include "program/cli.h"
+#include "program/files.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,8 @@
  * that generation does not load Vulkan and OpenImageIO.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/render_options.h"
+#include "cli/commands.h"
+#include "program/render_options.h"
 
 #include <stdlib.h>
 #include <unistd.h>

@@ -5,10 +5,10 @@
  * values in it, so each stack has its own.
  */
 #include "check/json.h"
-#include "cli/files.h"
+#include "program/files.h"
 #include "cli/generate.h"
-#include "cli/memory.h"
-#include "cli/stage.h"
+#include "program/memory.h"
+#include "program/stage.h"
 
 #include <stddef.h>
 #include <stdlib.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen validate: checks documents against the library, without generation. */
-#include "cli/cli.h"
-#include "cli/folder.h"
+#include "cli/commands.h"
+#include "program/cli.h"
+#include "program/folder.h"
 
 static void validate(struct cli *cli, const char *path)
 {

@@ -4,9 +4,9 @@
  * modes, compiles what came out, and prints a line for each with its sizes. Errors of the compiler
  * are shown at the line of the document that they come from.
  */
-#include "cli/cli.h"
-#include "cli/files.h"
-#include "cli/stage.h"
+#include "program/cli.h"
+#include "program/files.h"
+#include "program/stage.h"
 #include "compile/compile.h"
 
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Examples of messages (mxg_diagnostic_kind): text with a mark at the start of each line. */
-#include "cli/files.h"
-#include "cli/memory.h"
-#include "cli/utf8.h"
+#include "program/files.h"
+#include "program/memory.h"
+#include "program/utf8.h"
 #include "doc/explain.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef MXG_DOC_EXPLAIN_H
 #define MXG_DOC_EXPLAIN_H
 
-#include "cli/cli.h"
+#include "program/cli.h"
 
 /*
  * explain.c: a message with its cause, its cure and its example, as text; then as a section of

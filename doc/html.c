@@ -4,7 +4,7 @@
  * too, so any XML tool can read it.
  */
 #include "doc/manual.h"
-#include "cli/markup.h"
+#include "program/markup.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "doc/library.h"
 #include "doc/manual.h"
-#include "cli/files.h"
+#include "program/files.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef MXG_DOC_LIBRARY_H
 #define MXG_DOC_LIBRARY_H
 
-#include "cli/cli.h"
+#include "program/cli.h"
 
 struct library_args {
     const char *output; /* a file; for `doc` a folder; NULL: none */

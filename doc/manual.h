@@ -6,8 +6,8 @@
 #ifndef MXG_DOC_MANUAL_H
 #define MXG_DOC_MANUAL_H
 
-#include "cli/cli.h"
-#include "cli/store.h"
+#include "program/cli.h"
+#include "program/store.h"
 
 #include <mxgen/mxgen.h>
 

@@ -5,7 +5,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "doc/manual.h"
-#include "cli/files.h"
+#include "program/files.h"
 
 #include <errno.h>
 #include <stdlib.h>

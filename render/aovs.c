@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/aovs.h"
 
-#include "cli/cli.h"
-#include "cli/memory.h"
+#include "program/cli.h"
+#include "program/memory.h"
 
 #include <math.h>
 #include <stdlib.h>

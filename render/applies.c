@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/applies.h"
 
-#include "cli/render_options.h"
+#include "program/render_options.h"
 
 #include <stdlib.h>
 #include <string.h>

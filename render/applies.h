@@ -3,7 +3,7 @@
 #ifndef MXG_RENDER_APPLIES_H
 #define MXG_RENDER_APPLIES_H
 
-#include "cli/args.h"
+#include "program/args.h"
 
 /* Facts about a command line; an option applies if one of the facts that it needs is true. */
 enum render_fact {

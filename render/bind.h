@@ -6,7 +6,7 @@
 #ifndef MXG_RENDER_BIND_H
 #define MXG_RENDER_BIND_H
 
-#include "cli/outputs.h"
+#include "program/outputs.h"
 #include "render/draw.h"
 #include "render/scene.h"
 #include "render/tints.h"

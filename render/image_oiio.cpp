@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image.h"
 
-#include "cli/temporary.h"
+#include "program/temporary.h"
 
 #include <OpenImageIO/imageio.h>
 

@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/import.h"
 
-#include "cli/files.h"
+#include "program/files.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>

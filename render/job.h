@@ -6,9 +6,9 @@
 #ifndef MXG_RENDER_JOB_H
 #define MXG_RENDER_JOB_H
 
-#include "cli/cli.h"
-#include "cli/outputs.h"
-#include "cli/render_options.h"
+#include "program/cli.h"
+#include "program/outputs.h"
+#include "program/render_options.h"
 #include "render/picture.h"
 #include "render/stage.h"
 

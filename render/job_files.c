@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The files of a run: its documents, what else it reads, and the pictures that it writes. */
-#include "cli/files.h"
-#include "cli/folder.h"
+#include "program/files.h"
+#include "program/folder.h"
 #include "render/job.h"
 
 #include <stdlib.h>

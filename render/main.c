@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen-render: renders pictures of materials without a display. `mxgen render` starts it. */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/files.h"
-#include "cli/parent.h"
-#include "cli/stage.h"
-#include "cli/texels.h"
+#include "program/files.h"
+#include "program/parent.h"
+#include "program/stage.h"
+#include "program/texels.h"
 #include "render/applies.h"
 #include "render/bake.h"
 #include "render/job.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen-render --texels FILE LAYER SIZE: the means of an image's parts, for cli/texels.c. */
+/* mxgen-render --texels FILE LAYER SIZE: the means of an image's parts, for program/texels.c. */
 #include "render/means.h"
 #include "render/image.h"
 

@@ -6,9 +6,9 @@
 #ifndef MXG_RENDER_PICTURE_H
 #define MXG_RENDER_PICTURE_H
 
-#include "cli/cli.h"
-#include "cli/names.h"
-#include "cli/outputs.h"
+#include "program/cli.h"
+#include "program/names.h"
+#include "program/outputs.h"
 #include "render/aovs.h"
 #include "render/passes.h"
 #include "render/render.h"

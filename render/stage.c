@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/stage.h"
 
-#include "cli/memory.h"
-#include "cli/stage.h"
+#include "program/memory.h"
+#include "program/stage.h"
 
 #include <math.h>
 #include <stdarg.h>

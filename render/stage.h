@@ -6,7 +6,7 @@
 #ifndef MXG_RENDER_STAGE_H
 #define MXG_RENDER_STAGE_H
 
-#include "cli/cli.h"
+#include "program/cli.h"
 #include "render/studio.h"
 
 struct stage_object {

@@ -6,7 +6,7 @@
 #include "render/import.h"
 #include "render/stage.h"
 
-#include "cli/memory.h"
+#include "program/memory.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/stage_picture.h"
 
-#include "cli/memory.h"
+#include "program/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

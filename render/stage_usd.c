@@ -2,7 +2,7 @@
 /* The objects of a scene of USD: a walk down its primitives, with instances of PointInstancer. */
 #include "render/stage.h"
 
-#include "cli/memory.h"
+#include "program/memory.h"
 
 #include <math.h>
 #include <stdlib.h>

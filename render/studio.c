@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "cli/files.h"
+#include "program/files.h"
 
 #define DEGREE (3.14159265358979323846 / 180.0)
 #define FINE_DETAIL 4             /* multiplies the cells of a shape in each direction */

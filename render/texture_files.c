@@ -3,7 +3,7 @@
  * The files of a document's texture as one image: the current frame, its file layer, its tiles; the
  * default colour if there is no file.
  */
-#include "cli/cli.h"
+#include "program/cli.h"
 #include "render/bind.h"
 
 #include <stdio.h>

@@ -2,7 +2,7 @@
 /* Primvars of USD for the corners of triangles (UsdGeomPrimvar). */
 #include "render/stage.h"
 
-#include "cli/memory.h"
+#include "program/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
  */
 #include "render/stage.h"
 
-#include "cli/memory.h"
+#include "program/memory.h"
 
 #include <math.h>
 #include <stdlib.h>

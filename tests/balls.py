@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far two drawn balls are apart, as cli/drawn.c measures it, but without its code: for tests and benchmarks."""
+"""How far two drawn balls are apart, as program/drawn.c measures it, but without its code: for tests and benchmarks."""
 import math
 import re
 

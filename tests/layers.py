@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the includes: a room of src/ includes only earlier rooms, the back end does not include the front end, one room includes
-libxml2, programs include only the public header, and at most three files of a room call each other in a circle. Argument: the
+libxml2, programs include only the public header and nothing of the commands (cli), and at most three files of a room call each other in a circle. Argument: the
 root of the project."""
 import pathlib
 import re
@@ -11,9 +11,10 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent))
 from checks import check, finish
 
 ROOT = pathlib.Path(sys.argv[1])
-ROOMS = "base diag ir document xml usda tree parse lower specialise print shader closure slabs deferred library bind build spell api".split()
-FRONT = {"document", "xml", "usda", "parse", "library", "build", "bind"}
+ROOMS = "base diag ir document xml usda tree parse lower specialise print shader closure slabs deferred library bind build dynamic material network walk spell api".split()
+FRONT = set("document xml usda parse library bind build dynamic material network walk".split())
 BACK = {"ir", "lower", "specialise", "print", "closure", "slabs", "deferred", "shader", "spell"}
+PROGRAMS = "cli check compile doc render".split()
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
@@ -27,7 +28,11 @@ def fault_of(path, included):
         place = path.relative_to(ROOT).parts[0]
         if place == "generators":
             return "a target sees the back of the house only" if used in FRONT | {"api"} else None
-        return "programs stand on mxgen.h alone" if used in ROOMS else None
+        if used in ROOMS:
+            return "programs stand on mxgen.h alone"
+        if used == "cli" and place != "cli":
+            return "nothing stands on the commands"
+        return "program stands below all programs" if place == "program" and used in PROGRAMS else None
     if used not in ROOMS or used == room:
         return None
     if ROOMS.index(used) > ROOMS.index(room):
@@ -65,7 +70,7 @@ for room in sorted(path.name for path in (ROOT / "src").iterdir() if path.is_dir
     for circle in circles:
         check(len(circle) <= MAX_CIRCLE, f"src/{room}: a circle of {len(circle)} files: {' '.join(sorted(circle))}")
 
-for folder in "src", "generators", "cli", "check", "compile", "doc", "render":
+for folder in ("src", "generators", "program", "bench", "examples", *PROGRAMS):
     for path in sorted((ROOT / folder).rglob("*.[ch]")):
         for included in INCLUDE.findall(path.read_text(encoding="utf-8")):
             fault = fault_of(path, included)

@@ -295,6 +295,11 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
 /* The implementation of a definition for the target; NULL: there is none. */
 const struct implementation *build_best_implementation(struct builder *b, uint32_t nodedef);
 
+/* code_table.c: finds the codes that the target has. */
+void code_find_all(struct builder *b);
+/* An implementation of kind IMPL_CODE for a definition; NULL: no code of a host serves it. */
+const struct implementation *code_implementation(struct builder *b, uint32_t nodedef);
+
 /* prelude.c */
 
 /*

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Chooses the definition of a node, and the implementation of a definition for the target. */
-#include "build/code.h"
+#include "build/build_priv.h"
 
 /*
  * 0: not for this target. Higher is better: the target itself, then inherited targets, then

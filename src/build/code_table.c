@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The codes of a host: which definitions they serve for the target. */
-#include "build/code.h"
+#include "build/build_priv.h"
 
 #include "base/hash.h"
+
+#include <mxgen/mxgen.h>
 
 static str_id known_name(const struct builder *b, const char *name)
 {

@@ -52,7 +52,7 @@ for id in $ids; do
     check "$id" try "$id"
 done
 # What the programs print by themselves is explained as well
-printed=$(cd "$root" && grep -rhoE '(report_(error|warning)\([^"]*|\bfail(_as)?\([^"]*|\bid = |VK_ERROR_[A-Z_]+, )"[a-z]+(-[a-z]+)*"' cli check compile doc render | grep -oE '"[^"]*"$' | tr -d '"' | sort -u)
+printed=$(cd "$root" && grep -rhoE '(report_(error|warning)\([^"]*|\bfail(_as)?\([^"]*|\bid = |VK_ERROR_[A-Z_]+, )"[a-z]+(-[a-z]+)*"' program cli check compile doc render | grep -oE '"[^"]*"$' | tr -d '"' | sort -u)
 for id in $printed; do
     check "$id has an explanation" grep -qx "$id" <<<"$ids"
 done

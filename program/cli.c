@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/cli.h"
+
+#include "program/files.h"
+#include "program/help.h"
+#include "program/memory.h"
+#include "program/profile.h"
+#include "program/texels.h"
+#include "program/warnings.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_ARGS 48   /* options of a command, including the common ones */
+#define MAX_ERRORS 20 /* default limit per document */
+
+/* Adds the options that every command has after the command's own. */
+static size_t add_common_args(struct cli *cli, struct arg *table)
+{
+    const struct arg common[] = {
+        {"library", 0, ARG_LIST, "PATH", "adds a library: a folder, a file or an image",
+         &cli->library_paths, ARG_COMMON},
+        {"no-builtin-library", 0, ARG_FLAG, NULL, "does not load the built-in library",
+         &cli->no_builtin_library, ARG_COMMON},
+        {"source-path", 0, ARG_LIST, "DIR",
+         "another folder to search for source files of implementations and included documents",
+         &cli->source_paths, ARG_COMMON},
+        {"plugin", 0, ARG_LIST, "FILE",
+         "loads a shared object with nodes in C; it runs with your rights, so not with --sandbox",
+         &cli->plugin_files, ARG_COMMON},
+        {"profile", 0, ARG_TEXT, "NAME",
+         "options of a platform: desktop, console, mobile, one-closure, or a file.toml; other "
+         "options of generation override them",
+         &cli->profile, ARG_COMMON},
+        {"max-memory", 0, ARG_SIZE, "BYTES", "limit of memory (default: none)", &cli->max_memory,
+         ARG_LIMITS},
+        {"max-file-size", 0, ARG_SIZE, "MIB", "limit of the size of an input file (default: 256)",
+         &cli->max_file_size, ARG_LIMITS},
+        {"max-elements", 0, ARG_SIZE, "N", "limit of elements of a document (default: 16000000)",
+         &cli->max_elements, ARG_LIMITS},
+        {"max-nodes", 0, ARG_SIZE, "N", "limit of IR nodes of a shader (default: 64000000)",
+         &cli->max_nodes, ARG_LIMITS},
+        {"max-output-size", 0, ARG_SIZE, "MIB", "limit of the size of a shader (default: 256)",
+         &cli->max_output_size, ARG_LIMITS},
+        {"max-depth", 0, ARG_SIZE, "N", "limit of nested elements (default: 128)", &cli->max_depth,
+         ARG_LIMITS},
+        {"max-include-depth", 0, ARG_SIZE, "N", "limit of nested includes (default: 16)",
+         &cli->max_include_depth, ARG_LIMITS},
+        {"max-includes", 0, ARG_SIZE, "N",
+         "limit of files that a document includes (default: 4096)", &cli->max_includes, ARG_LIMITS},
+        {"trust", 0, ARG_FLAG, NULL, "accepts source code for one target in documents", &cli->trust,
+         ARG_LIMITS},
+        {"sandbox", 0, ARG_FLAG, NULL,
+         "accepts only files in and below the folder of the document, and no source code in it",
+         &cli->sandbox, ARG_LIMITS},
+        {"include-root", 0, ARG_LIST, "DIR", "another folder that --sandbox accepts",
+         &cli->include_roots, ARG_LIMITS},
+        {"max-errors", 0, ARG_SIZE, "N", "errors printed for a document; 0: all (default: 20)",
+         &cli->max_errors, ARG_COMMON},
+        {"warning", 'W', ARG_LIST, "WORD",
+         "-WID and -Wno-ID switch a warning on and off; -Werror turns all warnings into errors, "
+         "-Werror=ID and -Wno-error=ID one of them",
+         &cli->warnings, ARG_COMMON},
+        {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet, ARG_COMMON,
+         .is_own = true},
+        {"verbose", 0, ARG_FLAG, NULL, "also prints the upgrades of older documents", &cli->verbose,
+         ARG_COMMON},
+        {"version", 0, ARG_FLAG, NULL, "prints the version", &cli->version, ARG_COMMON,
+         .is_own = true},
+        {"help", 'h', ARG_HELP, "[all]", "prints help; 'all' includes all options", &cli->help,
+         ARG_COMMON, .is_own = true},
+    };
+    memcpy(table, common, sizeof common);
+    return sizeof common / sizeof *common;
+}
+
+/* True if the arguments request only help or the version; prints it. */
+static bool answer_help(const struct cli *cli, const struct command *command, int *out_exit)
+{
+    if (cli->help)
+        *out_exit = help_print(command, &cli->parser, cli->help) ? EXIT_DONE : EXIT_USAGE;
+    else if (cli->version) {
+        printf("mxgen %s\n", mxg_version_string());
+        *out_exit = EXIT_DONE;
+    }
+    return cli->help || cli->version;
+}
+
+static uint32_t limit_u32(size_t value)
+{
+    return value > UINT32_MAX ? UINT32_MAX : (uint32_t)value;
+}
+
+static bool create_context(struct cli *cli)
+{
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    desc.max_memory = cli->max_memory;
+    desc.max_file_mib = limit_u32(cli->max_file_size);
+    desc.max_elements = limit_u32(cli->max_elements);
+    desc.max_nodes = limit_u32(cli->max_nodes);
+    desc.max_output_mib = limit_u32(cli->max_output_size);
+    desc.max_errors = cli->max_errors ? limit_u32(cli->max_errors) : UINT32_MAX;
+    desc.max_depth = limit_u32(cli->max_depth);
+    desc.max_include_depth = limit_u32(cli->max_include_depth);
+    desc.max_includes = limit_u32(cli->max_includes);
+    desc.trust = cli->trust;
+    desc.sandbox = cli->sandbox;
+    desc.include_roots = cli->include_roots.items;
+    desc.num_include_roots = cli->include_roots.len;
+    desc.source_paths = cli->source_paths.items;
+    desc.num_source_paths = cli->source_paths.len;
+    desc.node_codes = cli->plugins.codes;
+    desc.num_node_codes = cli->plugins.num_codes;
+    desc.read_texels = cli_read_texels;
+    char *warnings = warnings_join(&cli->warnings);
+    desc.warnings = warnings;
+    mxg_status status = mxg_context_create(&desc, &cli->context);
+    free(warnings);
+    if (status == MXG_ERROR_ARGUMENT && cli->plugins.num_codes) {
+        fputs("mxgen: a plug-in has a node without a name, with neither or both of 'build' and "
+              "'instead', or for an unknown target\n",
+              stderr);
+        return false;
+    }
+    return report_status(&cli->report, status);
+}
+
+/* Plug-ins run with the rights of the user, and a sandbox gives documents fewer rights. */
+static bool load_plugins(struct cli *cli)
+{
+    if (cli->plugin_files.len && cli->sandbox) {
+        fputs("mxgen: --sandbox allows no --plugin, because a plug-in runs without limits\n",
+              stderr);
+        return false;
+    }
+    return plugins_load(&cli->plugins, &cli->plugin_files);
+}
+
+/* The libraries of the command line, then those of plug-ins. */
+static bool load_library(struct cli *cli)
+{
+    mxg_library *base = cli->no_builtin_library ? NULL : mxg_library_builtin(cli->context);
+    size_t num_paths = cli->library_paths.len + cli->plugins.libraries.len;
+    if (base && num_paths == 0) {
+        cli->library = base;
+        return true;
+    }
+    struct arg_list paths = {0};
+    for (size_t i = 0; i < num_paths; ++i)
+        args_append(&paths, i < cli->library_paths.len
+                                ? cli->library_paths.items[i]
+                                : cli->plugins.libraries.items[i - cli->library_paths.len]);
+    mxg_status status = mxg_library_load(cli->context, base, paths.items, paths.len, &cli->library);
+    free(paths.items);
+    mxg_library_unref(base);
+    if (cli->library)
+        report_list(&cli->report, mxg_library_diagnostics(cli->library));
+    return report_status(&cli->report, status);
+}
+
+/* Invalid values are bad usage; the message of the option gives the reason. */
+static bool apply_settings(struct cli *cli)
+{
+    if (cli->profile && !profile_apply(cli->options, cli->profile))
+        return false;
+    for (size_t i = 0; i < cli->parser.num_settings; ++i) {
+        const struct arg_setting *setting = &cli->parser.settings[i];
+        if (mxg_options_set(cli->options, setting->key, setting->value) != MXG_OK) {
+            fprintf(stderr, "mxgen: %s\n", mxg_options_error(cli->options));
+            return false;
+        }
+    }
+    return true;
+}
+
+bool cli_renew_options(struct cli *cli)
+{
+    mxg_options_destroy(cli->options);
+    cli->options = NULL;
+    return report_status(&cli->report, mxg_options_create(cli->context, &cli->options))
+           && apply_settings(cli);
+}
+
+bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
+               size_t num_args, unsigned wants, int argc, char **argv, int *out_exit)
+{
+    *cli = (struct cli){.max_errors = MAX_ERRORS};
+    struct arg table[MAX_ARGS];
+    for (size_t i = 0; i < num_args; ++i)
+        table[i] = args[i];
+    cli->parser.args = table;
+    cli->parser.num_args = num_args + add_common_args(cli, table + num_args);
+    cli->parser.generation = wants & CLI_GENERATES;
+    report_init(&cli->report);
+
+    if (command->book) {
+        help_add(command->book, command, &cli->parser);
+        *out_exit = EXIT_DONE;
+        return false;
+    }
+    *out_exit = EXIT_USAGE;
+    bool parsed = args_parse(&cli->parser, argc, argv);
+    cli->report.quiet = cli->quiet;
+    cli->report.verbose = cli->verbose;
+    cli->report.max_errors = cli->max_errors;
+    cli->report.max_source_size = cli_max_file_size(cli) << 20;
+    if (!parsed)
+        return false;
+    if (answer_help(cli, command, out_exit))
+        return false;
+    if (!warnings_check(&cli->warnings))
+        return false;
+    if ((wants & CLI_NEEDS_INPUT) && cli->parser.inputs.len == 0) {
+        fprintf(stderr, "usage: mxgen %s\n", command->usage);
+        return false;
+    }
+    if (!load_plugins(cli))
+        return false;
+    if (!create_context(cli)
+        || !report_status(&cli->report, mxg_options_create(cli->context, &cli->options))) {
+        *out_exit = EXIT_FAULT;
+        return false;
+    }
+    if (!apply_settings(cli))
+        return false;
+    *out_exit = EXIT_FAULT;
+    return (wants & CLI_LIBRARY_IS_INPUT) || load_library(cli);
+}
+
+/* True for options that make slabs cheaper. */
+static bool is_budget(const char *key)
+{
+    static const char *const keys[] = {"slabs",    "max-closures", "max-bytes", "max-error",
+                                       "features", "profile",      "max-steps"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
+        if (strcmp(keys[i], key) == 0)
+            return true;
+    return false;
+}
+
+bool cli_has_budget(const struct cli *cli)
+{
+    bool has = cli->profile != NULL;
+    for (size_t i = 0; i < cli->parser.num_settings; ++i)
+        has |= is_budget(cli->parser.settings[i].key);
+    return has;
+}
+
+static void forward(struct cli *cli, bool with_budgets, struct arg_list *args)
+{
+    struct arg table[MAX_ARGS];
+    size_t num_args = add_common_args(cli, table);
+    for (size_t i = 0; i < num_args; ++i)
+        if (!table[i].is_own && (with_budgets || !is_budget(table[i].name)))
+            args_forward(&table[i], args);
+    args_append(args, cli_format("--quiet"));
+    for (size_t i = 0; i < cli->parser.num_settings; ++i)
+        if (with_budgets || !is_budget(cli->parser.settings[i].key))
+            args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key,
+                                         cli->parser.settings[i].value));
+}
+
+void cli_forward(struct cli *cli, struct arg_list *args)
+{
+    forward(cli, true, args);
+}
+
+void cli_forward_full(struct cli *cli, struct arg_list *args)
+{
+    forward(cli, false, args);
+}
+
+void cli_finish(struct cli *cli)
+{
+    mxg_options_destroy(cli->options);
+    mxg_library_unref(cli->library);
+    mxg_context_destroy(cli->context);
+    plugins_finish(&cli->plugins);
+    free(cli->plugin_files.items);
+    report_finish(&cli->report);
+    free(cli->library_paths.items);
+    free(cli->warnings.items);
+    free(cli->include_roots.items);
+    free(cli->source_paths.items);
+    args_finish(&cli->parser);
+}
+
+bool cli_find_target(const char *name, size_t len, mxg_target *out)
+{
+    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+        out->size = sizeof *out;
+        mxg_get_target(i, out);
+        if ((strlen(out->name) == len && memcmp(out->name, name, len) == 0)
+            || (strlen(out->materialx_name) == len && memcmp(out->materialx_name, name, len) == 0))
+            return true;
+    }
+    fprintf(stderr, "mxgen: unknown target '%.*s'; expected one of", (int)len, name);
+    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+        mxg_get_target(i, out);
+        fprintf(stderr, "%s %s", i ? "," : ":", out->name);
+    }
+    fputs(" [unknown-target]\n", stderr);
+    return false;
+}
+
+static bool applies_to_one(uint32_t option, const char *const *targets, size_t num_targets)
+{
+    bool applies = false;
+    for (size_t i = 0; i < num_targets; ++i)
+        applies |= mxg_option_applies(option, targets[i]);
+    return applies;
+}
+
+static void print_inapplicable(uint32_t option, const char *key, const char *const *targets,
+                               size_t num_targets)
+{
+    fprintf(stderr, "mxgen: option '--%s' does not apply to", key);
+    for (size_t i = 0; i < num_targets; ++i)
+        fprintf(stderr, "%s '%s'", i ? "," : "", targets[i]);
+    const char *before = "; it applies to";
+    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+        mxg_target target = {sizeof target};
+        mxg_get_target(i, &target);
+        if (!mxg_option_applies(option, target.name))
+            continue;
+        fprintf(stderr, "%s '%s'", before, target.name);
+        before = ",";
+    }
+    fputc('\n', stderr);
+}
+
+bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets)
+{
+    for (uint32_t option = 0; option < mxg_num_options(); ++option) {
+        mxg_option known = {sizeof known};
+        mxg_get_option(option, &known);
+        if (applies_to_one(option, targets, num_targets))
+            continue;
+        for (size_t i = 0; i < cli->parser.num_settings; ++i) {
+            if (strcmp(cli->parser.settings[i].key, known.key) != 0)
+                continue;
+            print_inapplicable(option, known.key, targets, num_targets);
+            return false;
+        }
+    }
+    return true;
+}
+
+size_t cli_max_file_size(const struct cli *cli)
+{
+    enum { DEFAULT_MIB = 256 }; /* of the library */
+    return cli->max_file_size ? cli->max_file_size : DEFAULT_MIB;
+}
+
+/* Includes are relative to the current folder. */
+static mxg_status parse_stdin(struct cli *cli, mxg_document **out_document)
+{
+    size_t size = 0;
+    char *text = files_read("/dev/stdin", &size);
+    if (!text) {
+        report_error(&cli->report, "file-unreadable", "cannot read standard input: %s",
+                     strerror(errno));
+        return MXG_ERROR_DOCUMENT;
+    }
+    mxg_status status =
+        mxg_document_parse(cli->context, cli->library, CLI_STDIN_NAME, text, size, out_document);
+    report_source(&cli->report, CLI_STDIN_NAME, text, size);
+    return status;
+}
+
+mxg_document *cli_load(struct cli *cli, const char *path)
+{
+    mxg_document *document = NULL;
+    report_document(&cli->report);
+    mxg_status status = strcmp(path, "-") == 0
+                            ? parse_stdin(cli, &document)
+                            : mxg_document_load(cli->context, cli->library, path, &document);
+    if (document)
+        report_list(&cli->report, mxg_document_diagnostics(document));
+    bool good = report_status(&cli->report, status);
+    /*
+     * Errors in one part, such as a missing include, do not prevent the generation of other parts.
+     */
+    if (good || mxg_document_num_renderables(document))
+        return document;
+    mxg_document_destroy(document);
+    return NULL;
+}
+
+char *cli_file_name(const char *element_path)
+{
+    /*
+     * File systems allow names of 255 bytes. In a longer name a hash of the whole name replaces the
+     * end, so that names stay distinct.
+     */
+    enum { MAX_NAME = 200 };
+    unsigned hash = (unsigned)cli_hash(CLI_HASH_OF_NOTHING, element_path);
+    char *name = strlen(element_path) > MAX_NAME
+                     ? cli_format("%.*s-%08x", MAX_NAME, element_path, hash)
+                     : cli_format("%s", element_path);
+    for (char *c = name; *c; ++c) {
+        if (*c == '/')
+            *c = '.';
+    }
+    return name;
+}
+
+uint64_t cli_hash(uint64_t hash, const char *text)
+{
+    for (; *text; ++text)
+        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    return hash;
+}
+
+char *cli_copy(const char *text, size_t len)
+{
+    char *copy = memory_alloc(len + 1);
+    return memcpy(copy, text, len);
+}
+
+char *cli_beside(const char *from, const char *file)
+{
+    int folder = file[0] == '/' ? 0 : (int)(files_base_name(from) - from);
+    return cli_format("%.*s%s", folder, from, file);
+}
+
+char *cli_format(const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int len = vsnprintf(NULL, 0, format, args);
+    char *text = memory_alloc(len < 0 ? 1 : (size_t)len + 1);
+    *text = '\0';
+    if (len > 0)
+        vsnprintf(text, (size_t)len + 1, format, again);
+    va_end(again);
+    va_end(args);
+    return text;
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What every program has on its command line: common options, and the library objects for them. It
+ * uses only mxgen.h.
+ *
+ * Exit codes: 0 success, 1 errors in the input or while writing, 2 bad usage.
+ */
+#ifndef MXG_PROGRAM_CLI_H
+#define MXG_PROGRAM_CLI_H
+
+#include "program/args.h"
+#include "program/plugin.h"
+#include "program/report.h"
+
+#include <mxgen/mxgen.h>
+
+/* The name of the document from standard input. */
+#define CLI_STDIN_NAME "<stdin>"
+
+enum exit_code { EXIT_DONE = 0, EXIT_FAULT = 1, EXIT_USAGE = 2 };
+
+struct help_book;
+
+struct command {
+    const char *name;
+    const char *usage; /* "FILE... [--target T] [options]" */
+    const char *brief;
+    int (*run)(const struct command *command, int argc, char **argv);
+    struct help_book *book; /* the command only adds its options; NULL: none */
+};
+
+struct cli {
+    struct arg_parser parser;
+    struct arg_list library_paths;
+    bool quiet, verbose, version, no_builtin_library;
+    const char *help;         /* the word after --help; NULL: no --help */
+    struct arg_list warnings; /* words of -W */
+    struct arg_list include_roots;
+    struct arg_list source_paths;
+    struct arg_list plugin_files;
+    const char *profile; /* NULL: none */
+    bool trust, sandbox;
+    size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors,
+        max_depth, max_include_depth, max_includes;
+
+    struct report report;
+    struct plugins plugins;
+    mxg_context *context;
+    mxg_library *library;
+    mxg_options *options; /* options of generation */
+};
+
+/* Parts that a command needs besides its own table of options. */
+enum cli_wants {
+    CLI_GENERATES = 1,
+    CLI_NEEDS_INPUT = 2,
+    CLI_LIBRARY_IS_INPUT = 4 /* the command loads no library */
+};
+
+/*
+ * Parses the arguments and makes context, library and options. False, after --help or an error: the
+ * command ends with *out_exit. Call cli_finish in both cases.
+ */
+bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
+               size_t num_args, unsigned wants, int argc, char **argv, int *out_exit);
+void cli_finish(struct cli *cli);
+/* Drops what the command has set since. False after a message. */
+bool cli_renew_options(struct cli *cli);
+
+/*
+ * Appends the arguments that give another mxgen program the same library, limits and options of
+ * generation, and make it print only errors. The caller frees the items.
+ */
+void cli_forward(struct cli *cli, struct arg_list *args);
+/* The same without options that make slabs cheaper. */
+void cli_forward_full(struct cli *cli, struct arg_list *args);
+/* True if there are such options. */
+bool cli_has_budget(const struct cli *cli);
+
+/*
+ * Loads a document ("-": of standard input) and prints its diagnostics; NULL where errors leave
+ * nothing of it that can be rendered.
+ */
+mxg_document *cli_load(struct cli *cli, const char *path);
+
+/* The limit of the size of an input file, in MiB. */
+size_t cli_max_file_size(const struct cli *cli);
+
+/* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
+bool cli_find_target(const char *name, size_t len, mxg_target *out);
+
+/*
+ * False after a message about an option of generation that applies to none of the targets, which
+ * exist.
+ */
+bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets);
+
+/* The file name for an element: its path with dots. The caller frees it. */
+char *cli_file_name(const char *element_path);
+
+/* The path of a file that the file `from` names, relative to its folder. The caller frees it. */
+char *cli_beside(const char *from, const char *file);
+
+/* Another mxgen program: its path beside this one, else its name, for PATH. The caller frees it. */
+char *cli_program(const char *name);
+
+/*
+ * Starts a program, whose arguments end with NULL, and waits for its end. false after a message if
+ * it could not start.
+ */
+bool cli_run(struct report *report, char *const *arguments, int *out_status);
+/*
+ * The same without a message: returns 0, or an error of errno. What the program writes goes to the
+ * file `log`, and it reads nothing; NULL: it writes and reads what this program does.
+ */
+int cli_run_logged(char *const *arguments, const char *log, int *out_status);
+
+/* Formats into new memory, which the caller frees; ends the program if memory is exhausted. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+char *
+cli_format(const char *format, ...);
+
+/* FNV-1a of a text and of the previous hash; the first is CLI_HASH_OF_NOTHING. */
+#define CLI_HASH_OF_NOTHING 0xcbf29ce484222325u
+uint64_t cli_hash(uint64_t hash, const char *text);
+
+/*
+ * A copy of `len` bytes with a NUL after them, which the caller frees; ends the program if memory
+ * is exhausted.
+ */
+char *cli_copy(const char *text, size_t len);
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Files of the programs. The library opens files only through its resolver, and writes none.
+ */
+#ifndef MXG_PROGRAM_FILES_H
+#define MXG_PROGRAM_FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* The bytes of a file with a NUL after them, which the caller frees; NULL with errno. */
+char *files_read(const char *path, size_t *out_size);
+
+/*
+ * Writes a whole file or none: the bytes go to a new file beside it, which is then renamed. Pipes
+ * and devices (/dev/stdout) are written directly. Returns NULL, or the reason for a failure.
+ */
+const char *files_write(const char *path, const void *data, size_t size);
+
+/* A file that is written in pieces, and appears as a whole or not at all. */
+struct files_stream {
+    FILE *out;
+    char *path, *temporary; /* temporary NULL: written directly */
+};
+
+/*
+ * Opens `path`; "-" is standard output. Returns NULL, or the reason for a failure; the stream is
+ * then empty.
+ */
+const char *files_begin(struct files_stream *stream, const char *path);
+/*
+ * Gives the file its name; removes it if `keep` is false. Returns NULL, or the reason for a
+ * failure.
+ */
+const char *files_end(struct files_stream *stream, bool keep);
+
+/* Makes a folder and its parents. Returns NULL, or the reason for a failure. */
+const char *files_make_folder(const char *path);
+
+/* True if a program of this name exists: a path, or a name in a folder of PATH. */
+bool files_find_program(const char *name);
+
+/* Writes a file name in make's syntax: spaces and '#' escaped, '$' doubled. */
+void files_put_make_name(FILE *out, const char *name);
+
+bool files_is_regular(const char *path);
+
+/* True if the file has at most `size` bytes; 0: any number. */
+bool files_is_within(const char *path, size_t size);
+
+bool files_is_folder(const char *path);
+
+/* The part of a path after its last '/'. */
+const char *files_base_name(const char *path);
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Memory of the programs, which end if memory is exhausted. Free it with free. */
+#ifndef MXG_PROGRAM_MEMORY_H
+#define MXG_PROGRAM_MEMORY_H
+
+#include <stddef.h>
+
+/* `tell` is called before the program ends because memory is exhausted. */
+void memory_on_exhaustion(void (*tell)(void));
+
+/* Zeroed, and aligned for any object. */
+void *memory_alloc(size_t size);
+/* Like realloc. */
+void *memory_resize(void *memory, size_t size);
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The files that a command reads and writes. A file that would be both, or that two outputs would
+ * write, is an error before the command writes anything.
+ */
+#ifndef MXG_PROGRAM_OUTPUTS_H
+#define MXG_PROGRAM_OUTPUTS_H
+
+#include "program/args.h"
+#include "program/names.h"
+#include "program/report.h"
+
+/* Zero-initialise it. */
+struct outputs {
+    struct name_table paths; /* absolute paths without links; the values count the uses */
+    struct output_use *uses;
+    size_t num_uses;
+};
+
+/*
+ * Notes that the command reads a file. False after an error: an output has the same path.
+ */
+bool outputs_read(struct outputs *outputs, struct report *report, const char *path);
+
+/*
+ * Notes that the command writes a file for `owner`: "--json", "element 'Gold'". False after an
+ * error: the command reads the file, or another owner writes it. Standard output is "-". Only
+ * /dev/null can have several owners.
+ */
+bool outputs_write(struct outputs *outputs, struct report *report, const char *path,
+                   const char *owner);
+
+/* True if outputs_write has noted the path. */
+bool outputs_has(const struct outputs *outputs, const char *path);
+
+void outputs_finish(struct outputs *outputs);
+
+#endif

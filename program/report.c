@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "program/report.h"
+
+#include "program/files.h"
+#include "program/groups.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void report_init(struct report *report)
+{
+    *report = (struct report){.colour = isatty(STDERR_FILENO) != 0};
+}
+
+void report_finish(struct report *report)
+{
+    free(report->source_name);
+    free(report->source);
+    free(report->printed);
+    free(report->text);
+    free(report->lines);
+    *report = (struct report){0};
+}
+
+void report_source(struct report *report, const char *file, char *source, size_t size)
+{
+    free(report->source_name);
+    free(report->source);
+    report->source = source;
+    report->source_size = size;
+    report->num_lines = 0;
+    size_t len = strlen(file) + 1;
+    report->source_name = malloc(len);
+    if (report->source_name)
+        memcpy(report->source_name, file, len);
+}
+
+/*
+ * Sets `source` to the text of the file, or to NULL if it cannot be read (files of the built-in
+ * library).
+ */
+static void load_source(struct report *report, const char *file)
+{
+    if (report->source_name && strcmp(report->source_name, file) == 0)
+        return;
+    size_t size = 0;
+    char *source = files_is_regular(file) && files_is_within(file, report->max_source_size)
+                       ? files_read(file, &size)
+                       : NULL;
+    report_source(report, file, source, size);
+}
+
+/* Reserves `size` bytes after the text. */
+static bool reserve(struct report *report, size_t size)
+{
+    if (report->capacity - report->len >= size)
+        return true;
+    size_t capacity = (report->len + size) * 2 + 1024;
+    char *text = realloc(report->text, capacity);
+    if (text) {
+        report->text = text;
+        report->capacity = capacity;
+    }
+    return text != NULL;
+}
+
+/*
+ * A line of the source, from 1, without its end; NULL if there is none. The report stores each line
+ * that it has found.
+ */
+static const char *find_line(struct report *report, uint32_t number, size_t *out_len)
+{
+    const char *end = report->source + report->source_size;
+    while (report->source && report->num_lines <= number) {
+        const char *last = report->num_lines ? report->lines[report->num_lines - 1] : NULL;
+        const char *newline = last ? memchr(last, '\n', (size_t)(end - last)) : NULL,
+                   *next = last ? newline + 1 : report->source;
+        if (last && !newline)
+            break;
+        if (report->num_lines == report->capacity_lines) {
+            size_t capacity = report->capacity_lines ? report->capacity_lines * 2 : 256;
+            const char **lines = realloc(report->lines, capacity * sizeof *lines);
+            if (!lines)
+                return NULL;
+            report->lines = lines;
+            report->capacity_lines = capacity;
+        }
+        report->lines[report->num_lines++] = next;
+    }
+    if (!number || number > report->num_lines)
+        return NULL;
+    const char *line = report->lines[number - 1];
+    const char *newline = memchr(line, '\n', (size_t)(end - line));
+    size_t len = (size_t)((newline ? newline : end) - line);
+    *out_len = len && line[len - 1] == '\r' ? len - 1 : len;
+    return line;
+}
+
+/* Appends the printed form of one message. */
+static void render(struct report *report, const mxg_diagnostics *list, uint32_t index,
+                   const mxg_diagnostic *diagnostic)
+{
+    if (diagnostic->file && diagnostic->line)
+        load_source(report, diagnostic->file);
+    size_t size = 0, room = report->capacity - report->len;
+    const char *line =
+        diagnostic->file && diagnostic->line ? find_line(report, diagnostic->line, &size) : NULL;
+    size_t len = mxg_diagnostics_format_line(list, index, line, size, report->colour,
+                                             room ? report->text + report->len : NULL, room);
+    if (!reserve(report, len + 2))
+        return;
+    if (len >= room)
+        mxg_diagnostics_format_line(list, index, line, size, report->colour,
+                                    report->text + report->len, report->capacity - report->len);
+    report->len += len;
+    if (len && report->text[report->len - 1] != '\n')
+        report->text[report->len++] = '\n';
+    report->text[report->len] = '\0';
+}
+
+const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index)
+{
+    mxg_diagnostic part = {sizeof part};
+    report->len = 0;
+    for (uint32_t i = index; mxg_diagnostics_get(list, i, &part) == MXG_OK && part.parent == index;
+         ++i)
+        render(report, list, i, &part);
+    return report->text ? report->text : "";
+}
+
+/* Notes appear with their message; a note without one, for example of an upgrade, with --verbose.
+ */
+static bool is_shown(const struct report *report, const mxg_diagnostic *diagnostic, uint32_t index)
+{
+    if (diagnostic->severity == MXG_SEVERITY_NOTE && diagnostic->parent == index)
+        return report->verbose;
+    return diagnostic->severity == MXG_SEVERITY_ERROR || !report->quiet;
+}
+
+/* The entry for a hash, or the free entry for it. */
+static uint64_t *find_printed(uint64_t *table, size_t capacity, uint64_t hash)
+{
+    size_t at = hash & (capacity - 1);
+    while (table[at] && table[at] != hash)
+        at = (at + 1) & (capacity - 1);
+    return &table[at];
+}
+
+static bool grow_printed(struct report *report)
+{
+    size_t capacity = report->capacity_printed ? report->capacity_printed * 2 : 64;
+    uint64_t *table = calloc(capacity, sizeof *table);
+    if (!table)
+        return false;
+    for (size_t i = 0; i < report->capacity_printed; ++i)
+        if (report->printed[i])
+            *find_printed(table, capacity, report->printed[i]) = report->printed[i];
+    free(report->printed);
+    report->printed = table;
+    report->capacity_printed = capacity;
+    return true;
+}
+
+/*
+ * True if the message is new: many materials of a document can have the same fault, which is
+ * reported once.
+ */
+static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
+{
+    uint64_t place = (uint64_t)diagnostic->line << 32 | diagnostic->column;
+    uint64_t hash = group_key_hash(&(struct group_key){
+        .id = diagnostic->id, .file = diagnostic->file, .text = diagnostic->message});
+    hash = (hash ^ place) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
+    hash = hash ? hash : 1;
+    if (report->num_printed * 2 >= report->capacity_printed && !grow_printed(report))
+        return true;
+    uint64_t *entry = find_printed(report->printed, report->capacity_printed, hash);
+    bool is_new = *entry == 0;
+    *entry = hash;
+    report->num_printed += is_new;
+    return is_new;
+}
+
+void report_document(struct report *report)
+{
+    report->document_errors = 0;
+    report->has_cut_note = false;
+    report->is_cause_told = false;
+}
+
+/* True if a message and its notes may be printed; limits the number of errors. */
+static bool admit(struct report *report, const mxg_diagnostic *diagnostic, uint32_t index)
+{
+    if (!is_shown(report, diagnostic, index) || !is_new(report, diagnostic))
+        return false;
+    if (diagnostic->severity != MXG_SEVERITY_ERROR || !report->max_errors)
+        return true;
+    if (report->document_errors < report->max_errors) {
+        ++report->document_errors;
+        return true;
+    }
+    if (!report->has_cut_note)
+        fprintf(stderr, "note: more than %zu errors; the rest is not shown\n", report->max_errors);
+    report->has_cut_note = true;
+    return false;
+}
+
+/* True if the message repeats the hint that more errors exist. */
+static bool is_about_rest(struct report *report, const mxg_diagnostic *diagnostic)
+{
+    bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, was_noted = report->has_cut_note;
+    report->has_cut_note = was_noted || is_note;
+    return is_note && was_noted;
+}
+
+/* True for the first note of a document about consequences, which repeats with its error. */
+static bool is_about_cause(struct report *report, const mxg_diagnostic *diagnostic)
+{
+    bool is_note = strcmp(diagnostic->id, "consequences") == 0, is_told = report->is_cause_told;
+    report->is_cause_told = is_told || is_note;
+    return is_note && !is_told;
+}
+
+/* ---- Lists ---- */
+
+static bool key_of_warning(const void *messages, uint32_t index, struct group_key *out_key)
+{
+    mxg_diagnostic diagnostic = {sizeof diagnostic};
+    mxg_diagnostics_get(messages, index, &diagnostic);
+    *out_key = (struct group_key){
+        .id = diagnostic.id, .file = diagnostic.file, .text = diagnostic.message};
+    return diagnostic.severity == MXG_SEVERITY_WARNING && diagnostic.parent == index;
+}
+
+/* Notes the further messages of the group of `told`, except those that were printed before. */
+static void print_rest(struct report *report, const struct groups *groups,
+                       const mxg_diagnostics *list, uint32_t told)
+{
+    struct group_rest rest = {0};
+    for (uint32_t i = groups->next[told]; i; i = groups->next[i]) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        if (is_new(report, &diagnostic))
+            group_rest_add(&rest, diagnostic.line);
+    }
+    group_rest_print(&rest, stderr);
+}
+
+static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)
+{
+    uint32_t count = mxg_diagnostics_count(list), open = count;
+    bool shown = false; /* the message of the notes was printed */
+    struct groups groups = groups_make(list, count, key_of_warning);
+    for (uint32_t i = 0; i < count; ++i) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        if (diagnostic.parent == i) {
+            if (open < count)
+                print_rest(report, &groups, list, open);
+            bool *is_told = &groups.is_told[groups.first[i]];
+            shown = !*is_told && (!only_errors || diagnostic.severity == MXG_SEVERITY_ERROR)
+                    && admit(report, &diagnostic, i);
+            *is_told = *is_told || shown;
+            open = shown ? i : count;
+        }
+        bool is_cause = is_about_cause(report, &diagnostic);
+        if ((!shown && !is_cause) || !is_shown(report, &diagnostic, i)
+            || is_about_rest(report, &diagnostic))
+            continue;
+        report->len = 0;
+        render(report, list, i, &diagnostic);
+        fputs(report->text ? report->text : "", stderr);
+    }
+    if (open < count)
+        print_rest(report, &groups, list, open);
+    groups_finish(&groups);
+    report->errors += mxg_diagnostics_errors(list);
+}
+
+void report_list(struct report *report, const mxg_diagnostics *list)
+{
+    print_list(report, list, false);
+}
+
+void report_errors(struct report *report, const mxg_diagnostics *list)
+{
+    print_list(report, list, true);
+}
+
+static void print_own(const struct report *report, const char *level, int colour, const char *id,
+                      const char *format, va_list args)
+{
+    if (report->colour)
+        fprintf(stderr, "\033[1;%dm%s:\033[0m ", colour, level);
+    else
+        fprintf(stderr, "%s: ", level);
+    vfprintf(stderr, format, args);
+    fprintf(stderr, " [%s]\n", id);
+}
+
+void report_error(struct report *report, const char *id, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    print_own(report, "error", 31, id, format, args);
+    va_end(args);
+    ++report->errors;
+}
+
+void report_warning(struct report *report, const char *id, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    if (!report->quiet)
+        print_own(report, "warning", 35, id, format, args);
+    va_end(args);
+}
+
+bool report_status(struct report *report, mxg_status status)
+{
+    if (status != MXG_OK && status != MXG_ERROR_DOCUMENT)
+        report_error(report, "failed", "%s", mxg_status_string(status));
+    return status == MXG_OK;
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Diagnostics on a terminal: prints messages like a compiler does, with source lines.
+ */
+#ifndef MXG_PROGRAM_REPORT_H
+#define MXG_PROGRAM_REPORT_H
+
+#include <mxgen/mxgen.h>
+
+#include <stdio.h>
+
+struct report {
+    bool quiet;   /* errors only */
+    bool verbose; /* also reports upgrades of older documents */
+    bool colour;
+    uint32_t errors;        /* number of errors, including repeated ones and those past the limit */
+    size_t max_errors;      /* limit per document; 0: no limit */
+    size_t document_errors; /* errors printed for the current document */
+    bool has_cut_note;      /* the hint that more errors exist was printed */
+    bool is_cause_told;     /* the note about consequences was printed for the document */
+    uint64_t *printed;      /* hash table of printed messages; 0: free */
+    size_t num_printed, capacity_printed;
+    char *source_name, *source; /* the last file that was read */
+    size_t source_size;
+    size_t max_source_size; /* of larger files no lines are shown; 0: no limit */
+    const char **lines;     /* its lines, as far as the report has found them */
+    size_t num_lines, capacity_lines;
+    char *text; /* text of the current message */
+    size_t len, capacity;
+};
+
+void report_init(struct report *report); /* uses colour if stderr is a terminal */
+void report_finish(struct report *report);
+
+/* The printed form of a message with its notes and source lines; valid until the next call. */
+const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index);
+
+/*
+ * Sets the source text for messages about a name that is no file; the report frees it.
+ */
+void report_source(struct report *report, const char *file, char *source, size_t size);
+
+/* Starts another document: its errors count from 0. */
+void report_document(struct report *report);
+
+/* Prints a list to stderr, without repeated messages, up to the limit of errors. */
+void report_list(struct report *report, const mxg_diagnostics *list);
+
+/* The same for the errors of a list alone; counts only these. */
+void report_errors(struct report *report, const mxg_diagnostics *list);
+
+/* An error of the program itself: "error: message [id]". */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void report_error(struct report *report, const char *id, const char *format, ...);
+
+/* A warning of the program itself; a quiet report drops it. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void report_warning(struct report *report, const char *id, const char *format, ...);
+
+/*
+ * Reports a status without a diagnostic: out of memory, cancelled, internal. Returns true for
+ * MXG_OK.
+ */
+bool report_status(struct report *report, mxg_status status);
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Files that have no final name yet. If SIGINT, SIGTERM or SIGHUP ends the program, it removes them
+ * first.
+ */
+#ifndef MXG_PROGRAM_TEMPORARY_H
+#define MXG_PROGRAM_TEMPORARY_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Notes a file before it exists; the caller keeps the name alive until temporary_forget. */
+void temporary_note(const char *path);
+/* After the file got its name, or was removed. */
+void temporary_forget(const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef MXG_PROGRAM_UTF8_H
+#define MXG_PROGRAM_UTF8_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/*
+ * Length in bytes of the UTF-8 sequence at the start of a NUL-terminated text (Unicode 15, table
+ * 3-7); 0 if none begins there.
+ */
+size_t utf8_length(const char *bytes);
+
+bool utf8_is_valid(const char *text);
+
+/*
+ * The text with U+FFFD for each invalid byte, which the caller frees; ends the program if memory is
+ * exhausted.
+ */
+char *utf8_repair(const char *text);
+
+#endif
