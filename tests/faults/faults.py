@@ -25,6 +25,7 @@ EXPECTED = {
     "divide_by_zero_reduced": GOOD,
     "extract_index3": "index-out-of-range",
     "extract_matrix_index": "index-out-of-range",
+    "function_stream": GOOD,
     "inf_default_options": GOOD,
     "many_fn": GOOD,
     "matrix_default": GOOD,
