@@ -18,17 +18,6 @@ static const struct {
     {"AppData", MXG_BLOCK_APP_DATA},
 };
 
-static const char *text_of(const json_t *object, const char *key)
-{
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
-static uint32_t count_of(const json_t *object, const char *key)
-{
-    return (uint32_t)json_integer_value(json_object_get(object, key));
-}
-
 static void set_values(const json_t *value, mxg_variable *out)
 {
     size_t count = json_is_array(value) ? json_array_size(value) : value != NULL;
@@ -46,21 +35,21 @@ static mxg_variable variable_of(const json_t *json, const json_t *block)
 {
     const json_t *bound = json_object_get(json, "binding") ? json : block;
     mxg_variable variable = {.size = sizeof variable,
-                             .name = text_of(json, "name"),
-                             .type = text_of(json, "type"),
+                             .name = json_text_of(json, "name"),
+                             .type = json_text_of(json, "type"),
                              .document_type = "",
-                             .path = text_of(json, "path"),
+                             .path = json_text_of(json, "path"),
                              .semantic = "",
-                             .set = count_of(bound, "set"),
-                             .binding = count_of(bound, "binding"),
-                             .location = count_of(json, "location"),
-                             .offset = count_of(json, "offset"),
-                             .byte_size = count_of(json, "size"),
-                             .matrix_stride = count_of(json, "matrixStride"),
-                             .file = text_of(json, "file"),
-                             .uaddressmode = text_of(json, "uaddressmode"),
-                             .vaddressmode = text_of(json, "vaddressmode"),
-                             .filtertype = text_of(json, "filtertype"),
+                             .set = (uint32_t)json_count_of(bound, "set"),
+                             .binding = (uint32_t)json_count_of(bound, "binding"),
+                             .location = (uint32_t)json_count_of(json, "location"),
+                             .offset = (uint32_t)json_count_of(json, "offset"),
+                             .byte_size = (uint32_t)json_count_of(json, "size"),
+                             .matrix_stride = (uint32_t)json_count_of(json, "matrixStride"),
+                             .file = json_text_of(json, "file"),
+                             .uaddressmode = json_text_of(json, "uaddressmode"),
+                             .vaddressmode = json_text_of(json, "vaddressmode"),
+                             .filtertype = json_text_of(json, "filtertype"),
                              .layer = ""};
     set_values(json_object_get(json, "default"), &variable);
     return variable;
@@ -69,7 +58,7 @@ static mxg_variable variable_of(const json_t *json, const json_t *block)
 static void add_block(struct foreign *foreign, const json_t *json)
 {
     struct bind_program *program = &foreign->program;
-    const char *name = text_of(json, "name");
+    const char *name = json_text_of(json, "name");
     size_t k = 0, i;
     json_t *variable;
     while (k < sizeof blocks / sizeof *blocks && strcmp(name, blocks[k].name) != 0)
@@ -77,7 +66,7 @@ static void add_block(struct foreign *foreign, const json_t *json)
     if (k == sizeof blocks / sizeof *blocks)
         return; /* VertexData, Outputs */
     if (blocks[k].block == MXG_BLOCK_LIGHT_DATA)
-        program->num_lights = count_of(json, "arrayLength");
+        program->num_lights = (uint32_t)json_count_of(json, "arrayLength");
     json_array_foreach(json_object_get(json, "variables"), i, variable)
     {
         if (program->num_variables == FOREIGN_MAX_VARIABLES)

@@ -2,8 +2,8 @@
 #include "check/baseline.h"
 
 #include "check/compare.h"
-#include "check/json.h"
-#include "check/record_io.h"
+#include "program/json.h"
+#include "check/record_json.h"
 #include "program/cli.h"
 #include "program/files.h"
 

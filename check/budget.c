@@ -4,6 +4,7 @@
 
 #include "program/cli.h"
 #include "program/files.h"
+#include "program/names.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -80,7 +81,7 @@ static char *folder_above(const char *folder)
 
 static struct budget_folder *place_of(struct budget *budget, const char *folder)
 {
-    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING, folder);
+    uint64_t hash = names_hash(NAMES_HASH_OF_NOTHING, folder);
     return &budget->folders[(hash ^ hash >> 32) % NUM_BUDGET_FOLDERS];
 }
 

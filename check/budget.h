@@ -55,10 +55,11 @@ bool budget_has_file(struct budget *budget, const char *document);
 /* Fails shaders that exceed their budget, with a message that names their largest parts. */
 void budget_judge(struct budget *budget, struct store *store, struct check_document *document);
 
-/* toml.c: reports that a file cannot be read. */
+/* budget_file.c: reports that a file cannot be read. */
 void budget_refuse_toml(struct store *store, const char *path, const char *reason,
                         struct check_message *fault);
-/* toml.c: reads rules from the text of a file; *fault receives the first error, in the store. */
+/* budget_file.c: reads rules from the text of a file; *fault receives the first error, in the
+ * store. */
 void budget_read_toml(struct store *store, const char *path, const char *text,
                       struct budget_rules *out, struct check_message *fault);
 

@@ -2,11 +2,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/cache.h"
 
-#include "check/json.h"
+#include "program/json.h"
 #include "check/protocol.h"
-#include "check/record_io.h"
+#include "check/record_json.h"
 #include "program/cli.h"
 #include "program/files.h"
+#include "program/names.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -105,7 +106,7 @@ static bool is_folder_name(const char *path)
 /* The hash of a file or folder, remembered for this run. */
 static const char *remembered_hash(struct cache *cache, const char *path)
 {
-    struct cached_file *file = &cache->files[cli_hash(CLI_HASH_OF_NOTHING, path) % NUM_FILES];
+    struct cached_file *file = &cache->files[names_hash(NAMES_HASH_OF_NOTHING, path) % NUM_FILES];
     if (!file->path || strcmp(file->path, path) != 0) {
         free(file->path);
         file->path = cli_format("%s", path);

@@ -9,11 +9,11 @@
 #include "check/check.h"
 #include "check/gate.h"
 #include "check/inputs.h"
-#include "check/json.h"
+#include "program/json.h"
 #include "check/pool.h"
 #include "check/progress.h"
 #include "check/protocol.h"
-#include "check/record_io.h"
+#include "check/record_json.h"
 #include "program/files.h"
 
 #include <errno.h>
@@ -114,7 +114,7 @@ static struct check_document *read_record(struct check *check, struct store *sto
     if (slot->cached)
         document = record_from_json(store, slot->cached);
     else if (slot->record)
-        document = record_from_bytes(store, slot->record, slot->size);
+        document = record_from_text(store, slot->record, slot->size);
     if (document && slot->cached)
         forget_times(document);
     else if (document)

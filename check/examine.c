@@ -2,8 +2,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/examine.h"
 
-#include "program/memory.h"
 #include "compile/compile.h"
+#include "program/groups.h"
+#include "program/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,38 +25,24 @@ static const char *copy(struct examiner *examiner, const char *text)
     return text ? store_text(&examiner->store, text, strlen(text)) : "";
 }
 
-/* The place of an equal message, or the free place for it. */
-static uint32_t *find_place(const struct examiner *examiner, const struct check_message *message)
+static uint64_t hash_of(const struct check_message *message)
 {
-    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING ^ message->line, message->id);
-    size_t mask = examiner->capacity - 1, at = (size_t)cli_hash(hash, message->text) & mask;
-    while (examiner->messages[at]
-           && !check_is_same_message(&examiner->document->messages[examiner->messages[at] - 1],
-                                     message))
-        at = (at + 1) & mask;
-    return &examiner->messages[at];
+    struct group_key key = {.id = message->id, .file = message->file, .text = message->text};
+    return group_key_hash_at(&key, message->line, message->column);
 }
 
 /* The index of an equal message; the number of messages if there is none. */
 static uint32_t find_message(const struct examiner *examiner, const struct check_message *message)
 {
-    uint32_t found = examiner->capacity ? *find_place(examiner, message) : 0;
-    return found ? found - 1 : (uint32_t)examiner->document->num_messages;
+    const struct name_entry *entry = names_find_hash(&examiner->messages, hash_of(message));
+    return entry ? (uint32_t)entry->value : (uint32_t)examiner->document->num_messages;
 }
 
 static void add_message(struct examiner *examiner, const struct check_message *message)
 {
-    struct check_document *document = examiner->document;
-    check_add_message(&examiner->store, document, message);
-    size_t first = document->num_messages - 1;
-    if (document->num_messages * 2 > examiner->capacity) {
-        examiner->capacity = examiner->capacity ? examiner->capacity * 2 : 64;
-        examiner->messages =
-            store_alloc(&examiner->store, examiner->capacity * sizeof *examiner->messages);
-        first = 0;
-    }
-    for (size_t i = first; i < document->num_messages; ++i)
-        *find_place(examiner, &document->messages[i]) = (uint32_t)i + 1;
+    bool is_new;
+    uint32_t index = check_add_message(&examiner->store, examiner->document, message);
+    names_add_hash(&examiner->messages, hash_of(message), &is_new)->value = index;
 }
 
 static void refer(struct examiner *examiner, struct check_shader *shader, uint32_t index)
@@ -321,7 +308,8 @@ const struct check_document *examine(struct examiner *examiner, const char *path
     struct check_document *record = examiner->document =
         store_alloc(&examiner->store, sizeof *record);
     record->file = copy(examiner, path);
-    examiner->num_errors = examiner->capacity = 0;
+    examiner->num_errors = 0;
+    names_finish(&examiner->messages);
     mxg_document *document = load(examiner, path);
     if (document && record->num_files)
         validate(examiner, document);
@@ -342,6 +330,7 @@ const struct check_document *examine(struct examiner *examiner, const char *path
 void examiner_finish(struct examiner *examiner)
 {
     store_finish(&examiner->store);
+    names_finish(&examiner->messages);
     if (examiner->is_compiler_ready)
         compile_end();
     if (examiner->folder)

@@ -5,6 +5,7 @@
 
 #include "check/protocol.h"
 #include "program/cli.h"
+#include "program/names.h"
 
 struct examiner {
     struct cli *cli;
@@ -17,10 +18,9 @@ struct examiner {
 
     struct store store; /* memory for the current document */
     struct check_document *document;
-    uint32_t *messages;  /* hash table of the document's messages: indices from 1; 0: free */
-    size_t capacity;     /* capacity of the table */
-    size_t num_errors;   /* number of reported errors */
-    uint32_t last_error; /* message index of the last one */
+    struct name_table messages; /* indices of the document's messages */
+    size_t num_errors;          /* number of reported errors */
+    uint32_t last_error;        /* message index of the last one */
     bool is_compiler_ready;
     char *folder; /* folder for pictures; NULL: not needed yet */
 };

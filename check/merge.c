@@ -6,8 +6,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/check.h"
 #include "check/gate.h"
-#include "check/json.h"
-#include "check/record_io.h"
+#include "program/json.h"
+#include "check/record_json.h"
 #include "check/report_reader.h"
 #include "program/memory.h"
 

@@ -2,6 +2,7 @@
 #include "check/place.h"
 
 #include "program/cli.h"
+#include "program/names.h"
 
 #include <string.h>
 
@@ -59,9 +60,9 @@ const char *place_text(struct store *store, const struct check_document *documen
 uint64_t place_hash(const struct check_document *document, const struct check_message *message)
 {
     struct store store = {0};
-    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING ^ (uint64_t)message->severity, message->id);
-    hash = cli_hash(hash, place_name(&store, document, message->file));
-    hash = cli_hash(hash, place_text(&store, document, message->text));
+    uint64_t hash = names_hash(NAMES_HASH_OF_NOTHING ^ (uint64_t)message->severity, message->id);
+    hash = names_hash(hash, place_name(&store, document, message->file));
+    hash = names_hash(hash, place_text(&store, document, message->text));
     store_finish(&store);
     return hash;
 }

@@ -22,7 +22,7 @@ enum task_note {
 };
 
 /*
- * A task is the path of a document; an answer is a record as bytes, and its note the duration in
+ * A task is the path of a document; an answer is a record as JSON, and its note the duration in
  * microseconds.
  */
 struct frame {

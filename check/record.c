@@ -62,12 +62,6 @@ bool check_has_change(const struct check_document *document, check_change_set ki
     return false;
 }
 
-bool check_is_same_message(const struct check_message *a, const struct check_message *b)
-{
-    return a->line == b->line && a->column == b->column && strcmp(a->id, b->id) == 0
-           && strcmp(a->text, b->text) == 0 && strcmp(a->file, b->file) == 0;
-}
-
 uint32_t check_add_message(struct store *store, struct check_document *document,
                            const struct check_message *message)
 {

@@ -202,9 +202,6 @@ enum check_stage check_own_failure(const struct check_document *document);
 /* True if the document has a change of one of these kinds. */
 bool check_has_change(const struct check_document *document, check_change_set kinds);
 
-/* True if two messages are equal. */
-bool check_is_same_message(const struct check_message *a, const struct check_message *b);
-
 /* Appends a message, which need not have a state; returns its index. */
 uint32_t check_add_message(struct store *store, struct check_document *document,
                            const struct check_message *message);

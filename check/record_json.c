@@ -1,143 +1,194 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check/json.h"
-#include "check/record_io.h"
+#include "check/record_json.h"
 
-#include <assert.h>
+#include "program/json.h"
+
 #include <math.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 8 }; /* depth of arrays and objects in a record */
+/* ---- The members ---- */
 
-struct json_io {
-    struct record_io io;
-    bool with_times;
-    /* the open arrays and objects; the last is the current one */
-    struct {
-        json_t *value;
-        size_t num_read; /* number of items read */
-    } open[MAX_DEPTH];
-    unsigned depth;
+enum field_kind {
+    TEXT,    /* const char *; omitted if it is empty */
+    SMALL,   /* uint32_t; omitted if it is 0, as all numbers */
+    COUNT,   /* uint64_t */
+    TIME,    /* double, in milliseconds with three decimals */
+    FLAG,    /* bool */
+    NAME,    /* an enum: an index into `names`; another name is the first one */
+    OUTCOME, /* enum check_stage: "status", and for failures "stage" */
+    LIST,    /* an array of structs, or of what stands alone: TEXT or SMALL */
+    PARTS,   /* of a shader: {"instructions": {"main": 12, …}, …} */
+    SETTINGS /* {"SR/base": "0.5", …} */
 };
 
-static struct json_io *self(struct record_io *io)
-{
-    return (struct json_io *)io;
-}
+struct record_type;
 
-static json_t *at_hand(struct record_io *io)
-{
-    assert(self(io)->depth > 0);
-    return self(io)->open[self(io)->depth - 1].value;
-}
+struct field {
+    const char *key;
+    enum field_kind kind;
+    size_t at;     /* offset of the member */
+    size_t num_at; /* of an array: offset of its length */
+    const struct record_type *items;
+    bool is_required; /* an empty array is written, too */
+    const char *const *names;
+    unsigned num_names;
+};
 
-static json_t *get(struct record_io *io, const char *key)
-{
-    return key ? json_object_get(at_hand(io), key)
-               : json_array_get(at_hand(io), self(io)->open[self(io)->depth - 1].num_read++);
-}
+/* A struct, or with a single field without a key what stands alone in an array. */
+struct record_type {
+    size_t size;
+    const struct field *fields;
+    size_t num_fields;
+};
 
-static void put(struct record_io *io, const char *key, json_t *value)
-{
-    if (key)
-        json_object_set_new(at_hand(io), key, value);
-    else
-        json_array_append_new(at_hand(io), value);
-}
-
-static void enter(struct record_io *io, json_t *value)
-{
-    struct json_io *json = self(io);
-    assert(json->depth < MAX_DEPTH);
-    json->open[json->depth].value = value;
-    json->open[json->depth++].num_read = 0;
-}
-
-static json_t *leave(struct record_io *io)
-{
-    json_t *value = at_hand(io);
-    --self(io)->depth;
-    return value;
-}
-
-/* ---- The coding ---- */
-
-static void text(struct record_io *io, const char *key, const char **value)
-{
-    if (io->store) {
-        const char *read = json_string_value(get(io, key));
-        *value = read ? store_text(io->store, read, strlen(read)) : "";
-    } else if (!key || (*value && **value)) {
-        put(io, key, json_text(*value));
+#define TYPE(name, type, fields) \
+    static const struct record_type name = {sizeof(type), fields, sizeof fields / sizeof *fields}
+#define FIELD(kind, type, key, member) \
+    { \
+        key, kind, offsetof(struct type, member) \
     }
-}
-
-static void count(struct record_io *io, const char *key, uint64_t *value)
-{
-    if (io->store) {
-        const json_t *read = get(io, key);
-        /* any other value is no valid index either */
-        *value = json_is_integer(read) && json_integer_value(read) >= 0
-                     ? (uint64_t)json_integer_value(read)
-                 : key ? 0
-                       : UINT64_MAX;
-    } else if (!key || *value) {
-        put(io, key, json_integer((json_int_t)*value));
+#define NAMED(type, key, member, words, num) \
+    { \
+        key, NAME, offsetof(struct type, member), .names = words, .num_names = num \
     }
-}
-
-static void flag(struct record_io *io, const char *key, bool *value)
-{
-    if (io->store)
-        *value = json_is_true(get(io, key));
-    else
-        put(io, key, json_boolean(*value));
-}
-
-/* With at most three decimals. */
-static void write_time(struct record_io *io, const char *key, double *milliseconds)
-{
-    if (io->store)
-        *milliseconds = json_number_value(get(io, key));
-    else if (self(io)->with_times && *milliseconds != 0.0)
-        put(io, key, json_real(round(*milliseconds * 1e3) / 1e3));
-}
-
-static unsigned name(struct record_io *io, const char *key, unsigned value,
-                     const char *const *names, unsigned num_names)
-{
-    if (!io->store)
-        put(io, key, json_string(names[value]));
-    for (unsigned i = 0; io->store && i < num_names; ++i)
-        if (strcmp(names[i], json_text_of(at_hand(io), key)) == 0)
-            return i;
-    return io->store ? 0 : value;
-}
-
-static void read_parts(struct record_io *io, json_t *parts, struct check_shader *shader)
-{
-    for (int measure = 0; measure < NUM_MEASURES; ++measure) {
-        const char *part;
-        json_t *value;
-        json_object_foreach(json_object_get(parts, measure_infos[measure].key), part, value)
-        {
-            json_int_t size = json_integer_value(value);
-            shader->parts =
-                store_grow(io->store, shader->parts, shader->num_parts, sizeof *shader->parts);
-            shader->parts[shader->num_parts++] = (struct check_part){
-                (enum measure)measure, store_text(io->store, part, strlen(part)),
-                size > 0 ? (uint64_t)size : 0};
-        }
+#define ARRAY(kind, type, key, member, is_required, items) \
+    { \
+        key, kind, offsetof(struct type, member), offsetof(struct type, num_##member), items, \
+            is_required \
     }
+
+static const char *const severities[] = {"error", "warning", "note"};
+
+static const struct field text_fields[] = {{NULL, TEXT}}, number_fields[] = {{NULL, SMALL}};
+TYPE(text_type, const char *, text_fields);
+TYPE(number_type, uint32_t, number_fields);
+
+static const struct field note_fields[] = {
+    FIELD(TEXT, check_note, "message", text),   FIELD(TEXT, check_note, "file", file),
+    FIELD(SMALL, check_note, "line", line),     FIELD(SMALL, check_note, "column", column),
+    FIELD(SMALL, check_note, "length", length),
+};
+TYPE(note_type, struct check_note, note_fields);
+
+static const struct field message_fields[] = {
+    NAMED(check_message, "severity", severity, severities, 3),
+    FIELD(TEXT, check_message, "id", id),
+    FIELD(TEXT, check_message, "message", text),
+    FIELD(TEXT, check_message, "file", file),
+    FIELD(SMALL, check_message, "line", line),
+    FIELD(SMALL, check_message, "column", column),
+    FIELD(SMALL, check_message, "length", length),
+    FIELD(TEXT, check_message, "element", element),
+    FIELD(TEXT, check_message, "target", target),
+    FIELD(TEXT, check_message, "rendered", rendered),
+    ARRAY(LIST, check_message, "notes", notes, false, &note_type),
+    FIELD(TEXT, check_message, "baselineState", state),
+};
+TYPE(message_type, struct check_message, message_fields);
+
+static const struct field shader_fields[] = {
+    FIELD(TEXT, check_shader, "target", target),
+    FIELD(OUTCOME, check_shader, NULL, failed),
+    FIELD(FLAG, check_shader, "compiled", compiled),
+    FIELD(TEXT, check_shader, "topology", topology),
+#define MEASURE(name, key, option, noun, meaning) \
+    FIELD(COUNT, check_shader, key, measures[MEASURE_##name]),
+#include "check/measures.def"
+#undef MEASURE
+    FIELD(PARTS, check_shader, "parts", parts),
+    ARRAY(LIST, check_shader, "messages", messages, false, &number_type),
+    FIELD(TIME, check_shader, "generateMs", generate_ms),
+    FIELD(TIME, check_shader, "compileMs", compile_ms),
+};
+TYPE(shader_type, struct check_shader, shader_fields);
+
+static const struct field step_fields[] = {
+    FIELD(TEXT, check_step, "step", text),
+    FIELD(SMALL, check_step, "closuresBefore", closures_before),
+    FIELD(SMALL, check_step, "closuresAfter", closures_after),
+    FIELD(SMALL, check_step, "bytesBefore", bytes_before),
+    FIELD(SMALL, check_step, "bytesAfter", bytes_after),
+    FIELD(TEXT, check_step, "estimatedError", estimated),
+    FIELD(TEXT, check_step, "drawnError", drawn),
+};
+TYPE(step_type, struct check_step, step_fields);
+
+static const struct field element_fields[] = {
+    FIELD(TEXT, check_element, "path", path),
+    FIELD(TEXT, check_element, "type", type),
+    ARRAY(LIST, check_element, "shaders", shaders, true, &shader_type),
+    ARRAY(SETTINGS, check_element, "values", values, false, NULL),
+    ARRAY(SETTINGS, check_element, "textures", textures, false, NULL),
+    FIELD(TEXT, check_element, "signature", signature),
+    FIELD(TEXT, check_element, "picture", picture),
+    FIELD(TEXT, check_element, "slabsPicture", slabs),
+    FIELD(TEXT, check_element, "fullPicture", full),
+    FIELD(TEXT, check_element, "drawnError", drawn_error),
+    ARRAY(LIST, check_element, "steps", steps, false, &step_type),
+};
+TYPE(element_type, struct check_element, element_fields);
+
+static const struct field change_fields[] = {
+    NAMED(check_change, "kind", kind, check_change_names, NUM_CHECK_CHANGES),
+    FIELD(TEXT, check_change, "element", element),
+    FIELD(TEXT, check_change, "target", target),
+    FIELD(TEXT, check_change, "text", text),
+};
+TYPE(change_type, struct check_change, change_fields);
+
+static const struct field document_fields[] = {
+    FIELD(TEXT, check_document, "file", file),
+    FIELD(TEXT, check_document, "name", name),
+    FIELD(OUTCOME, check_document, NULL, failed),
+    ARRAY(LIST, check_document, "messages", messages, true, &message_type),
+    FIELD(SMALL, check_document, "hiddenErrors", num_hidden),
+    ARRAY(LIST, check_document, "files", files, true, &text_type),
+    ARRAY(LIST, check_document, "folders", folders, false, &text_type),
+    ARRAY(LIST, check_document, "images", images, false, &text_type),
+    ARRAY(LIST, check_document, "elements", elements, true, &element_type),
+    ARRAY(LIST, check_document, "changes", changes, false, &change_type),
+    ARRAY(LIST, check_document, "goneMessages", gone_messages, false, &message_type),
+    FIELD(TIME, check_document, "loadMs", load_ms),
+    FIELD(TIME, check_document, "validateMs", validate_ms),
+    FIELD(TIME, check_document, "renderMs", render_ms),
+};
+TYPE(document_type, struct check_document, document_fields);
+
+/* ---- Writing ---- */
+
+static json_t *write_object(const struct record_type *type, const char *item, bool with_times);
+
+static json_t *write_text(const char *text, bool is_required)
+{
+    return is_required || (text && *text) ? json_text(text) : NULL;
 }
 
-/* "parts": {"instructions": {"main": 12, …}, …} */
-static void parts(struct record_io *io, struct check_shader *shader)
+static json_t *write_count(uint64_t count, bool is_required)
 {
-    if (io->store) {
-        read_parts(io, get(io, "parts"), shader);
-        return;
+    return is_required || count ? json_integer((json_int_t)count) : NULL;
+}
+
+static json_t *write_list(const struct field *field, const char *item, bool with_times)
+{
+    const struct record_type *type = field->items;
+    const char *items = *(const char *const *)(const void *)(item + field->at);
+    size_t num = *(const size_t *)(const void *)(item + field->num_at);
+    if (!num && !field->is_required)
+        return NULL;
+    json_t *array = json_array();
+    for (size_t i = 0; i < num; ++i) {
+        const void *at = items + i * type->size;
+        json_array_append_new(array, type->fields->key ? write_object(type, at, with_times)
+                                     : type->fields->kind == TEXT
+                                         ? write_text(*(const char *const *)at, true)
+                                         : write_count(*(const uint32_t *)at, true));
     }
-    json_t *all = json_object();
+    return array;
+}
+
+static json_t *write_parts(const struct check_shader *shader)
+{
+    json_t *all = shader->num_parts ? json_object() : NULL;
     for (size_t i = 0; i < shader->num_parts; ++i) {
         const struct check_part *part = &shader->parts[i];
         const char *key = measure_infos[part->measure].key;
@@ -145,97 +196,229 @@ static void parts(struct record_io *io, struct check_shader *shader)
             json_object_set_new(all, key, json_object());
         json_set(json_object_get(all, key), part->name, json_integer((json_int_t)part->count));
     }
-    if (shader->num_parts)
-        put(io, "parts", all);
-    else
-        json_decref(all);
+    return all;
 }
 
-static void read_settings(struct record_io *io, json_t *object, struct check_setting **settings,
-                          size_t *num_settings)
+static json_t *write_settings(const struct check_setting *settings, size_t num)
 {
-    const char *path;
-    json_t *value;
-    *num_settings = 0;
-    *settings = store_array(io->store, json_object_size(object), sizeof **settings);
-    json_object_foreach(object, path, value)
-    {
-        const char *text = json_string_value(value);
-        if (text)
-            (*settings)[(*num_settings)++] =
-                (struct check_setting){store_text(io->store, path, strlen(path)),
-                                       store_text(io->store, text, strlen(text))};
+    json_t *object = num ? json_object() : NULL;
+    for (size_t i = 0; i < num; ++i)
+        json_set(object, settings[i].path, json_text(settings[i].value));
+    return object;
+}
+
+static void write_outcome(json_t *out, enum check_stage failed)
+{
+    json_object_set_new(out, "status", json_string(failed ? "failed" : "passed"));
+    if (failed)
+        json_object_set_new(out, "stage", json_string(check_stage_names[failed]));
+}
+
+/* NULL: the member is omitted. */
+static json_t *write_member(const struct field *field, const char *item, bool with_times)
+{
+    const void *at = item + field->at;
+    switch (field->kind) {
+    case TEXT: return write_text(*(const char *const *)at, false);
+    case SMALL: return write_count(*(const uint32_t *)at, false);
+    case COUNT: return write_count(*(const uint64_t *)at, false);
+    case TIME:
+        return with_times && *(const double *)at != 0.0
+                   ? json_real(round(*(const double *)at * 1e3) / 1e3)
+                   : NULL;
+    case FLAG: return json_boolean(*(const bool *)at);
+    case NAME: return json_string(field->names[*(const unsigned *)at]);
+    case LIST: return write_list(field, item, with_times);
+    case PARTS: return write_parts((const void *)item);
+    case SETTINGS:
+        return write_settings(*(const struct check_setting *const *)at,
+                              *(const size_t *)(const void *)(item + field->num_at));
+    case OUTCOME: break;
+    }
+    return NULL;
+}
+
+static void write_members(json_t *out, const struct record_type *type, const char *item,
+                          bool with_times)
+{
+    for (size_t i = 0; i < type->num_fields; ++i) {
+        const struct field *field = &type->fields[i];
+        json_t *value = write_member(field, item, with_times);
+        if (field->kind == OUTCOME)
+            write_outcome(out, *(const enum check_stage *)(const void *)(item + field->at));
+        else if (value)
+            json_object_set_new(out, field->key, value);
     }
 }
 
-/* "values": {"SR/base": "0.5", …} */
-static void settings(struct record_io *io, const char *key, struct check_setting **settings,
-                     size_t *num_settings)
+static json_t *write_object(const struct record_type *type, const char *item, bool with_times)
 {
-    if (io->store) {
-        read_settings(io, get(io, key), settings, num_settings);
-        return;
-    }
-    json_t *object = *num_settings ? json_object() : NULL;
-    for (size_t i = 0; i < *num_settings; ++i)
-        json_set(object, (*settings)[i].path, json_text((*settings)[i].value));
-    if (object)
-        put(io, key, object);
+    json_t *object = json_object();
+    write_members(object, type, item, with_times);
+    return object;
 }
-
-static size_t begin_array(struct record_io *io, const char *key, size_t num)
-{
-    enter(io, io->store ? get(io, key) : json_array());
-    return io->store ? json_array_size(at_hand(io)) : num;
-}
-
-static void end_array(struct record_io *io, const char *key, bool is_required)
-{
-    json_t *array = leave(io);
-    if (io->store)
-        return;
-    if (json_array_size(array) || is_required)
-        put(io, key, array);
-    else
-        json_decref(array);
-}
-
-static void begin_object(struct record_io *io)
-{
-    enter(io, io->store ? get(io, NULL) : json_object());
-}
-
-static void end_object(struct record_io *io)
-{
-    json_t *object = leave(io);
-    if (!io->store)
-        put(io, NULL, object);
-}
-
-static const struct record_coding coding = {
-    text,     count,       flag,      write_time,   name,       parts,
-    settings, begin_array, end_array, begin_object, end_object,
-};
 
 json_t *record_to_json(const struct check_document *document, bool with_times)
 {
-    struct json_io json = {.io = {.coding = &coding}, .with_times = with_times};
-    struct check_document copy = *document; /* the arrays are shared */
     json_t *object = json_object();
-    enter(&json.io, object);
-    put(&json.io, "index", json_integer((json_int_t)document->index));
-    record_members(&json.io, &copy);
-    assert(json.depth == 1);
+    json_object_set_new(object, "index", json_integer((json_int_t)document->index));
+    write_members(object, &document_type, (const char *)document, with_times);
     return object;
+}
+
+char *record_to_text(const struct check_document *document, size_t *out_size)
+{
+    json_t *object = record_to_json(document, true);
+    char *text = json_dumps(object, JSON_STYLE);
+    *out_size = text ? strlen(text) : 0;
+    json_decref(object);
+    return text;
+}
+
+/* ---- Reading ---- */
+
+static void read_object(struct store *store, json_t *object, const struct record_type *type,
+                        char *out);
+
+static const char *read_text(struct store *store, const json_t *value)
+{
+    const char *text = json_string_value(value);
+    return text ? store_text(store, text, strlen(text)) : "";
+}
+
+/* `otherwise`: for what is no count. */
+static uint64_t read_count(const json_t *value, uint64_t otherwise)
+{
+    return json_is_integer(value) && json_integer_value(value) >= 0
+               ? (uint64_t)json_integer_value(value)
+               : otherwise;
+}
+
+static uint32_t read_small(const json_t *value, uint32_t otherwise)
+{
+    uint64_t count = read_count(value, otherwise);
+    return count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
+}
+
+static unsigned read_name(const json_t *value, const char *const *names, unsigned num_names)
+{
+    const char *name = json_string_value(value);
+    for (unsigned i = 0; name && i < num_names; ++i)
+        if (strcmp(names[i], name) == 0)
+            return i;
+    return 0;
+}
+
+static enum check_stage read_outcome(const json_t *object)
+{
+    unsigned stage =
+        read_name(json_object_get(object, "stage"), check_stage_names, NUM_CHECK_STAGES);
+    if (strcmp(json_text_of(object, "status"), "failed") != 0)
+        return CHECK_PASSED;
+    return stage == CHECK_PASSED ? CHECK_LOAD : (enum check_stage)stage; /* an unknown name */
+}
+
+static void read_list(struct store *store, json_t *array, const struct field *field, char *out)
+{
+    const struct record_type *type = field->items;
+    size_t num = json_array_size(array);
+    char *items = store_array(store, num, type->size);
+    for (size_t i = 0; i < num; ++i) {
+        json_t *value = json_array_get(array, i);
+        void *at = items + i * type->size;
+        if (type->fields->key)
+            read_object(store, value, type, at);
+        else if (type->fields->kind == TEXT)
+            *(const char **)at = read_text(store, value);
+        else /* any other value is no valid index either */
+            *(uint32_t *)at = read_small(value, UINT32_MAX);
+    }
+    *(char **)(void *)(out + field->at) = items;
+    *(size_t *)(void *)(out + field->num_at) = num;
+}
+
+static void read_parts(struct store *store, json_t *parts, struct check_shader *shader)
+{
+    for (int measure = 0; measure < NUM_MEASURES; ++measure) {
+        const char *name;
+        json_t *value;
+        json_object_foreach(json_object_get(parts, measure_infos[measure].key), name, value)
+        {
+            shader->parts =
+                store_grow(store, shader->parts, shader->num_parts, sizeof *shader->parts);
+            shader->parts[shader->num_parts++] = (struct check_part){
+                (enum measure)measure, store_text(store, name, strlen(name)), read_count(value, 0)};
+        }
+    }
+}
+
+static void read_settings(struct store *store, json_t *object, const struct field *field, char *out)
+{
+    const char *path;
+    json_t *value;
+    struct check_setting *settings = store_array(store, json_object_size(object), sizeof *settings);
+    size_t num = 0;
+    json_object_foreach(object, path, value)
+    {
+        if (json_is_string(value))
+            settings[num++] = (struct check_setting){store_text(store, path, strlen(path)),
+                                                     read_text(store, value)};
+    }
+    *(struct check_setting **)(void *)(out + field->at) = settings;
+    *(size_t *)(void *)(out + field->num_at) = num;
+}
+
+static void read_member(struct store *store, json_t *object, const struct field *field, char *out)
+{
+    json_t *value = field->key ? json_object_get(object, field->key) : NULL;
+    void *at = out + field->at;
+    switch (field->kind) {
+    case TEXT: *(const char **)at = read_text(store, value); break;
+    case SMALL: *(uint32_t *)at = read_small(value, 0); break;
+    case COUNT: *(uint64_t *)at = read_count(value, 0); break;
+    case TIME: *(double *)at = json_number_value(value); break;
+    case FLAG: *(bool *)at = json_is_true(value); break;
+    case NAME: *(unsigned *)at = read_name(value, field->names, field->num_names); break;
+    case OUTCOME: *(enum check_stage *)at = read_outcome(object); break;
+    case LIST: read_list(store, value, field, out); break;
+    case PARTS: read_parts(store, value, (void *)out); break;
+    case SETTINGS: read_settings(store, value, field, out); break;
+    }
+}
+
+/* A member that is missing or has another type is 0 or "". */
+static void read_object(struct store *store, json_t *object, const struct record_type *type,
+                        char *out)
+{
+    for (size_t i = 0; i < type->num_fields; ++i)
+        read_member(store, object, &type->fields[i], out);
+}
+
+/* Removes message indices that are out of range. */
+static void drop_bad_indices(struct check_shader *shader, size_t num_messages)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < shader->num_messages; ++i)
+        if (shader->messages[i] < num_messages)
+            shader->messages[kept++] = shader->messages[i];
+    shader->num_messages = kept;
 }
 
 struct check_document *record_from_json(struct store *store, json_t *object)
 {
-    struct json_io json = {.io = {&coding, store}};
     struct check_document *document = store_alloc(store, sizeof *document);
-    enter(&json.io, object);
     document->index = json_count_of(object, "index");
-    record_members(&json.io, document);
-    assert(json.depth == 1);
+    read_object(store, object, &document_type, (char *)document);
+    for (size_t i = 0; i < document->num_elements; ++i)
+        for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
+            drop_bad_indices(&document->elements[i].shaders[k], document->num_messages);
     return *document->file ? document : NULL;
+}
+
+struct check_document *record_from_text(struct store *store, const char *text, size_t size)
+{
+    json_t *object = json_loadb(text, size, 0, NULL);
+    struct check_document *document = record_from_json(store, object);
+    json_decref(object);
+    return document;
 }

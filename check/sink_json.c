@@ -3,9 +3,9 @@
  * --json: all data, with one document per line (docs/check.md, docs/check.schema.json). The report
  * is one object, and the sink writes its members as they arrive.
  */
-#include "check/json.h"
+#include "program/json.h"
 #include "check/place.h"
-#include "check/record_io.h"
+#include "check/record_json.h"
 #include "check/sink.h"
 
 /* Writes the members without the braces around them. */

@@ -3,7 +3,7 @@
  * --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below refer to
  * it.
  */
-#include "check/json.h"
+#include "program/json.h"
 #include "check/place.h"
 #include "check/sink.h"
 #include "program/names.h"

@@ -6,7 +6,8 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "check/examine.h"
-#include "check/record_io.h"
+#include "check/record_json.h"
+#include "program/json.h"
 #include "program/parent.h"
 #include "program/memory.h"
 #include "compile/compile.h"
@@ -77,7 +78,6 @@ static void limit_memory(size_t mib)
 static bool serve(struct examiner *examiner, int output)
 {
     struct frame task;
-    struct record_bytes record = {0};
     if (!channel_open(&examiner->channel, STDIN_FILENO, output)) {
         fputs("mxgen: this program is started by 'mxgen check'\n", stderr);
         return false;
@@ -85,14 +85,16 @@ static bool serve(struct examiner *examiner, int output)
     desk_of_worker = examiner->channel.desk;
     compile_on_exhaustion(tell_no_memory);
     memory_on_exhaustion(tell_no_memory);
+    json_use_memory();
     while (channel_next(&examiner->channel, &task)) {
         examiner->is_brief = task.note & TASK_BRIEF;
         examiner->errors_only = task.note & TASK_ERRORS_ONLY;
         const struct check_document *document = examine(examiner, task.body);
-        record_to_bytes(&record, document);
-        channel_answer(&examiner->channel, record.data, record.size);
+        size_t size;
+        char *record = record_to_text(document, &size);
+        channel_answer(&examiner->channel, record, size);
+        free(record);
     }
-    free(record.data);
     desk_of_worker = NULL;
     channel_close(&examiner->channel);
     return true;

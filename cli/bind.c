@@ -2,7 +2,6 @@
 /* mxgen bind: the layers of each primitive of a stage under a look. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/commands.h"
-#include "cli/bind_page.h"
 #include "program/cli.h"
 #include "program/files.h"
 #include "program/memory.h"
@@ -14,9 +13,8 @@
 
 struct bind {
     struct cli cli;
-    const char *look, *stage, *json, *usda, *html, *geom, *purpose;
+    const char *look, *stage, *json, *usda, *geom, *purpose;
     struct arg_list solo, mute;
-    bool pictures;
 };
 
 static bool put(void *user_data, const char *data, size_t size)
@@ -45,25 +43,6 @@ static void write_file(struct bind *bind, const mxg_bindings *bindings, const ch
         report_error(&bind->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
 }
 
-static void write_page(struct bind *bind, const mxg_document *document, const mxg_scene *scene,
-                       const mxg_bindings *bindings)
-{
-    const struct arg_list *inputs = &bind->cli.parser.inputs;
-    struct bind_substances substances = {.cli = &bind->cli,
-                                         .document = document,
-                                         .file = inputs->len ? inputs->items[0] : NULL,
-                                         .has_pictures = bind->pictures};
-    struct files_stream stream;
-    const char *reason = files_begin(&stream, bind->html);
-    if (!reason) {
-        bind_page_write(stream.out, scene, bindings, &substances, bind->look ? bind->look : "");
-        reason = files_end(&stream, true);
-    }
-    if (reason)
-        report_error(&bind->cli.report, "output-failed", "cannot write '%s': %s", bind->html,
-                     reason);
-}
-
 static void explain(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
 {
     uint32_t primitive = mxg_scene_find(scene, bind->geom);
@@ -83,14 +62,11 @@ static void write_bindings(struct bind *bind, const mxg_bindings *bindings)
 }
 
 /* What people look at. */
-static void show_bindings(struct bind *bind, const mxg_document *document, const mxg_scene *scene,
-                          const mxg_bindings *bindings)
+static void show_bindings(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
 {
-    if (bind->html)
-        write_page(bind, document, scene, bindings);
     if (bind->geom)
         explain(bind, scene, bindings);
-    else if (!bind->json && !bind->usda && !bind->html)
+    else if (!bind->json && !bind->usda)
         report_status(&bind->cli.report,
                       mxg_bindings_write(bindings,
                                          isatty(STDOUT_FILENO) ? MXG_BINDINGS_TABLE_COLOUR
@@ -115,7 +91,7 @@ static void bind_document(struct bind *bind, const mxg_document *document, mxg_s
         write_bindings(bind, bindings);
     /* beside errors, the layers that are left help to find their cause */
     if (is_good || (bindings && mxg_bindings_num_resolved(bindings) > 0))
-        show_bindings(bind, document, scene, bindings);
+        show_bindings(bind, scene, bindings);
     mxg_bindings_destroy(bindings);
 }
 
@@ -154,9 +130,6 @@ int command_bind(const struct command *command, int argc, char **argv)
          &bind.json},
         {"usda", 0, ARG_TEXT, "FILE", "writes the layers as slot bindings of USD; '-': prints them",
          &bind.usda},
-        {"html", 0, ARG_TEXT, "FILE", "writes a page to look into the layers", &bind.html},
-        {"pictures", 0, ARG_FLAG, NULL,
-         "adds a picture of each material to the page, drawn by mxgen-render", &bind.pictures},
         {"geom", 0, ARG_TEXT, "PATH", "explains the layers of one primitive", &bind.geom},
         {"solo", 0, ARG_LIST, "SLOT", "shows only this slot, layer or override", &bind.solo},
         {"mute", 0, ARG_LIST, "SLOT", "leaves out this slot, layer or override", &bind.mute},
@@ -164,7 +137,7 @@ int command_bind(const struct command *command, int argc, char **argv)
     int code;
     if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {
         const struct arg_list *inputs = &bind.cli.parser.inputs;
-        if (!bind.stage || inputs->len > 1 || (bind.pictures && !bind.html)) {
+        if (!bind.stage || inputs->len > 1) {
             fprintf(stderr, "usage: mxgen %s\n", command->usage);
             code = EXIT_USAGE;
         } else {

@@ -20,7 +20,31 @@ struct inspect {
     struct stage_place place; /* file NULL: an element of the document */
     const mxg_bindings *bindings;
     uint32_t stack;
+    struct drawn_comparison drawn; /* of the current document; without steps: nothing was drawn */
 };
+
+/* The slabs as JSON, with the errors of pictures in their steps. */
+static void print_drawn_json(const char *text, size_t size, const struct drawn_comparison *drawn)
+{
+    json_t *view = json_loadb(text, size, 0, NULL);
+    for (size_t i = 0; i < drawn->num_steps; ++i)
+        json_object_set_new(json_array_get(json_object_get(view, "steps"), i), "drawnError",
+                            json_real(drawn->errors[i]));
+    json_dumpf(view, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(4));
+    putchar('\n');
+    json_decref(view);
+}
+
+static void print_text(const struct inspect *inspect, mxg_view view, const char *text, size_t size)
+{
+    bool is_json = view == MXG_VIEW_SLABS_JSON && inspect->drawn.num_steps;
+    if (is_json)
+        print_drawn_json(text, size, &inspect->drawn);
+    else
+        fwrite(text, 1, size, stdout);
+    for (size_t i = 0; view == MXG_VIEW_SLABS && i < inspect->drawn.num_steps; ++i)
+        printf("  after %zu step%s, drawn %.4g\n", i + 1, i ? "s" : "", inspect->drawn.errors[i]);
+}
 
 static bool print_view(struct cli *cli, const mxg_document *document, const struct inspect *inspect,
                        mxg_view view)
@@ -38,7 +62,7 @@ static bool print_view(struct cli *cli, const mxg_document *document, const stru
         const char *text = mxg_result_text(result, &size);
         report_list(&cli->report, mxg_result_diagnostics(result));
         if (text)
-            fwrite(text, 1, size, stdout);
+            print_text(inspect, view, text, size);
     }
     mxg_result_destroy(result);
     return report_status(&cli->report, status);
@@ -100,32 +124,17 @@ static void print_stack(struct cli *cli, const mxg_document *own, struct inspect
     inspect->bindings = NULL;
 }
 
-/* Sets the option that the reports read: "STEPS=ERROR", separated by commas. */
-static void set_drawn(struct cli *cli, const struct drawn_comparison *comparison)
-{
-    char *errors = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&errors, &size);
-    for (size_t i = 0; out && i < comparison->num_steps; ++i)
-        fprintf(out, "%s%zu=%.4f", i ? "," : "", i + 1, comparison->errors[i]);
-    if (out && fclose(out) == 0)
-        mxg_options_set(cli->options, "drawn-errors", errors);
-    free(errors);
-}
-
 /* Draws a material that has steps; after a failure the reports have no drawn errors. */
 static void add_drawn(struct cli *cli, const mxg_document *document, const char *file,
-                      const struct inspect *inspect)
+                      struct inspect *inspect)
 {
     static const char *const look[] = {"--size=48", "--mesh=sphere", NULL};
-    if (!cli_renew_options(cli)) /* they have the errors of the document before */
-        return;
     json_t *view = slab_view_read(cli, document, inspect->element, inspect->target, cli->options);
     size_t num_steps = json_array_size(json_object_get(view, "steps"));
     bool is_asked = json_is_true(json_object_get(view, "toBudget"));
     json_decref(view);
     char *folder = num_steps ? folder_temporary("mxgen-drawn") : NULL;
-    struct drawn_comparison comparison = {0};
+    const char *fault = folder ? NULL : strerror(errno);
     if (folder) {
         const struct drawn_subject subject = {.cli = cli,
                                               .file = file,
@@ -133,15 +142,16 @@ static void add_drawn(struct cli *cli, const mxg_document *document, const char 
                                               .look = look,
                                               .folder = folder,
                                               .is_to_one_closure = !is_asked};
-        if (drawn_begin(&subject, &comparison) && drawn_compare(&subject, num_steps, &comparison))
-            set_drawn(cli, &comparison);
+        if (drawn_begin(&subject, &inspect->drawn))
+            drawn_compare(&subject, num_steps, &inspect->drawn);
+        fault = inspect->drawn.fault;
         rmdir(folder);
     }
-    if (num_steps && (!folder || comparison.fault))
+    if (num_steps && fault) {
         report_error(&cli->report, "no-picture", "there are no drawn errors of '%s': %s",
-                     inspect->element ? inspect->element : file,
-                     folder ? comparison.fault : strerror(errno));
-    drawn_finish(&comparison);
+                     inspect->element ? inspect->element : file, fault);
+        drawn_finish(&inspect->drawn);
+    }
     free(folder);
 }
 
@@ -149,10 +159,9 @@ static void add_drawn(struct cli *cli, const mxg_document *document, const char 
 static bool check_drawn(const struct inspect *inspect)
 {
     bool fits = !inspect->place.file
-                && (inspect->views[MXG_VIEW_SLABS] || inspect->views[MXG_VIEW_SLABS_JSON]
-                    || inspect->views[MXG_VIEW_SLABS_SVG]);
+                && (inspect->views[MXG_VIEW_SLABS] || inspect->views[MXG_VIEW_SLABS_JSON]);
     if (inspect->is_drawn && !fits)
-        fprintf(stderr, "mxgen: --drawn is for --slabs, without --stage\n");
+        fprintf(stderr, "mxgen: --drawn is for --slabs as text or JSON, without --stage\n");
     return fits || !inspect->is_drawn;
 }
 
@@ -174,8 +183,7 @@ int command_inspect(const struct command *command, int argc, char **argv)
          &inspect.views[MXG_VIEW_SLABS]},
         {"format", 0, ARG_TEXT, "text|json|svg", "of --slabs (default: text)", &inspect.format},
         {"drawn", 0, ARG_FLAG, NULL,
-         "of --slabs: draws the material, full and after each step, and shows the errors beside "
-         "the estimates",
+         "of --slabs: draws the material, full and after each step, and shows the errors",
          &inspect.is_drawn},
         {"element", 'e', ARG_TEXT, "PATH",
          "path of an element (default: the first renderable), or of a primitive of the stage",
@@ -206,6 +214,7 @@ int command_inspect(const struct command *command, int argc, char **argv)
                 print_stack(&cli, document, &inspect);
             else if (document)
                 print_views(&cli, document, &inspect);
+            drawn_finish(&inspect.drawn);
             mxg_document_destroy(document);
         }
         code = !good ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;

@@ -4,7 +4,7 @@
  * equal topology share a program: that of the first one, with other values. A network has its
  * values in it, so each stack has its own.
  */
-#include "check/json.h"
+#include "program/json.h"
 #include "program/files.h"
 #include "cli/generate.h"
 #include "program/memory.h"

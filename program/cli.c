@@ -4,6 +4,7 @@
 #include "program/files.h"
 #include "program/help.h"
 #include "program/memory.h"
+#include "program/names.h"
 #include "program/profile.h"
 #include "program/texels.h"
 #include "program/warnings.h"
@@ -173,14 +174,6 @@ static bool apply_settings(struct cli *cli)
         }
     }
     return true;
-}
-
-bool cli_renew_options(struct cli *cli)
-{
-    mxg_options_destroy(cli->options);
-    cli->options = NULL;
-    return report_status(&cli->report, mxg_options_create(cli->context, &cli->options))
-           && apply_settings(cli);
 }
 
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
@@ -396,7 +389,7 @@ char *cli_file_name(const char *element_path)
      * end, so that names stay distinct.
      */
     enum { MAX_NAME = 200 };
-    unsigned hash = (unsigned)cli_hash(CLI_HASH_OF_NOTHING, element_path);
+    unsigned hash = (unsigned)names_hash(NAMES_HASH_OF_NOTHING, element_path);
     char *name = strlen(element_path) > MAX_NAME
                      ? cli_format("%.*s-%08x", MAX_NAME, element_path, hash)
                      : cli_format("%s", element_path);
@@ -405,13 +398,6 @@ char *cli_file_name(const char *element_path)
             *c = '.';
     }
     return name;
-}
-
-uint64_t cli_hash(uint64_t hash, const char *text)
-{
-    for (; *text; ++text)
-        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
-    return hash;
 }
 
 char *cli_copy(const char *text, size_t len)

@@ -64,8 +64,6 @@ enum cli_wants {
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit);
 void cli_finish(struct cli *cli);
-/* Drops what the command has set since. False after a message. */
-bool cli_renew_options(struct cli *cli);
 
 /*
  * Appends the arguments that give another mxgen program the same library, limits and options of
@@ -121,10 +119,6 @@ __attribute__((format(printf, 1, 2)))
 #endif
 char *
 cli_format(const char *format, ...);
-
-/* FNV-1a of a text and of the previous hash; the first is CLI_HASH_OF_NOTHING. */
-#define CLI_HASH_OF_NOTHING 0xcbf29ce484222325u
-uint64_t cli_hash(uint64_t hash, const char *text);
 
 /*
  * A copy of `len` bytes with a NUL after them, which the caller frees; ends the program if memory

@@ -2,64 +2,54 @@
 #include "program/groups.h"
 
 #include "program/memory.h"
+#include "program/names.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static uint64_t hash_text(uint64_t hash, const char *text)
+static uint64_t add_text(uint64_t hash, const char *text)
 {
-    for (; text && *text; ++text)
-        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
-    return (hash ^ 0xff) * 0x100000001b3u;
+    return (names_hash(hash, text ? text : "") ^ 0xff) * 0x100000001b3u;
 }
 
-uint64_t group_key_hash(const struct group_key *key)
+static uint64_t hash_of(const struct group_key *key)
 {
-    uint64_t hash = hash_text(0xcbf29ce484222325u, key->id);
-    hash = hash_text(hash_text(hash_text(hash, key->file), key->text), key->state);
-    return hash ? hash : 1;
+    uint64_t hash = add_text(add_text(NAMES_HASH_OF_NOTHING, key->id), key->file);
+    return add_text(add_text(hash, key->text), key->state);
 }
 
-/* A group in the hash table. */
-struct entry {
-    uint64_t hash; /* 0: free */
-    uint32_t first, last;
-};
-
-static struct entry *find(struct entry *entries, size_t capacity, uint64_t hash)
+uint64_t group_key_hash_at(const struct group_key *key, uint32_t line, uint32_t column)
 {
-    size_t at = hash & (capacity - 1);
-    while (entries[at].hash && entries[at].hash != hash)
-        at = (at + 1) & (capacity - 1);
-    return &entries[at];
+    uint64_t hash = hash_of(key) ^ ((uint64_t)line << 32 | column);
+    hash *= 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 32;
 }
 
 struct groups groups_make(const void *messages, uint32_t count,
                           bool (*key_of)(const void *messages, uint32_t index,
                                          struct group_key *out_key))
 {
-    size_t capacity = 64;
-    while (capacity < (size_t)count * 2)
-        capacity *= 2;
     struct groups groups = {memory_alloc(count * sizeof *groups.first),
                             memory_alloc(count * sizeof *groups.next),
                             memory_alloc(count * sizeof *groups.is_told)};
-    struct entry *entries = memory_alloc(capacity * sizeof *entries);
+    uint32_t *last = memory_alloc(count * sizeof *last); /* per first message */
+    struct name_table table = {0};                       /* indices of first messages */
     for (uint32_t i = 0; i < count; ++i) {
         struct group_key key = {NULL, NULL, NULL};
         groups.first[i] = i;
         if (!key_of(messages, i, &key))
             continue;
-        uint64_t hash = group_key_hash(&key);
-        struct entry *entry = find(entries, capacity, hash);
-        if (entry->hash)
-            groups.next[entry->last] = i;
+        bool is_new;
+        struct name_entry *entry = names_add_hash(&table, hash_of(&key), &is_new);
+        if (is_new)
+            entry->value = i;
         else
-            *entry = (struct entry){hash, i, i};
-        entry->last = i;
-        groups.first[i] = entry->first;
+            groups.next[last[entry->value]] = i;
+        last[entry->value] = i;
+        groups.first[i] = (uint32_t)entry->value;
     }
-    free(entries);
+    free(last);
+    names_finish(&table);
     return groups;
 }
 

@@ -22,8 +22,8 @@ struct groups {
     bool *is_told;   /* per first message: one of the group was printed; the caller sets it */
 };
 
-/* Not 0. */
-uint64_t group_key_hash(const struct group_key *key);
+/* The hash of a message at a place. */
+uint64_t group_key_hash_at(const struct group_key *key, uint32_t line, uint32_t column);
 
 /*
  * The groups of `count` messages. `key_of` sets the key of the message at an index, or returns

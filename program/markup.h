@@ -14,7 +14,6 @@ void markup_text(FILE *out, const char *text);
 /* Style and script of the generated pages, as lists of lines that end with NULL (page.c.in). */
 extern const char *const manual_style[], *const manual_script[];
 extern const char *const gallery_style[], *const gallery_script[];
-extern const char *const layers_style[], *const layers_script[];
 void markup_lines(FILE *out, const char *const *lines);
 
 #endif

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/names.h"
 
-#include "program/cli.h"
 #include "program/memory.h"
 
 #include <assert.h>
 #include <stdlib.h>
 
-static uint64_t hash_of(const char *name)
+uint64_t names_hash(uint64_t hash, const char *text)
 {
-    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING, name);
-    return hash ? hash : 1;
+    for (; *text; ++text)
+        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    return hash;
 }
 
 /* The entry for a hash, or the free entry for it. */
@@ -35,21 +35,32 @@ static void grow(struct name_table *table)
     *table = larger;
 }
 
-struct name_entry *names_add(struct name_table *table, const char *name, bool *out_is_new)
+struct name_entry *names_add_hash(struct name_table *table, uint64_t hash, bool *out_is_new)
 {
+    hash += hash == 0;
     if (table->num_entries * 2 >= table->capacity)
         grow(table);
-    struct name_entry *entry = place_of(table, hash_of(name));
+    struct name_entry *entry = place_of(table, hash);
     *out_is_new = entry->hash == 0;
     table->num_entries += *out_is_new;
-    entry->hash = hash_of(name);
+    entry->hash = hash;
     return entry;
+}
+
+struct name_entry *names_add(struct name_table *table, const char *name, bool *out_is_new)
+{
+    return names_add_hash(table, names_hash(NAMES_HASH_OF_NOTHING, name), out_is_new);
+}
+
+struct name_entry *names_find_hash(const struct name_table *table, uint64_t hash)
+{
+    struct name_entry *entry = table->capacity ? place_of(table, hash + (hash == 0)) : NULL;
+    return entry && entry->hash ? entry : NULL;
 }
 
 struct name_entry *names_find(const struct name_table *table, const char *name)
 {
-    struct name_entry *entry = table->capacity ? place_of(table, hash_of(name)) : NULL;
-    return entry && entry->hash ? entry : NULL;
+    return names_find_hash(table, names_hash(NAMES_HASH_OF_NOTHING, name));
 }
 
 void names_finish(struct name_table *table)

@@ -2,111 +2,45 @@
 #include "program/profile.h"
 
 #include "program/args.h"
-#include "program/cli.h"
 #include "program/files.h"
+#include "program/toml.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_VALUE = 1024 };
-
-struct reader {
-    const char *name; /* of the profile, for messages */
-    unsigned line;
-    mxg_options *options;
-};
-
-static bool complain(const struct reader *r, const char *what)
+static bool complain(const char *name, const struct toml *toml, const char *what)
 {
-    fprintf(stderr, "mxgen: %s:%u: error: %s\n", r->name, r->line, what);
+    fprintf(stderr, "mxgen: %s:%u: error: %s\n", name, (unsigned)toml->number, what);
     return false;
 }
 
-static const char *skip_space(const char *at)
+static bool read_lines(mxg_options *options, const char *name, const char *text)
 {
-    return at + strspn(at, " \t\r");
-}
-
-/* Appends a number, a word or a string in quotes, and moves behind it. False: there is none. */
-static bool read_item(const char **at, char *value)
-{
-    bool is_quoted = **at == '"' || **at == '\'';
-    const char quote[] = {**at, '\0'}, *begin = *at + is_quoted;
-    size_t len = strcspn(begin, is_quoted ? quote : " \t\r#,]"), before = strlen(value);
-    if ((is_quoted && !begin[len]) || (!is_quoted && !len) || before + len + 2 > MAX_VALUE)
-        return false;
-    memcpy(value + before, begin, len);
-    value[before + len] = '\0';
-    *at = begin + len + is_quoted;
-    return true;
-}
-
-/* The items of an array, with commas between them. */
-static bool read_array(const char **at, char *value)
-{
-    for (*at = skip_space(*at + 1); **at != ']';) {
-        size_t len = strlen(value);
-        if (len)
-            memcpy(value + len, ",", 2);
-        if (!read_item(at, value))
-            return false;
-        *at = skip_space(*at);
-        if (**at == ',')
-            *at = skip_space(*at + 1);
-        else if (**at != ']')
-            return false;
-    }
-    ++*at;
-    return true;
-}
-
-static bool read_line(const struct reader *r, const char *line)
-{
-    const char *at = skip_space(line);
-    size_t len = strcspn(at, " \t\r=");
-    char value[MAX_VALUE] = "";
-    if (!*at || *at == '#')
-        return true;
-    char *key = cli_copy(at, len);
-    at = skip_space(at + len);
-    bool is_pair = len && *at == '=';
-    if (is_pair)
-        at = skip_space(at + 1);
-    bool good = is_pair && (*at == '[' ? read_array(&at, value) : read_item(&at, value));
-    at = skip_space(at);
-    if (!good || (*at && *at != '#'))
-        good = complain(r, "a line is a comment, or an option, '=' and a value");
-    else if (mxg_options_set(r->options, key, value) != MXG_OK)
-        good = complain(r, mxg_options_error(r->options));
-    free(key);
-    return good;
-}
-
-static bool read_lines(struct reader *r, const char *text)
-{
+    struct store store = {0};
+    struct toml toml = {.store = &store, .rest = text};
     bool good = true;
-    while (*text && good) {
-        size_t len = strcspn(text, "\n");
-        char *line = cli_copy(text, len);
-        r->line++;
-        good = read_line(r, line);
-        free(line);
-        text += len + (text[len] == '\n');
+    while (good && toml_next(&toml)) {
+        const char *value = toml.kind == TOML_PAIR ? toml_text(&store, toml.value) : NULL;
+        if (!value)
+            good = complain(name, &toml, "a line is a comment, or an option, '=' and a value");
+        else if (mxg_options_set(options, toml.name.text, value) != MXG_OK)
+            good = complain(name, &toml, mxg_options_error(options));
     }
+    store_finish(&store);
     return good;
 }
 
-static bool read_file(struct reader *r)
+static bool read_file(mxg_options *options, const char *name)
 {
     size_t size;
-    char *text = files_read(r->name, &size);
+    char *text = files_read(name, &size);
     if (!text) {
-        fprintf(stderr, "mxgen: cannot read the profile '%s': %s\n", r->name, strerror(errno));
+        fprintf(stderr, "mxgen: cannot read the profile '%s': %s\n", name, strerror(errno));
         return false;
     }
-    bool good = read_lines(r, text);
+    bool good = read_lines(options, name, text);
     free(text);
     return good;
 }
@@ -133,12 +67,11 @@ static bool complain_of_name(const char *name)
 
 bool profile_apply(mxg_options *options, const char *name)
 {
-    struct reader r = {.name = name, .options = options};
     size_t len = strlen(name);
     if (len > 5 && strcmp(name + len - 5, ".toml") == 0)
-        return read_file(&r);
+        return read_file(options, name);
     for (size_t i = 0; profile_texts[i]; i += 2)
         if (strcmp(profile_texts[i], name) == 0)
-            return read_lines(&r, profile_texts[i + 1]);
+            return read_lines(options, name, profile_texts[i + 1]);
     return complain_of_name(name);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Profiles of platforms: options of generation in a file (docs/slabs.md). A line has a key and its
- * value, as in TOML: a number, a string, true or false, or an array of strings.
+ * Profiles of platforms: options of generation in a file (docs/slabs.md). A line of TOML has a key
+ * and its value: a number, a string, true or false, or an array of strings.
  */
 #ifndef MXG_PROGRAM_PROFILE_H
 #define MXG_PROGRAM_PROFILE_H

@@ -20,7 +20,7 @@ void report_finish(struct report *report)
 {
     free(report->source_name);
     free(report->source);
-    free(report->printed);
+    names_finish(&report->printed);
     free(report->text);
     free(report->lines);
     *report = (struct report){0};
@@ -141,48 +141,17 @@ static bool is_shown(const struct report *report, const mxg_diagnostic *diagnost
     return diagnostic->severity == MXG_SEVERITY_ERROR || !report->quiet;
 }
 
-/* The entry for a hash, or the free entry for it. */
-static uint64_t *find_printed(uint64_t *table, size_t capacity, uint64_t hash)
-{
-    size_t at = hash & (capacity - 1);
-    while (table[at] && table[at] != hash)
-        at = (at + 1) & (capacity - 1);
-    return &table[at];
-}
-
-static bool grow_printed(struct report *report)
-{
-    size_t capacity = report->capacity_printed ? report->capacity_printed * 2 : 64;
-    uint64_t *table = calloc(capacity, sizeof *table);
-    if (!table)
-        return false;
-    for (size_t i = 0; i < report->capacity_printed; ++i)
-        if (report->printed[i])
-            *find_printed(table, capacity, report->printed[i]) = report->printed[i];
-    free(report->printed);
-    report->printed = table;
-    report->capacity_printed = capacity;
-    return true;
-}
-
 /*
  * True if the message is new: many materials of a document can have the same fault, which is
  * reported once.
  */
 static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 {
-    uint64_t place = (uint64_t)diagnostic->line << 32 | diagnostic->column;
-    uint64_t hash = group_key_hash(&(struct group_key){
-        .id = diagnostic->id, .file = diagnostic->file, .text = diagnostic->message});
-    hash = (hash ^ place) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 32;
-    hash = hash ? hash : 1;
-    if (report->num_printed * 2 >= report->capacity_printed && !grow_printed(report))
-        return true;
-    uint64_t *entry = find_printed(report->printed, report->capacity_printed, hash);
-    bool is_new = *entry == 0;
-    *entry = hash;
-    report->num_printed += is_new;
+    struct group_key key = {
+        .id = diagnostic->id, .file = diagnostic->file, .text = diagnostic->message};
+    bool is_new;
+    names_add_hash(&report->printed, group_key_hash_at(&key, diagnostic->line, diagnostic->column),
+                   &is_new);
     return is_new;
 }
 

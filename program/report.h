@@ -5,6 +5,8 @@
 #ifndef MXG_PROGRAM_REPORT_H
 #define MXG_PROGRAM_REPORT_H
 
+#include "program/names.h"
+
 #include <mxgen/mxgen.h>
 
 #include <stdio.h>
@@ -18,8 +20,7 @@ struct report {
     size_t document_errors; /* errors printed for the current document */
     bool has_cut_note;      /* the hint that more errors exist was printed */
     bool is_cause_told;     /* the note about consequences was printed for the document */
-    uint64_t *printed;      /* hash table of printed messages; 0: free */
-    size_t num_printed, capacity_printed;
+    struct name_table printed;  /* hashes of printed messages */
     char *source_name, *source; /* the last file that was read */
     size_t source_size;
     size_t max_source_size; /* of larger files no lines are shown; 0: no limit */

@@ -3,7 +3,6 @@
 #include "api/generation.h"
 
 #include <assert.h>
-#include <stdlib.h>
 
 /* ---- Elements ---- */
 
@@ -72,27 +71,6 @@ static void view_closures(struct generation *g, struct text *out)
     closure_describe(&g->result->shader, &g->closure_host, g->root, out);
 }
 
-/* The option `drawn-errors`: STEPS=ERROR. */
-static bool read_drawn(struct generation *g, struct slab_sheet *sheet)
-{
-    const struct option_value *errors = &g->options[OPTION_drawn_errors];
-    for (uint32_t i = 0; i < errors->list.len; i++) {
-        const char *word = errors->list.items[i];
-        char *end, *last;
-        unsigned long steps = strtoul(word, &end, 10);
-        float error = *end == '=' ? strtof(end + 1, &last) : -1.0f;
-        if (end == word || !(error >= 0.0f) || last == end + 1 || *last) {
-            diag_add(&g->result->object.diagnostics.list, DIAG_ID_bad_option,
-                     (struct diag_place){0}, word, option_key(OPTION_drawn_errors),
-                     "steps and their error, such as 2=1.35");
-            return false;
-        }
-        vec_push(&g->result->object.arena, &sheet->drawn,
-                 (struct slab_drawn){(uint32_t)steps, error});
-    }
-    return true;
-}
-
 static void view_sheet(struct generation *g, struct text *out,
                        void write(const struct slab_sheet *sheet, struct text *out))
 {
@@ -102,7 +80,7 @@ static void view_sheet(struct generation *g, struct text *out,
     generation_start_closures(g);
     struct slab_budget budget = generation_slab_budget(g);
     build_fill_sheet(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &sheet);
-    if (generation_slabs_are_few(g, &sheet.report) && read_drawn(g, &sheet))
+    if (generation_slabs_are_few(g, &sheet.report))
         write(&sheet, out);
 }
 

@@ -153,7 +153,6 @@ struct diag_guess {
     const char *word, *best;
     const char *aliases[DIAG_MAX_ALIASES]; /* NULL after the last */
     size_t len, best_distance, best_score;
-    uint64_t places[256]; /* bit set of positions for each byte of the word */
 };
 bool diag_may_guess(const struct diag_list *list);
 bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const char *word);

@@ -5,7 +5,7 @@
 #include <assert.h>
 
 enum {
-    MAX_WORD = 64,    /* longer names are not compared: each position is a bit */
+    MAX_WORD = 64,    /* longer names are not compared */
     MAX_GUESSES = 64, /* per list */
 };
 
@@ -30,45 +30,36 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
 /*
  * Edit distance with insertion, deletion, substitution and transposition of cost 1 ("optimal string
- * alignment"). The algorithm keeps a row of the table as differences between columns, one bit each:
- * Hyyrö, "A Bit-Vector Algorithm for Computing Levenshtein and Damerau Edit Distances", Nordic
- * Journal of Computing 10, 2003. Each further character changes the distance by at most 1, so the
- * loop stops when a candidate cannot become better than the best one.
+ * alignment"), row by row of its table; names are mostly lower case, so case does not count. Stops,
+ * with a bound, at a row that has no distance below the best one.
  */
 static size_t edit_distance(const struct diag_guess *guess, const char *word, size_t len)
 {
-    assert(guess->len > 0 && guess->len <= MAX_WORD);
-    uint64_t more = UINT64_MAX, less = 0, same = 0, before = 0,
-             last = (uint64_t)1 << (guess->len - 1);
-    size_t distance = guess->len;
-    for (size_t i = 0; i < len && distance < guess->best_distance + (len - i); i++) {
-        uint64_t places = guess->places[(unsigned char)word[i]],
-                 swapped = (~same & places) << 1 & before;
-        /* equal to the diagonal value */
-        same = (((places & more) + more) ^ more) | places | less | swapped;
-        /* relative to the row above */
-        uint64_t grows = less | ~(same | more), shrinks = same & more;
-        distance += (grows & last) != 0;
-        distance -= (shrinks & last) != 0;
-        grows = grows << 1 | 1;
-        more = shrinks << 1 | ~(same | grows);
-        less = grows & same;
-        before = places;
+    size_t rows[3][MAX_WORD + 1], least = 0;
+    const char *other = guess->word;
+    assert(guess->len <= MAX_WORD);
+    for (size_t k = 0; k <= guess->len; k++)
+        rows[0][k] = k;
+    for (size_t i = 1; i <= len && least < guess->best_distance; i++) {
+        size_t *row = rows[i % 3], *above = rows[(i + 2) % 3], *before = rows[(i + 1) % 3];
+        least = row[0] = i;
+        for (size_t k = 1; k <= guess->len; k++) {
+            bool same = lower(word[i - 1]) == lower(other[k - 1]);
+            row[k] = smaller(smaller(row[k - 1], above[k]) + 1, above[k - 1] + !same);
+            if (i > 1 && k > 1 && lower(word[i - 1]) == lower(other[k - 2])
+                && lower(word[i - 2]) == lower(other[k - 1]))
+                row[k] = smaller(row[k], before[k - 2] + 1);
+            least = smaller(least, row[k]);
+        }
     }
-    assert(distance <= guess->len + len);
-    return distance;
-}
-
-/* MaterialX names are mostly lower case, so the comparison ignores case. */
-static void add_place(struct diag_guess *guess, unsigned char c, size_t place)
-{
-    assert(place < MAX_WORD);
-    unsigned char lower = c | 0x20;
-    guess->places[c] |= (uint64_t)1 << place;
-    if (lower >= 'a' && lower <= 'z')
-        guess->places[c ^ 0x20] |= (uint64_t)1 << place;
+    return least < guess->best_distance ? rows[len % 3][guess->len] : least;
 }
 
 /* ---- Words of a name ---- */
@@ -199,8 +190,6 @@ bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const ch
     if (len < 2 || len > MAX_WORD)
         return false;
     guess->len = len;
-    for (size_t i = 0; i < len; i++)
-        add_place(guess, (unsigned char)word[i], i);
     find_aliases(guess);
     return true;
 }

@@ -47,7 +47,7 @@ mxg_ref code_issue(struct mxg_build *build, ir_ref ref);
 bool code_ref(struct mxg_build *build, mxg_ref value, ir_ref *out);
 /* The same for several values; the refs live as long as the builder. */
 bool code_refs(struct mxg_build *build, const mxg_ref *values, uint32_t n, ir_ref **out);
-/* code_values.c: the value of a type from its components; false after a report. */
+/* api/node_values.c: the value of a type from its components; false after a report. */
 bool code_numbers(struct mxg_build *build, ir_type_id type, const float *numbers, uint32_t n,
                   struct ir_value *out);
 /* A type by name; VOID after a report. */

@@ -105,10 +105,6 @@ static void write_steps(const struct slab_sheet *sheet, struct text *out)
                  (unsigned)step->before.closures, (unsigned)step->after.closures,
                  (unsigned)step->before.bytes, (unsigned)step->after.bytes);
         write_error(step->error, out);
-        if (slab_drawn_error(sheet, step) >= 0.0f) {
-            text_str(out, ", drawn ");
-            slab_write_number(slab_drawn_error(sheet, step), out);
-        }
         text_char(out, '\n');
     }
     for (uint32_t i = 0; i < sheet->unread.len; i++) {

@@ -113,8 +113,6 @@ static void put_step(struct json *json, const struct slab_sheet *sheet,
     put_cost(json, "before", &step->before);
     put_cost(json, "after", &step->after);
     put_float(json, "estimatedError", step->error);
-    if (slab_drawn_error(sheet, step) >= 0.0f)
-        put_float(json, "drawnError", slab_drawn_error(sheet, step));
     json_close(json, '}');
 }
 

@@ -102,10 +102,6 @@ static void write_step(const struct slab_sheet *sheet, const struct slab_step *s
         text_str(out, ", estimated error ");
         slab_write_number(step->error, out);
     }
-    if (slab_drawn_error(sheet, step) >= 0.0f) {
-        text_str(out, ", drawn ");
-        slab_write_number(slab_drawn_error(sheet, step), out);
-    }
     text_str(out, "</text>\n");
 }
 

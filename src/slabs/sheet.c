@@ -282,15 +282,6 @@ static void note_unread(struct slab_sheet *sheet, const struct slabs_host *host,
             vec_push(sheet->shader->arena, &sheet->unread, ref);
 }
 
-float slab_drawn_error(const struct slab_sheet *sheet, const struct slab_step *step)
-{
-    uint32_t steps = (uint32_t)(step - sheet->report.steps.items) + 1;
-    for (uint32_t i = 0; i < sheet->drawn.len; i++)
-        if (sheet->drawn.items[i].steps == steps)
-            return sheet->drawn.items[i].error;
-    return -1.0f;
-}
-
 void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
                       const struct slab_budget *budget, ir_ref root, struct slab_sheet *out)
 {

@@ -47,12 +47,6 @@ struct slab_tree {
     struct slab_cost cost;
 };
 
-/* The error of a picture after so many steps, of the caller. */
-struct slab_drawn {
-    uint32_t steps;
-    float error;
-};
-
 struct slab_sheet {
     const struct shader *shader;
     VEC(struct slab_tree) trees;
@@ -60,7 +54,6 @@ struct slab_sheet {
     bool is_recognised;        /* the slabs stand for other closures */
     struct slab_report report; /* of the budget */
     bool is_asked;             /* the caller has a budget; otherwise it is one closure */
-    VEC(struct slab_drawn) drawn;
 };
 
 void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
@@ -77,8 +70,6 @@ extern const char *const slab_row_names[]; /* by enum slab_row_kind */
 
 /* sheet.c: a number with four digits. */
 void slab_write_number(float value, struct text *out);
-/* sheet.c: the error of the picture after a step; below 0: unknown. */
-float slab_drawn_error(const struct slab_sheet *sheet, const struct slab_step *step);
 /* A value as text: a number, a colour or the name of what computes it. */
 void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *out);
 /* The input of an operator: the thickness of a layer, the share of a mix; 0: it has none. */

@@ -6,7 +6,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "check/protocol.h"
-#include "check/record_io.h"
+#include "check/record_json.h"
 
 #include <signal.h>
 #include <stdlib.h>
@@ -16,16 +16,16 @@
 
 static void answer(struct channel *channel, const char *path)
 {
-    struct record_bytes record = {0};
-    record_to_bytes(&record, &(struct check_document){.file = path});
+    size_t size;
+    char *record = record_to_text(&(struct check_document){.file = path}, &size);
     if (strstr(path, "dies"))
         raise(SIGKILL);
     while (strstr(path, "hangs"))
         pause();
     if (strstr(path, "slow"))
         nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
-    channel_answer(channel, record.data, strstr(path, "lies") ? record.size / 2 : record.size);
-    free(record.data);
+    channel_answer(channel, record, strstr(path, "lies") ? size / 2 : size);
+    free(record);
 }
 
 int main(void)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A record that is written as JSON or as bytes and read again is as it was; what is no record is
- * none, whatever it is.
+ * A record that is written as JSON and read again is as it was; what is no record is none, whatever
+ * it is.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "check/json.h"
-#include "check/record_io.h"
+#include "program/json.h"
+#include "check/record_json.h"
 #include "unit/test.h"
 
 #include <stdlib.h>
@@ -83,19 +83,11 @@ static char *text_of(const struct check_document *document, bool with_times)
     return text;
 }
 
-static struct check_document *read(struct store *store, const char *text, size_t size)
-{
-    json_t *json = json_loadb(text, size, 0, NULL);
-    struct check_document *document = record_from_json(store, json);
-    json_decref(json);
-    return document;
-}
-
 static void test_arrives(void)
 {
     struct store store = {0};
     char *before = text_of(make_document(), true);
-    struct check_document *document = read(&store, before, strlen(before));
+    struct check_document *document = record_from_text(&store, before, strlen(before));
     REQUIRE(document != NULL);
     char *after = document ? text_of(document, true) : NULL;
     REQUIRE_STR(after, before);
@@ -103,54 +95,6 @@ static void test_arrives(void)
     REQUIRE_EQ(document ? document->elements[0].shaders[0].parts[1].count : 0, 1ull << 40);
     free(before);
     free(after);
-    store_finish(&store);
-}
-
-static void test_bytes_arrive(void)
-{
-    struct store store = {0};
-    struct record_bytes bytes = {0};
-    record_to_bytes(&bytes, make_document());
-    record_to_bytes(&bytes, make_document()); /* in place of the first */
-    struct check_document *document = record_from_bytes(&store, bytes.data, bytes.size);
-    REQUIRE(document != NULL);
-    char *before = text_of(make_document(), true),
-         *after = document ? text_of(document, true) : NULL;
-    REQUIRE_STR(after, before);
-    REQUIRE_STR(document ? document->messages[1].rendered : NULL, "");
-    free(before);
-    free(after);
-    free(bytes.data);
-    store_finish(&store);
-}
-
-static void test_bytes_no_record(void)
-{
-    struct store store = {0};
-    struct record_bytes bytes = {0};
-    record_to_bytes(&bytes, make_document());
-    for (size_t size = 0; size < bytes.size; ++size)
-        REQUIRE(!record_from_bytes(&store, bytes.data, size));
-    /* any byte another: a record or none, and nothing beyond the bytes is read */
-    for (size_t at = 0; at < bytes.size; ++at) {
-        char was = bytes.data[at];
-        bytes.data[at] = (char)~was;
-        struct check_document *document = record_from_bytes(&store, bytes.data, bytes.size);
-        free(document ? text_of(document, true) : NULL);
-        bytes.data[at] = was;
-    }
-    free(bytes.data);
-    store_finish(&store);
-}
-
-static void test_bytes_no_utf8(void)
-{
-    struct store store = {0};
-    struct record_bytes bytes = {0};
-    record_to_bytes(&bytes, &(struct check_document){.file = "a\xff\xc3\xa4.mtlx"});
-    const struct check_document *document = record_from_bytes(&store, bytes.data, bytes.size);
-    REQUIRE_STR(document ? document->file : NULL, "a\xef\xbf\xbd\xc3\xa4.mtlx");
-    free(bytes.data);
     store_finish(&store);
 }
 
@@ -174,7 +118,7 @@ static void test_no_utf8(void)
                                                   .elements = &element,
                                                   .num_elements = 1},
                          true);
-    const struct check_document *document = read(&store, text, strlen(text));
+    const struct check_document *document = record_from_text(&store, text, strlen(text));
     REQUIRE_STR(document ? document->file : NULL, "a\xef\xbf\xbd\xc3\xa4.mtlx");
     REQUIRE_STR(document ? document->elements[0].shaders[0].parts[0].name : NULL, "\xef\xbf\xbd");
     free(text);
@@ -189,7 +133,7 @@ static void test_odd_members(void)
         "{\"line\":5000000000,\"severity\":{}}],\"files\":{},\"elements\":[{\"shaders\":[{"
         "\"messages\":[2,-1,0.5,\"1\",1],\"parts\":{\"textures\":[1]},\"closures\":1e300}]}]}";
     struct store store = {0};
-    const struct check_document *document = read(&store, text, sizeof text - 1);
+    const struct check_document *document = record_from_text(&store, text, sizeof text - 1);
     REQUIRE(document != NULL);
     if (!document)
         return;
@@ -210,15 +154,15 @@ static void test_no_record(void)
     static const char *const none[] = {"[]", "{}", "{\"file\":1}", "{\"file\":\"\"}", "1"};
     struct store store = {0};
     for (size_t i = 0; i < sizeof none / sizeof *none; ++i)
-        REQUIRE(!read(&store, none[i], strlen(none[i])));
+        REQUIRE(!record_from_text(&store, none[i], strlen(none[i])));
     char *text = text_of(make_document(), true);
     for (size_t size = strlen(text), len = 0; len < size; ++len)
-        REQUIRE(!read(&store, text, len));
+        REQUIRE(!record_from_text(&store, text, len));
     /* any byte another: a record or none, and nothing beyond the text is read */
     for (char *at = text; *at; ++at) {
         char was = *at;
         *at = (char)~was;
-        struct check_document *document = read(&store, text, strlen(text));
+        struct check_document *document = record_from_text(&store, text, strlen(text));
         free(document ? text_of(document, true) : NULL);
         *at = was;
     }
@@ -233,8 +177,5 @@ int main(void)
     test_no_utf8();
     test_odd_members();
     test_no_record();
-    test_bytes_arrive();
-    test_bytes_no_utf8();
-    test_bytes_no_record();
     return test_report("record");
 }

@@ -443,57 +443,6 @@ check 'a look with variants gives USD' exits 0 bind --usda lossy.usda
 check 'a warning says that variants are lost' grep -qF '[usda-loss]' err
 check 'USD in a folder that is missing fails' exits 1 bind --usda none/out.usda
 
-# The page: in a browser, if there is one.
-check 'a page is written' exits 0 "$mxgen" bind "$looks" --stage "$receiver" --look finished --html page.html
-check 'the page needs no other file' eval '! grep -qE "(src|href)=" page.html'
-browser=$(command -v chromium chromium-browser google-chrome | head -n 1)
-# seen ADDRESS SCRIPT: the page of an address as the browser shows it, and Python on it: `rows` by name, `detail`.
-seen() {
-    timeout 120 "$browser" --headless --no-sandbox --disable-gpu --window-size=1400,"${height:-1600}" --user-data-dir="$work/browser" \
-        --dump-dom "file://$work/${page:-page.html}#$1" >dom.html 2>browser.log
-    python3 - "$2" <<'PY'
-import html, re, sys
-text = open("dom.html", encoding="utf-8").read()
-body = text[:text.index('<script id="look"')]
-rows = {}
-for row in re.findall(r'<div class="row".*?</div>', body, re.S):
-    name = html.unescape(re.search(r'</(?:button|span)>([^<]*)</span>', row)[1])
-    rows[name] = [(kind, html.unescape(label)) for kind, label in re.findall(r'<button class="(layer[a-z ]*)"[^>]*>([^<]*)<', row)]
-detail = html.unescape(re.sub(r"<[^>]*>", "|", body[body.index("<aside"):]))
-output = re.search(r"<output>([^<]*)", body)[1]
-assert eval(sys.argv[1]), (rows, detail, output)
-PY
-}
-if [ -n "$browser" ]; then
-    check 'the page has a row for each primitive' seen '' 'body.count("<div class=\"row\"") == 66 and output.startswith("66 of 66 primitives")'
-    check 'a row tells layers that are set here from inherited ones' seen '' 'rows["shell"][0] == ("layer", "000 ribbed_steel") and ("layer inherited", "050 dirt") in rows["shell"]'
-    check 'a search keeps the groups above' seen 'filter=front' 'list(rows) == ["receiver", "case", "front_panel"] and output.startswith("1 of")'
-    check 'a search finds layers' seen 'filter=varnish' '"keys" in rows and "shell" not in rows'
-    check 'a tree can be folded' seen 'fold=all' 'list(rows) == ["receiver", "camera"]'
-    check 'the page says where a layer comes from' seen 'at=/receiver/case/shell&layer=3' '"/receiver/case/shell" in detail and "dirty/dirt" in detail and "looks.mtlx:" in detail'
-    check 'the page lists every place where the slot is set' seen 'at=/receiver/case/shell&layer=0' '"set at" in detail and "paths" in detail and "/receiver/dial/window" in detail and "glass" in detail'
-    check 'the page shows the graph of a substance' seen 'at=/receiver/case/shell&layer=3' '"<svg" in body and all(word in detail for word in ("fractal3d", "octaves = 4", "NG_dirt/noise", "substance")) and detail.count("smoothstep") == 2'
-    check 'the graph has the names of connections' seen 'at=/receiver/case/shell&layer=3' '"NG_dirt/scaled \u2192 position" in detail and "NG_dirt/where \u2192 mask" in detail'
-    check 'the graph of an override has each node once' seen 'at=/receiver/case/shell&layer=2' 'body.count(">separate3<") == 1 and ">output<" in body and "no picture" not in detail and "<img" not in body'
-    if [ -x "$(dirname "$mxgen")/mxgen-render" ] && has_device "$(dirname "$mxgen")/mxgen-render"; then
-        sed 's|</materialx>|<look name="l"><materialassign material="Clay" geom="/a"/><materialassign slot="000::010" nodegraph="NG" geom="/a"/></look>&|; s|<surfacematerial name="Clay"|<nodegraph name="NG"><constant name="c" type="float"/><output name="base" type="float" nodename="c"/></nodegraph>&|' materials.mtlx >drawn.mtlx
-        echo /a >drawn.txt
-        check 'a page with pictures is written' exits 0 "$mxgen" bind drawn.mtlx --stage drawn.txt --html drawn.html --pictures
-        check 'the page shows the picture of a material' env page=drawn.html bash -c "$(declare -f seen); work='$work' browser='$browser'; seen 'at=/a&layer=0' 'body.count(\"data:image/png;base64,iVBOR\") == 1'"
-        check 'the page shows the picture beside an override' env page=drawn.html bash -c "$(declare -f seen); work='$work' browser='$browser'; seen 'at=/a&layer=1' 'body.count(\"<img\") == 1 and \"override\" in detail'"
-        check 'materials of a stage have pictures' exits 0 "$mxgen" bind --stage drives.usda --html stage.html --pictures
-        check 'an override has no picture' test "$(grep -o 'data:image/png' stage.html | wc -l)" = 1
-    else
-        skip 'no Vulkan device: the page has no pictures'
-    fi
-    seq 0 99999 | awk '{ printf "/set/g%d/h%d/p%d\n", $1 / 1000, $1 / 10, $1 }' >large.txt
-    check 'a page of 100,000 primitives is written' exits 0 "$mxgen" bind "$looks" --stage large.txt --look base --html large.html
-    check 'a large page has only the rows in view' env page=large.html height=800 bash -c "$(declare -f seen); work='$work' browser='$browser'; seen '' '10 < len(rows) < 60 and output.startswith(\"110101 of\")'"
-    check 'a large page finds a row far below' env page=large.html bash -c "$(declare -f seen); work='$work' browser='$browser'; seen 'filter=p99998' '\"p99998\" in rows and len(rows) == 4'"
-else
-    skip 'there is no Chromium: nothing looked at the page'
-fi
-
 # The example, as docs/slots.md shows it.
 check 'examples/slots/looks.mtlx gives layers' exits 0 "$mxgen" bind "$looks" --stage "$receiver" --look finished
 check 'the example gives no warning' test ! -s err

@@ -108,10 +108,10 @@ def check_row(row):
 
 
 def check_drawn(folder):
-    """`inspect --slabs --drawn` shows the errors of pictures beside the estimates, in each format; without a renderer it says so."""
+    """`inspect --slabs --drawn` shows the errors of pictures beside the estimates, as text and as JSON; without a renderer it says so."""
     document, material = document_of("WrappedSilk"), "WrappedSilk"
     listed = [float(cell.split(", ")[1]) for cell in kept_row(material).split(" | ")[1:3] for cell in [cell.rstrip(" |")]]
-    patterns = {"text": r", drawn ([\d.]+)", "json": r'"drawnError": ([\d.]+)', "svg": r", drawn ([\d.]+)<"}
+    patterns = {"text": r", drawn ([\d.]+)", "json": r'"drawnError": ([\d.]+)'}
     for form, pattern in patterns.items():
         result = run(MXGEN, "inspect", "--slabs", "--drawn", "--format", form, document, "-e", material)
         drawn = [float(number) for number in re.findall(pattern, result.stdout)]

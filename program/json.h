@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* JSON functions for records and reports, beyond Jansson's. */
-#ifndef MXG_CHECK_JSON_H
-#define MXG_CHECK_JSON_H
+/* JSON functions of all programs, beyond Jansson's. */
+#ifndef MXG_PROGRAM_JSON_H
+#define MXG_PROGRAM_JSON_H
 
 #include <jansson.h>
 

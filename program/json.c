@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check/json.h"
+#include "program/json.h"
 
 #include "program/memory.h"
 #include "program/utf8.h"
