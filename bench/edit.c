@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * bench-edit [MATERIALS [EDITS [KIND]]]: microseconds and bytes per edit, from mxg_edit_begin to
+ * bench-edit [MATERIALS [EDITS [KIND]]]: microseconds and bytes per edit, from mxg_edit_create to
  * the next document, in a document of so many materials (2,000: 5 MB). Each edit begins with the
  * document that the last one made, and changes another material.
  */
@@ -85,25 +85,28 @@ static void change(mxg_edit *edit, const mxg_document *from, unsigned kind, unsi
     snprintf(shader_name, sizeof shader_name, "S%u", at);
     snprintf(graph_name, sizeof graph_name, "G%u", at);
     snprintf(new_name, sizeof new_name, "New%u", i);
-    mxg_element shader = mxg_edit_find(edit, shader_name), graph = mxg_edit_find(edit, graph_name),
-                material = mxg_edit_find(edit, name), made;
+    mxg_element shader = mxg_edit_find_element(edit, shader_name),
+                graph = mxg_edit_find_element(edit, graph_name),
+                material = mxg_edit_find_element(edit, name), made;
     switch (kind) {
-    case 0: mxg_edit_numbers(edit, shader, "base", NULL, &value, 1); break;
-    case 1: mxg_edit_numbers(edit, shader, "coat_roughness", "float", &value, 1); break;
-    case 2: mxg_edit_add(edit, 0, "constant", new_name, "float"); break;
+    case 0: mxg_edit_set_numbers(edit, shader, "base", NULL, &value, 1); break;
+    case 1: mxg_edit_set_numbers(edit, shader, "coat_roughness", "float", &value, 1); break;
+    case 2: mxg_edit_add_element(edit, 0, "constant", new_name, "float"); break;
     case 3:
-        made = mxg_edit_add(edit, 0, "surfacematerial", new_name, "material");
-        mxg_edit_connect(edit, made, "surfaceshader", shader, NULL);
+        made = mxg_edit_add_element(edit, 0, "surfacematerial", new_name, "material");
+        mxg_edit_connect_input(edit, made, "surfaceshader", shader, NULL);
         break;
     case 4:
-        made = mxg_edit_add(edit, 0, "constant", new_name, "float");
-        mxg_edit_connect(edit, shader, "base", made, NULL);
+        made = mxg_edit_add_element(edit, 0, "constant", new_name, "float");
+        mxg_edit_connect_input(edit, shader, "base", made, NULL);
         break;
-    case 5: mxg_edit_rename(edit, i % 2 ? material : shader, new_name); break;
-    case 6: mxg_edit_rename(edit, graph, new_name); break;
-    case 7: mxg_edit_remove(edit, mxg_edit_child(edit, shader, "coat")); break;
-    case 8: mxg_edit_move(edit, graph, 0, i % 2 ? shader : 0); break;
-    default: mxg_edit_copy(edit, 0, from, mxg_document_find(from, shader_name), new_name);
+    case 5: mxg_edit_rename_element(edit, i % 2 ? material : shader, new_name); break;
+    case 6: mxg_edit_rename_element(edit, graph, new_name); break;
+    case 7: mxg_edit_remove_element(edit, mxg_edit_find_child(edit, shader, "coat")); break;
+    case 8: mxg_edit_move_element(edit, graph, 0, i % 2 ? shader : 0); break;
+    default:
+        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, shader_name),
+                              new_name);
     }
     if (mxg_edit_error(edit)[0]) {
         fprintf(stderr, "%s: %s\n", kinds[kind], mxg_edit_error(edit));
@@ -128,9 +131,9 @@ static void measure(mxg_context *context, mxg_library *library, const mxg_docume
         mxg_edit *edit;
         mxg_document *next;
         double start = microseconds();
-        mxg_edit_begin(context, library, document ? document : from, NULL, &edit);
+        mxg_edit_create(context, library, document ? document : from, NULL, &edit);
         change(edit, document ? document : from, kind, i, count);
-        if (mxg_edit_end(edit, &next) != MXG_OK)
+        if (mxg_edit_commit(edit, &next) != MXG_OK)
             exit(1);
         mxg_document_destroy(document);
         document = next;

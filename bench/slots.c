@@ -50,7 +50,7 @@ struct bench {
 
 static mxg_result *generate(struct bench *b, const char *look, bool picks, struct drawn *drawn)
 {
-    mxg_bind_desc bind = MXG_BIND_DESC_INIT;
+    mxg_bindings_desc bind = MXG_BINDINGS_DESC_INIT;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     mxg_result *result = NULL;
     bind.look = look;
@@ -59,7 +59,8 @@ static mxg_result *generate(struct bench *b, const char *look, bool picks, struc
     if (mxg_options_set(b->options, "slots", picks ? "stochastic" : "blend") != MXG_OK
         || mxg_document_load(b->context, mxg_library_builtin(b->context), b->file, &drawn->document)
                != MXG_OK
-        || mxg_bind(b->context, drawn->document, b->primitives, &bind, &drawn->bindings) != MXG_OK)
+        || mxg_bindings_create(b->context, drawn->document, b->primitives, &bind, &drawn->bindings)
+               != MXG_OK)
         bench_fail("%s, look '%s': no bindings", b->file, look);
     desc.bindings = drawn->bindings;
     desc.stack = mxg_bindings_stack(drawn->bindings, 0);
@@ -210,7 +211,7 @@ static void open_scene(struct bench *b)
         || mxg_options_create(b->context, &b->options) != MXG_OK
         || mxg_options_set(b->options, "interface", "complete") != MXG_OK
         || mxg_scene_create(b->context, &b->primitives) != MXG_OK
-        || mxg_scene_add(b->primitives, &path, 1) != MXG_OK)
+        || mxg_scene_add_paths(b->primitives, &path, 1) != MXG_OK)
         bench_fail("no scene");
     image_finish(&b->scene.texture); /* the documents have their own */
     b->scene.num_lights = SCENE_NUM_LIGHTS;

@@ -108,7 +108,7 @@ static const char *find_target(const char *name, const char **names, size_t *num
     const char *found = NULL;
     mxg_target target = {sizeof target};
     *num_names = 0;
-    for (uint32_t i = 0; mxg_get_target(i, &target) == MXG_OK; ++i) {
+    for (uint32_t i = 0; mxg_catalogue_target(i, &target) == MXG_OK; ++i) {
         if (*num_names < MAX_TARGETS)
             names[(*num_names)++] = target.name;
         if (strcmp(target.name, name) == 0)

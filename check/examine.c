@@ -156,7 +156,7 @@ static struct check_note *take_notes(const mxg_diagnostics *list, uint32_t index
     struct check_note *notes = NULL;
     *out_num = 0;
     for (uint32_t i = index + 1;
-         mxg_diagnostics_get(list, i, &note) == MXG_OK && note.parent == index; ++i) {
+         mxg_diagnostics_item(list, i, &note) == MXG_OK && note.parent == index; ++i) {
         notes = memory_resize(notes, (*out_num + 1) * sizeof *notes);
         notes[(*out_num)++] = (struct check_note){note.message, note.file ? note.file : "",
                                                   note.line, note.column, note.length};
@@ -167,10 +167,10 @@ static struct check_note *take_notes(const mxg_diagnostics *list, uint32_t index
 static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
                             struct check_shader *shader, const char *element)
 {
-    examiner->document->num_hidden += mxg_diagnostics_errors(list);
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    examiner->document->num_hidden += mxg_diagnostics_num_errors(list);
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_get(list, i, &diagnostic);
+        mxg_diagnostics_item(list, i, &diagnostic);
         examiner->document->num_hidden -= diagnostic.severity == MXG_SEVERITY_ERROR;
         if (!is_shown(examiner, &diagnostic, i))
             continue;
@@ -244,7 +244,7 @@ static void validate(struct examiner *examiner, const mxg_document *document)
     double begin = examine_clock();
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_VALIDATE, "", "");
-    mxg_status status = mxg_document_validate(examiner->cli->context, document, &result);
+    mxg_status status = mxg_validate(examiner->cli->context, document, &result);
     add_diagnostics(examiner, mxg_result_diagnostics(result), NULL, NULL);
     add_status(examiner, status, NULL, NULL);
     if (status != MXG_OK)

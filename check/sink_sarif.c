@@ -142,9 +142,9 @@ static json_t *make_rule(const char *id)
     mxg_diagnostic_kind kind = {sizeof kind};
     json_t *rule = json_pack("{s:s}", "id", id);
     uint32_t i = 0;
-    while (mxg_get_diagnostic_kind(i, &kind) == MXG_OK && strcmp(kind.id, id) != 0)
+    while (mxg_catalogue_diagnostic_kind(i, &kind) == MXG_OK && strcmp(kind.id, id) != 0)
         ++i;
-    if (i == mxg_num_diagnostic_kinds())
+    if (i == mxg_catalogue_num_diagnostic_kinds())
         return rule;
     json_object_set_new(rule, "helpUri", json_sprintf(MESSAGES_URL "#%s", id));
     if (*kind.cause)

@@ -45,11 +45,12 @@ static void write_file(struct bind *bind, const mxg_bindings *bindings, const ch
 
 static void explain(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
 {
-    uint32_t primitive = mxg_scene_find(scene, bind->geom);
+    uint32_t primitive = mxg_scene_find_primitive(scene, bind->geom);
     if (primitive == UINT32_MAX)
         stage_report_unknown(&bind->cli.report, scene, bind->geom);
     else
-        report_status(&bind->cli.report, mxg_bindings_explain(bindings, primitive, put, stdout));
+        report_status(&bind->cli.report,
+                      mxg_bindings_write_reasons(bindings, primitive, put, stdout));
 }
 
 /* The files for programs. */
@@ -76,21 +77,21 @@ static void show_bindings(struct bind *bind, const mxg_scene *scene, const mxg_b
 
 static void bind_document(struct bind *bind, const mxg_document *document, mxg_scene *scene)
 {
-    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     mxg_bindings *bindings = NULL;
     desc.look = bind->look;
     desc.solo = bind->solo.items;
     desc.num_solo = bind->solo.len;
     desc.mute = bind->mute.items;
     desc.num_mute = bind->mute.len;
-    mxg_status status = mxg_bind(bind->cli.context, document, scene, &desc, &bindings);
+    mxg_status status = mxg_bindings_create(bind->cli.context, document, scene, &desc, &bindings);
     if (bindings)
         report_list(&bind->cli.report, mxg_bindings_diagnostics(bindings));
     bool is_good = report_status(&bind->cli.report, status);
     if (is_good)
         write_bindings(bind, bindings);
     /* beside errors, the layers that are left help to find their cause */
-    if (is_good || (bindings && mxg_bindings_num_resolved(bindings) > 0))
+    if (is_good || (bindings && mxg_bindings_num_resolved_primitives(bindings) > 0))
         show_bindings(bind, scene, bindings);
     mxg_bindings_destroy(bindings);
 }

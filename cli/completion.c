@@ -15,7 +15,7 @@ static void for_each(const struct help_chapter *chapter, FILE *out,
 {
     for (size_t i = 0; i < chapter->num_args; ++i)
         put(chapter, &chapter->args[i], out);
-    for (uint32_t i = 0; chapter->generation && i < mxg_num_options(); ++i) {
+    for (uint32_t i = 0; chapter->generation && i < mxg_catalogue_num_options(); ++i) {
         struct arg arg = help_generation_arg(i);
         put(chapter, &arg, out);
     }
@@ -37,9 +37,9 @@ static bool takes_file(const struct arg *arg)
 static char *target_names(void)
 {
     char *names = cli_format("%s", "");
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
         mxg_target target = {sizeof target};
-        mxg_get_target(i, &target);
+        mxg_catalogue_target(i, &target);
         char *more = cli_format("%s%s%s", names, i ? " " : "", target.name);
         free(names);
         names = more;

@@ -9,9 +9,9 @@
 
 static bool find_kind(const char *id, mxg_diagnostic_kind *out)
 {
-    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_diagnostic_kinds(); ++i) {
         *out = (mxg_diagnostic_kind){sizeof *out};
-        mxg_get_diagnostic_kind(i, out);
+        mxg_catalogue_diagnostic_kind(i, out);
         if (strcmp(out->id, id) == 0)
             return true;
     }
@@ -21,9 +21,9 @@ static bool find_kind(const char *id, mxg_diagnostic_kind *out)
 static void report_unknown(const struct cli *cli, const char *word)
 {
     struct arg_list ids = {0};
-    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
-        mxg_get_diagnostic_kind(i, &kind);
+        mxg_catalogue_diagnostic_kind(i, &kind);
         args_append(&ids, kind.id);
     }
     const char *near = args_closest(word, ids.items, ids.len);
@@ -37,9 +37,9 @@ static void report_unknown(const struct cli *cli, const char *word)
 
 static void write_examples(struct cli *cli, const char *folder)
 {
-    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
-        mxg_get_diagnostic_kind(i, &kind);
+        mxg_catalogue_diagnostic_kind(i, &kind);
         example_write(cli, &kind, folder);
     }
 }

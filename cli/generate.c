@@ -245,7 +245,7 @@ bool generate_make_folder(struct generate *gen, const char *folder)
 static void validate(struct generate *gen, const mxg_document *document)
 {
     mxg_result *result = NULL;
-    mxg_status status = mxg_document_validate(gen->cli.context, document, &result);
+    mxg_status status = mxg_validate(gen->cli.context, document, &result);
     if (result)
         report_errors(&gen->cli.report, mxg_result_diagnostics(result));
     report_status(&gen->cli.report, status);
@@ -445,9 +445,9 @@ static bool prepare_output(struct generate *gen)
     }
     if (files_is_folder(gen->output))
         return true;
-    for (uint32_t i = 0; i < mxg_num_targets() && !gen->is_file; ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets() && !gen->is_file; ++i) {
         mxg_target target = {sizeof target};
-        mxg_get_target(i, &target);
+        mxg_catalogue_target(i, &target);
         gen->is_file = find_stage(&target, gen->output) < MXG_NUM_STAGES;
     }
     if (!gen->is_file)

@@ -111,7 +111,7 @@ static void print_stack(struct cli *cli, const mxg_document *own, struct inspect
     struct bound_stage stage;
     if (stage_bind(cli->context, cli->library, &cli->report, &inspect->place, own, &stage)) {
         const char *path = inspect->element;
-        uint32_t primitive = path ? mxg_scene_find(stage.scene, path) : 0;
+        uint32_t primitive = path ? mxg_scene_find_primitive(stage.scene, path) : 0;
         inspect->bindings = stage.bindings;
         if (primitive < mxg_scene_num_primitives(stage.scene)) {
             inspect->stack = mxg_bindings_stack(stage.bindings, primitive);

@@ -61,7 +61,7 @@ static void expand(struct cli *cli, const struct library_args *args)
     const char *text;
     size_t size;
     const mxg_diagnostics *losses = mxg_library_losses(cli->library);
-    mxg_status status = losses ? mxg_library_expand(cli->library, &text, &size) : MXG_ERROR_MEMORY;
+    mxg_status status = losses ? mxg_library_xml(cli->library, &text, &size) : MXG_ERROR_MEMORY;
     if (report_status(&cli->report, status) && write_output(cli, args->output, text, size))
         report_list(&cli->report, losses);
 }

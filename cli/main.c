@@ -52,9 +52,9 @@ static void print_overview(void)
     for (size_t i = 0; i < NUM_COMMANDS; ++i)
         printf("  mxgen %s\n      %s\n", commands[i].usage, commands[i].brief);
     puts("\nTargets:");
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
         mxg_target target = {sizeof target};
-        mxg_get_target(i, &target);
+        mxg_catalogue_target(i, &target);
         printf("  %-8s %s\n", target.name, target.brief);
     }
     puts("\n'mxgen COMMAND --help' prints the options of a command. A FILE '-' is standard input.");

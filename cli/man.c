@@ -60,7 +60,7 @@ static void put_chapter(const struct help_chapter *chapter, FILE *out)
 static void put_generation(FILE *out)
 {
     fputs(".SH OPTIONS OF GENERATION\n\\fB\\-\\-no\\-\\fIkey\\fR switches a flag off.\n", out);
-    for (uint32_t i = 0; i < mxg_num_options(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_options(); ++i) {
         struct arg arg = help_generation_arg(i);
         put_option(&arg, out);
     }
@@ -69,9 +69,9 @@ static void put_generation(FILE *out)
 static void put_targets(FILE *out)
 {
     fputs(".SH TARGETS\n", out);
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
         mxg_target target = {sizeof target};
-        mxg_get_target(i, &target);
+        mxg_catalogue_target(i, &target);
         fprintf(out, ".TP\n\\fB%s\\fR\n", target.name);
         put_text(target.brief, out);
         putc('\n', out);

@@ -31,7 +31,7 @@ static bool write_pass(struct cli *cli, uint32_t index, const char *target, cons
     bool good = report_status(&cli->report, status);
     if (good) {
         size_t size = 0, json_size = 0;
-        const char *name = mxg_pass_name(index),
+        const char *name = mxg_catalogue_pass(index),
                    *text = mxg_result_source(result, MXG_STAGE_PIXEL, &size),
                    *json = mxg_result_reflection_json(result, &json_size);
         good = !text /* the options do not ask for it */
@@ -49,7 +49,7 @@ static bool write_passes(struct cli *cli, const char *target, const char *folder
     if (reason)
         report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", folder,
                      reason);
-    for (uint32_t i = 0; good && i < mxg_num_passes(); ++i)
+    for (uint32_t i = 0; good && i < mxg_catalogue_num_passes(); ++i)
         good = write_pass(cli, i, target, folder);
     return good;
 }

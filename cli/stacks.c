@@ -273,12 +273,12 @@ static void put_primitives(const struct stacks *s, FILE *out)
     size_t capacity = 0;
     fputs("  \"primitives\": [", out);
     for (uint32_t i = 0; i < num; ++i) {
-        size_t size = mxg_scene_path(s->stage.scene, i, NULL, 0) + 1;
+        size_t size = mxg_scene_primitive_path(s->stage.scene, i, NULL, 0) + 1;
         if (size > capacity) {
             capacity = 2 * size;
             path = memory_resize(path, capacity);
         }
-        mxg_scene_path(s->stage.scene, i, path, capacity);
+        mxg_scene_primitive_path(s->stage.scene, i, path, capacity);
         json_t *text = json_text(path);
         char *name = stack_name(s, mxg_bindings_stack(s->stage.bindings, i));
         fputs(i ? ",\n    {\"path\":" : "\n    {\"path\":", out);

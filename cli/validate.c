@@ -10,7 +10,7 @@ static void validate(struct cli *cli, const char *path)
     if (!document)
         return;
     mxg_result *result = NULL;
-    mxg_status status = mxg_document_validate(cli->context, document, &result);
+    mxg_status status = mxg_validate(cli->context, document, &result);
     if (result)
         report_list(&cli->report, mxg_result_diagnostics(result));
     report_status(&cli->report, status);

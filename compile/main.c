@@ -157,7 +157,7 @@ static void check_elements(struct check *check, const mxg_document *document, co
 /* Adds the materials of the stage to the document. False after a message. */
 static bool bind_stage(struct check *check, mxg_document **document)
 {
-    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     desc.look = check->look;
     mxg_scene *scene = stage_load(check->cli.context, &check->cli.report, check->stage, NULL);
     if (!scene)
@@ -170,7 +170,8 @@ static bool bind_stage(struct check *check, mxg_document **document)
         mxg_scene_destroy(scene);
         return false;
     }
-    mxg_status status = mxg_bind(check->cli.context, *document, scene, &desc, &check->bindings);
+    mxg_status status =
+        mxg_bindings_create(check->cli.context, *document, scene, &desc, &check->bindings);
     if (check->bindings)
         report_list(&check->cli.report, mxg_bindings_diagnostics(check->bindings));
     report_status(&check->cli.report, status);

@@ -72,25 +72,25 @@ void explain_all(void)
           "all of them, `-Wno-error=ID` all but that one.\n\n"
           "| id | severity | message |\n| --- | --- | --- |\n",
           stdout);
-    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
-        mxg_get_diagnostic_kind(i, &kind);
+        mxg_catalogue_diagnostic_kind(i, &kind);
         printf("| [%s](#%s) | %s | `", kind.id, kind.id, severities[kind.severity]);
         print_message(kind.message);
         fputs("` |\n", stdout);
     }
-    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
-        mxg_get_diagnostic_kind(i, &kind);
+        mxg_catalogue_diagnostic_kind(i, &kind);
         explain_section(&kind);
     }
 }
 
 void explain_list(void)
 {
-    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
-        mxg_get_diagnostic_kind(i, &kind);
+        mxg_catalogue_diagnostic_kind(i, &kind);
         printf("%-32s %-8s ", kind.id, severities[kind.severity]);
         print_message(kind.message);
         putchar('\n');

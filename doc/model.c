@@ -188,9 +188,9 @@ static void add_targets(struct manual *manual, struct manual_node *node,
     node->targets = make_texts(manual, manual->num_targets);
     for (uint32_t t = 0; t < manual->num_targets; ++t) {
         mxg_target target = {sizeof target};
-        bool all = mxg_get_target(t, &target) == MXG_OK;
+        bool all = mxg_catalogue_target(t, &target) == MXG_OK;
         for (size_t i = 0; all && i < node->num_variants; ++i)
-            all = mxg_library_supports(manual->library, variants[i].index, target.name);
+            all = mxg_library_has_implementation(manual->library, variants[i].index, target.name);
         if (all)
             add_distinct(&node->targets, target.name);
     }
@@ -237,7 +237,7 @@ static void add_node(struct manual *manual, const struct manual_variant *variant
 void manual_init(struct manual *manual, const mxg_library *library, uint32_t first)
 {
     uint32_t end = mxg_library_num_nodedefs(library);
-    *manual = (struct manual){.library = library, .num_targets = mxg_num_targets()};
+    *manual = (struct manual){.library = library, .num_targets = mxg_catalogue_num_targets()};
     struct manual_variant *variants = store_alloc(&manual->store, (end - first) * sizeof *variants);
     for (uint32_t i = first; i < end; ++i) {
         struct manual_variant *variant = &variants[manual->num_variants];

@@ -32,7 +32,7 @@ static class Minimal
     [DllImport(Library)] static extern IntPtr mxg_result_diagnostics(IntPtr result);
     [DllImport(Library)] static extern IntPtr mxg_result_source(IntPtr result, int stage, out UIntPtr size);
     [DllImport(Library)] static extern void mxg_result_destroy(IntPtr result);
-    [DllImport(Library)] static extern uint mxg_diagnostics_count(IntPtr list);
+    [DllImport(Library)] static extern uint mxg_diagnostics_num_items(IntPtr list);
     [DllImport(Library)] static extern UIntPtr mxg_diagnostics_format(IntPtr list, uint index, byte[] source, UIntPtr sourceSize,
         [MarshalAs(UnmanagedType.I1)] bool colour, byte[] buffer, UIntPtr capacity);
 
@@ -44,7 +44,7 @@ static class Minimal
 
     static void PrintDiagnostics(IntPtr list)
     {
-        for (uint index = 0; index < mxg_diagnostics_count(list); ++index) {
+        for (uint index = 0; index < mxg_diagnostics_num_items(list); ++index) {
             int size = (int)mxg_diagnostics_format(list, index, null, UIntPtr.Zero, false, null, UIntPtr.Zero);
             byte[] text = new byte[size + 1];
             mxg_diagnostics_format(list, index, null, UIntPtr.Zero, false, text, (UIntPtr)text.Length);

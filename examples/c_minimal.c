@@ -6,7 +6,7 @@
 
 static void print_diagnostics(const mxg_diagnostics *list)
 {
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         char text[1024];
         mxg_diagnostics_format(list, i, NULL, 0, false, text, sizeof text);
         fprintf(stderr, "%s\n", text);

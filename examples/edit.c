@@ -10,14 +10,14 @@
 /* A standard surface with noise as its roughness, and its material. */
 static void build(mxg_edit *edit)
 {
-    mxg_element noise = mxg_edit_add(edit, 0, "noise2d", "Spots", "float"),
-                shader = mxg_edit_add(edit, 0, "standard_surface", "SR", "surfaceshader"),
-                material = mxg_edit_add(edit, 0, "surfacematerial", "Copper", "material");
+    mxg_element noise = mxg_edit_add_element(edit, 0, "noise2d", "Spots", "float"),
+                shader = mxg_edit_add_element(edit, 0, "standard_surface", "SR", "surfaceshader"),
+                material = mxg_edit_add_element(edit, 0, "surfacematerial", "Copper", "material");
     const float copper[] = {0.93f, 0.62f, 0.52f};
-    mxg_edit_numbers(edit, shader, "base_color", "color3", copper, 3);
-    mxg_edit_value(edit, shader, "metalness", "float", "1");
-    mxg_edit_connect(edit, shader, "specular_roughness", noise, NULL);
-    mxg_edit_connect(edit, material, "surfaceshader", shader, NULL);
+    mxg_edit_set_numbers(edit, shader, "base_color", "color3", copper, 3);
+    mxg_edit_set_value(edit, shader, "metalness", "float", "1");
+    mxg_edit_connect_input(edit, shader, "specular_roughness", noise, NULL);
+    mxg_edit_connect_input(edit, material, "surfaceshader", shader, NULL);
 }
 
 static void print(const mxg_document *document)
@@ -33,19 +33,20 @@ int main(void)
     if (mxg_context_create(NULL, &context) != MXG_OK)
         return 1;
     mxg_library *library = mxg_library_builtin(context);
-    mxg_edit_begin(context, library, NULL, "copper", &edit);
+    mxg_edit_create(context, library, NULL, "copper", &edit);
     build(edit);
     if (mxg_edit_error(edit)[0])
         fprintf(stderr, "%s\n", mxg_edit_error(edit));
-    if (mxg_edit_end(edit, &copper) != MXG_OK)
+    if (mxg_edit_commit(edit, &copper) != MXG_OK)
         return 1;
     print(copper);
 
     /* The first document stays as it is. Elements keep their numbers. */
-    mxg_edit_begin(context, library, copper, NULL, &edit);
-    mxg_edit_value(edit, mxg_document_find(copper, "SR"), "specular_roughness", NULL, "0.1");
-    mxg_edit_remove(edit, mxg_document_find(copper, "Spots"));
-    if (mxg_edit_end(edit, &polished) != MXG_OK)
+    mxg_edit_create(context, library, copper, NULL, &edit);
+    mxg_edit_set_value(edit, mxg_document_find_element(copper, "SR"), "specular_roughness", NULL,
+                       "0.1");
+    mxg_edit_remove_element(edit, mxg_document_find_element(copper, "Spots"));
+    if (mxg_edit_commit(edit, &polished) != MXG_OK)
         return 1;
     print(polished);
     mxg_document_destroy(copper);

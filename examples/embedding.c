@@ -22,7 +22,7 @@ struct host {
 
 static void print_diagnostics(const mxg_diagnostics *list)
 {
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         char text[1024];
         mxg_diagnostics_format(list, i, NULL, 0, false, text, sizeof text);
         fprintf(stderr, "%s\n", text);
@@ -34,21 +34,21 @@ static void print_diagnostics(const mxg_diagnostics *list)
 static mxg_status build(struct host *h)
 {
     mxg_edit *edit;
-    mxg_status status = mxg_edit_begin(h->context, h->library, NULL, "copper", &edit);
+    mxg_status status = mxg_edit_create(h->context, h->library, NULL, "copper", &edit);
     if (status != MXG_OK)
         return status;
-    mxg_element wood = mxg_edit_add(edit, 0, "tiledimage", "Wood", "color3"),
-                shader = mxg_edit_add(edit, 0, "standard_surface", "SR", "surfaceshader"),
-                material = mxg_edit_add(edit, 0, "surfacematerial", "Copper", "material");
+    mxg_element wood = mxg_edit_add_element(edit, 0, "tiledimage", "Wood", "color3"),
+                shader = mxg_edit_add_element(edit, 0, "standard_surface", "SR", "surfaceshader"),
+                material = mxg_edit_add_element(edit, 0, "surfacematerial", "Copper", "material");
     const float tiling[] = {4, 4};
-    mxg_edit_value(edit, wood, "file", "filename", "textures/wood_color.png");
-    mxg_edit_numbers(edit, wood, "uvtiling", "vector2", tiling, 2);
-    mxg_edit_value(edit, shader, "metalness", "float", "1");
-    mxg_edit_connect(edit, shader, "base_color", wood, NULL);
-    mxg_edit_connect(edit, material, "surfaceshader", shader, NULL);
+    mxg_edit_set_value(edit, wood, "file", "filename", "textures/wood_color.png");
+    mxg_edit_set_numbers(edit, wood, "uvtiling", "vector2", tiling, 2);
+    mxg_edit_set_value(edit, shader, "metalness", "float", "1");
+    mxg_edit_connect_input(edit, shader, "base_color", wood, NULL);
+    mxg_edit_connect_input(edit, material, "surfaceshader", shader, NULL);
     if (mxg_edit_error(edit)[0])
         fprintf(stderr, "%s\n", mxg_edit_error(edit));
-    status = mxg_edit_end(edit, &h->document);
+    status = mxg_edit_commit(edit, &h->document);
     print_diagnostics(mxg_document_diagnostics(h->document));
     return status;
 }
@@ -138,9 +138,10 @@ static void print_bindings(const mxg_result *result)
 
 static void explain_private_uniforms(void)
 {
-    for (uint32_t i = 0; i < mxg_num_semantics(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_semantics(); ++i) {
         mxg_semantic semantic = MXG_INIT(mxg_semantic);
-        if (mxg_get_semantic(i, &semantic) == MXG_OK && semantic.block == MXG_BLOCK_LIGHT_DATA)
+        if (mxg_catalogue_semantic(i, &semantic) == MXG_OK
+            && semantic.block == MXG_BLOCK_LIGHT_DATA)
             printf("  %s: %s\n", semantic.semantic, semantic.doc);
     }
 }
@@ -166,16 +167,16 @@ static bool pack_light(const mxg_result *result, void *bytes, size_t size)
 static bool upload(struct host *h)
 {
     free(h->uniforms);
-    h->uniforms_size = mxg_result_pack(h->program, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0);
+    h->uniforms_size = mxg_result_pack_block(h->program, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0);
     h->uniforms = malloc(h->uniforms_size);
     if (!h->uniforms)
         return false;
-    mxg_result_pack(h->program, MXG_BLOCK_PUBLIC_UNIFORMS, h->uniforms, h->uniforms_size);
-    size_t size = mxg_result_pack(h->program, MXG_BLOCK_LIGHT_DATA, NULL, 0);
+    mxg_result_pack_block(h->program, MXG_BLOCK_PUBLIC_UNIFORMS, h->uniforms, h->uniforms_size);
+    size_t size = mxg_result_pack_block(h->program, MXG_BLOCK_LIGHT_DATA, NULL, 0);
     void *lights = malloc(size);
     if (!lights)
         return false;
-    mxg_result_pack(h->program, MXG_BLOCK_LIGHT_DATA, lights, size);
+    mxg_result_pack_block(h->program, MXG_BLOCK_LIGHT_DATA, lights, size);
     bool good = pack_light(h->program, lights, size);
     free(lights);
     return good;
@@ -195,7 +196,7 @@ static bool follow(struct host *h, mxg_document *next)
     }
     mxg_change change = mxg_result_change(h->program, result, changed, 8, &num);
     if (change == MXG_CHANGE_VALUES) {
-        mxg_result_pack(result, MXG_BLOCK_PUBLIC_UNIFORMS, h->uniforms, h->uniforms_size);
+        mxg_result_pack_block(result, MXG_BLOCK_PUBLIC_UNIFORMS, h->uniforms, h->uniforms_size);
     } else if (change == MXG_CHANGE_SHADER) {
         mxg_result_destroy(result);
         generate(h, next, false, &result); /* cannot fail now, except for memory */
@@ -228,10 +229,10 @@ static bool set_number(struct host *h, const char *node, const char *input, floa
     }
     mxg_edit *edit;
     mxg_document *next;
-    if (mxg_edit_begin(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
+    if (mxg_edit_create(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
         return false;
-    mxg_edit_numbers(edit, mxg_edit_find(edit, node), input, NULL, &value, 1);
-    return mxg_edit_end(edit, &next) == MXG_OK && follow(h, next);
+    mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, node), input, NULL, &value, 1);
+    return mxg_edit_commit(edit, &next) == MXG_OK && follow(h, next);
 }
 
 static void list_compiled(const mxg_result *result)
@@ -249,14 +250,14 @@ static bool edit_document(struct host *h, const char *node, const char *input, c
 {
     mxg_edit *edit;
     mxg_document *next = NULL;
-    if (mxg_edit_begin(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
+    if (mxg_edit_create(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
         return false;
-    if (mxg_edit_value(edit, mxg_edit_find(edit, node), input, type, value) != MXG_OK) {
+    if (mxg_edit_set_value(edit, mxg_edit_find_element(edit, node), input, type, value) != MXG_OK) {
         fprintf(stderr, "%s\n", mxg_edit_error(edit));
-        mxg_edit_cancel(edit);
+        mxg_edit_destroy(edit);
         return false;
     }
-    if (mxg_edit_end(edit, &next) != MXG_OK) {
+    if (mxg_edit_commit(edit, &next) != MXG_OK) {
         print_diagnostics(mxg_document_diagnostics(next));
         mxg_document_destroy(next);
         return false;
@@ -275,9 +276,9 @@ static bool reject_broken(struct host *h)
     mxg_document *broken = NULL;
     mxg_result *result = NULL;
     mxg_document_parse(h->context, h->library, "broken.mtlx", text, sizeof text - 1, &broken);
-    mxg_status status = mxg_document_validate(h->context, broken, &result);
+    mxg_status status = mxg_validate(h->context, broken, &result);
     mxg_diagnostic first = MXG_INIT(mxg_diagnostic);
-    if (mxg_diagnostics_get(mxg_result_diagnostics(result), 0, &first) == MXG_OK)
+    if (mxg_diagnostics_item(mxg_result_diagnostics(result), 0, &first) == MXG_OK)
         printf("%s:%u:%u: %s\n", first.file, first.line, first.column, first.id);
     mxg_result_destroy(result);
     mxg_document_destroy(broken);
@@ -289,7 +290,7 @@ static bool run(struct host *h)
     if (build(h) != MXG_OK || generate(h, h->document, false, &h->program) != MXG_OK)
         return false;
     list_materials(h->document);
-    list_inputs(h->document, mxg_document_find(h->document, "SR"));
+    list_inputs(h->document, mxg_document_find_element(h->document, "SR"));
     compile(h->program);
     print_bindings(h->program);
     explain_private_uniforms();

@@ -33,7 +33,7 @@ extern "C" {
     fn mxg_result_diagnostics(result: *const Result) -> *const Diagnostics;
     fn mxg_result_source(result: *const Result, stage: i32, size: *mut usize) -> *const c_char;
     fn mxg_result_destroy(result: *mut Result);
-    fn mxg_diagnostics_count(list: *const Diagnostics) -> u32;
+    fn mxg_diagnostics_num_items(list: *const Diagnostics) -> u32;
     fn mxg_diagnostics_format(list: *const Diagnostics, index: u32, source: *const c_char, source_size: usize, colour: bool,
                               buffer: *mut c_char, capacity: usize) -> usize;
 }
@@ -42,7 +42,7 @@ const OK: i32 = 0;
 const PIXEL: i32 = 1;
 
 unsafe fn print_diagnostics(list: *const Diagnostics) {
-    for index in 0..mxg_diagnostics_count(list) {
+    for index in 0..mxg_diagnostics_num_items(list) {
         let size = mxg_diagnostics_format(list, index, null(), 0, false, null_mut(), 0);
         let mut text = vec![0u8; size + 1];
         mxg_diagnostics_format(list, index, null(), 0, false, text.as_mut_ptr().cast(), text.len());

@@ -115,9 +115,9 @@ static bool find_generation_option(const struct arg_parser *parser, const struct
 {
     if (!parser->generation || option->is_letter)
         return false;
-    for (uint32_t i = 0; i < mxg_num_options(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_options(); ++i) {
         out->size = sizeof *out;
-        if (mxg_get_option(i, out) == MXG_OK && name_is(option, out->key))
+        if (mxg_catalogue_option(i, out) == MXG_OK && name_is(option, out->key))
             return true;
     }
     return false;
@@ -164,9 +164,9 @@ static void print_unknown(const struct arg_parser *parser, const struct written 
     struct arg_list names = {0};
     for (size_t i = 0; i < parser->num_args; ++i)
         args_append(&names, parser->args[i].name);
-    for (uint32_t i = 0; parser->generation && i < mxg_num_options(); ++i) {
+    for (uint32_t i = 0; parser->generation && i < mxg_catalogue_num_options(); ++i) {
         mxg_option known = {sizeof known};
-        mxg_get_option(i, &known);
+        mxg_catalogue_option(i, &known);
         args_append(&names, known.key);
     }
     char word[64];

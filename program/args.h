@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Arguments of a command: a table of its own options, and the options of generation, which the
- * library describes (mxg_get_option). `--key value`, `--key=value`, `-k value`, `-kvalue`; flags
+ * library describes (mxg_catalogue_option). `--key value`, `--key=value`, `-k value`, `-kvalue`;
+ * flags
  * `--key` and `--no-key`; `--` ends the options.
  */
 #ifndef MXG_PROGRAM_ARGS_H

@@ -282,16 +282,16 @@ void cli_finish(struct cli *cli)
 
 bool cli_find_target(const char *name, size_t len, mxg_target *out)
 {
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
         out->size = sizeof *out;
-        mxg_get_target(i, out);
+        mxg_catalogue_target(i, out);
         if ((strlen(out->name) == len && memcmp(out->name, name, len) == 0)
             || (strlen(out->materialx_name) == len && memcmp(out->materialx_name, name, len) == 0))
             return true;
     }
     fprintf(stderr, "mxgen: unknown target '%.*s'; expected one of", (int)len, name);
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
-        mxg_get_target(i, out);
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
+        mxg_catalogue_target(i, out);
         fprintf(stderr, "%s %s", i ? "," : ":", out->name);
     }
     fputs(" [unknown-target]\n", stderr);
@@ -302,7 +302,7 @@ static bool applies_to_one(uint32_t option, const char *const *targets, size_t n
 {
     bool applies = false;
     for (size_t i = 0; i < num_targets; ++i)
-        applies |= mxg_option_applies(option, targets[i]);
+        applies |= mxg_catalogue_has_option(option, targets[i]);
     return applies;
 }
 
@@ -313,10 +313,10 @@ static void print_inapplicable(uint32_t option, const char *key, const char *con
     for (size_t i = 0; i < num_targets; ++i)
         fprintf(stderr, "%s '%s'", i ? "," : "", targets[i]);
     const char *before = "; it applies to";
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
         mxg_target target = {sizeof target};
-        mxg_get_target(i, &target);
-        if (!mxg_option_applies(option, target.name))
+        mxg_catalogue_target(i, &target);
+        if (!mxg_catalogue_has_option(option, target.name))
             continue;
         fprintf(stderr, "%s '%s'", before, target.name);
         before = ",";
@@ -326,9 +326,9 @@ static void print_inapplicable(uint32_t option, const char *key, const char *con
 
 bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets)
 {
-    for (uint32_t option = 0; option < mxg_num_options(); ++option) {
+    for (uint32_t option = 0; option < mxg_catalogue_num_options(); ++option) {
         mxg_option known = {sizeof known};
-        mxg_get_option(option, &known);
+        mxg_catalogue_option(option, &known);
         if (applies_to_one(option, targets, num_targets))
             continue;
         for (size_t i = 0; i < cli->parser.num_settings; ++i) {

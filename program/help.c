@@ -54,7 +54,7 @@ static bool print_group(const struct arg_parser *parser, enum arg_group group, c
 struct arg help_generation_arg(uint32_t index)
 {
     mxg_option option = {sizeof option};
-    mxg_get_option(index, &option);
+    mxg_catalogue_option(index, &option);
     struct arg arg = {.name = option.key, .kind = ARG_TEXT, .value = "TEXT", .help = option.doc};
     if (option.type == MXG_OPTION_BOOL) {
         arg.kind = ARG_FLAG;
@@ -70,9 +70,9 @@ struct arg help_generation_arg(uint32_t index)
 static void print_generation(void)
 {
     puts("\nOptions of generation (--no-KEY switches a flag off):");
-    for (uint32_t i = 0; i < mxg_num_options(); ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_options(); ++i) {
         mxg_option option = {sizeof option};
-        mxg_get_option(i, &option);
+        mxg_catalogue_option(i, &option);
         bool has_default = option.initial && *option.initial;
         struct arg arg = help_generation_arg(i);
         char *text = cli_format(has_default ? "%s (default: %s)" : "%s", arg.help, option.initial);

@@ -126,7 +126,7 @@ const char *report_render(struct report *report, const mxg_diagnostics *list, ui
 {
     mxg_diagnostic part = {sizeof part};
     report->len = 0;
-    for (uint32_t i = index; mxg_diagnostics_get(list, i, &part) == MXG_OK && part.parent == index;
+    for (uint32_t i = index; mxg_diagnostics_item(list, i, &part) == MXG_OK && part.parent == index;
          ++i)
         render(report, list, i, &part);
     return report->text ? report->text : "";
@@ -200,7 +200,7 @@ static bool is_about_cause(struct report *report, const mxg_diagnostic *diagnost
 static bool key_of_warning(const void *messages, uint32_t index, struct group_key *out_key)
 {
     mxg_diagnostic diagnostic = {sizeof diagnostic};
-    mxg_diagnostics_get(messages, index, &diagnostic);
+    mxg_diagnostics_item(messages, index, &diagnostic);
     *out_key = (struct group_key){
         .id = diagnostic.id, .file = diagnostic.file, .text = diagnostic.message};
     return diagnostic.severity == MXG_SEVERITY_WARNING && diagnostic.parent == index;
@@ -213,7 +213,7 @@ static void print_rest(struct report *report, const struct groups *groups,
     struct group_rest rest = {0};
     for (uint32_t i = groups->next[told]; i; i = groups->next[i]) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_get(list, i, &diagnostic);
+        mxg_diagnostics_item(list, i, &diagnostic);
         if (is_new(report, &diagnostic))
             group_rest_add(&rest, diagnostic.line);
     }
@@ -222,12 +222,12 @@ static void print_rest(struct report *report, const struct groups *groups,
 
 static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)
 {
-    uint32_t count = mxg_diagnostics_count(list), open = count;
+    uint32_t count = mxg_diagnostics_num_items(list), open = count;
     bool shown = false; /* the message of the notes was printed */
     struct groups groups = groups_make(list, count, key_of_warning);
     for (uint32_t i = 0; i < count; ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_get(list, i, &diagnostic);
+        mxg_diagnostics_item(list, i, &diagnostic);
         if (diagnostic.parent == i) {
             if (open < count)
                 print_rest(report, &groups, list, open);
@@ -248,7 +248,7 @@ static void print_list(struct report *report, const mxg_diagnostics *list, bool 
     if (open < count)
         print_rest(report, &groups, list, open);
     groups_finish(&groups);
-    report->errors += mxg_diagnostics_errors(list);
+    report->errors += mxg_diagnostics_num_errors(list);
 }
 
 void report_list(struct report *report, const mxg_diagnostics *list)

@@ -35,7 +35,7 @@ static mxg_status read_paths(FILE *in, mxg_scene *scene)
     while ((len = getline(&line, &capacity, in)) > 0) {
         line[len - 1] = '\0';
         if (status == MXG_OK)
-            status = mxg_scene_add(scene, (const char *const *)&line, 1);
+            status = mxg_scene_add_paths(scene, (const char *const *)&line, 1);
     }
     free(line);
     return status;
@@ -109,7 +109,7 @@ mxg_document *stage_document(mxg_context *context, mxg_library *library, struct 
                              const mxg_document *own, const mxg_scene *scene)
 {
     mxg_document *whole = NULL;
-    mxg_status status = mxg_document_with_materials(context, library, own, scene, &whole);
+    mxg_status status = mxg_document_import(context, library, own, scene, &whole);
     if (whole)
         report_list(report, mxg_document_diagnostics(whole));
     if (report_status(report, status))
@@ -123,9 +123,9 @@ mxg_document *stage_document(mxg_context *context, mxg_library *library, struct 
 /* The path of a primitive, which the caller frees. */
 static char *path_of(const mxg_scene *scene, uint32_t primitive)
 {
-    size_t size = mxg_scene_path(scene, primitive, NULL, 0) + 1;
+    size_t size = mxg_scene_primitive_path(scene, primitive, NULL, 0) + 1;
     char *path = memory_alloc(size);
-    mxg_scene_path(scene, primitive, path, size);
+    mxg_scene_primitive_path(scene, primitive, path, size);
     return path;
 }
 
@@ -145,14 +145,15 @@ void stage_report_unknown(struct report *report, const mxg_scene *scene, const c
 bool stage_bind(mxg_context *context, mxg_library *library, struct report *report,
                 const struct stage_place *place, const mxg_document *own, struct bound_stage *out)
 {
-    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     desc.look = place->look;
     *out = (struct bound_stage){.scene = stage_load(context, report, place->file, place->purpose)};
     if (out->scene)
         out->document = stage_document(context, library, report, own, out->scene);
     if (!out->document)
         return false;
-    mxg_status status = mxg_bind(context, out->document, out->scene, &desc, &out->bindings);
+    mxg_status status =
+        mxg_bindings_create(context, out->document, out->scene, &desc, &out->bindings);
     if (out->bindings)
         report_list(report, mxg_bindings_diagnostics(out->bindings));
     return report_status(report, status);

@@ -16,9 +16,9 @@ static bool check_id(const char *id, const char *word)
 {
     struct arg_list ids = {0};
     bool found = false;
-    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds() && !found; ++i) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_diagnostic_kinds() && !found; ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
-        mxg_get_diagnostic_kind(i, &kind);
+        mxg_catalogue_diagnostic_kind(i, &kind);
         found = strcmp(kind.id, id) == 0;
         args_append(&ids, kind.id);
         if (found && kind.severity == MXG_SEVERITY_ERROR) {

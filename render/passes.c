@@ -45,7 +45,7 @@ static bool generate(struct passes *passes, const struct passes_setup *setup, ui
     mxg_diagnostic first = {sizeof first};
     if (status == MXG_OK)
         return true;
-    if (mxg_diagnostics_get(mxg_result_diagnostics(*out), 0, &first) == MXG_OK)
+    if (mxg_diagnostics_item(mxg_result_diagnostics(*out), 0, &first) == MXG_OK)
         return fail(passes, first.id, first.message);
     return fail(passes, "render-failed", mxg_status_string(status));
 }
@@ -115,8 +115,8 @@ static bool open_passes(struct passes *passes, const struct passes_setup *setup)
     enum use use = setup->hits ? LIGHTS_RAYS : setup->shown != UINT32_MAX ? SHOWS : LIGHTS;
     bool good = open_tints(passes, setup) && (!setup->hits || open_hits(passes, setup));
     for (size_t r = 0; good && r < sizeof runs / sizeof *runs; ++r)
-        for (uint32_t i = 0; good && i < mxg_num_passes(); ++i)
-            if (runs[r].use == use && strcmp(mxg_pass_name(i), runs[r].name) == 0)
+        for (uint32_t i = 0; good && i < mxg_catalogue_num_passes(); ++i)
+            if (runs[r].use == use && strcmp(mxg_catalogue_pass(i), runs[r].name) == 0)
                 good = open_pass(passes, setup, i, runs[r].which);
     return good;
 }

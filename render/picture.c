@@ -81,11 +81,11 @@ struct missing {
 static void find_missing(struct missing *missing, mxg_context *context,
                          const mxg_document *document)
 {
-    mxg_document_validate(context, document, &missing->result);
+    mxg_validate(context, document, &missing->result);
     const mxg_diagnostics *list = mxg_result_diagnostics(missing->result);
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_get(list, i, &diagnostic);
+        mxg_diagnostics_item(list, i, &diagnostic);
         const char *begin = strchr(diagnostic.message, '\''),
                    *end = strrchr(diagnostic.message, '\'');
         if (strcmp(diagnostic.id, "missing-texture") != 0 || !begin || end == begin)

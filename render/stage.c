@@ -15,9 +15,9 @@
 
 char *stage_path(const mxg_scene *scene, uint32_t primitive)
 {
-    size_t size = mxg_scene_path(scene, primitive, NULL, 0) + 1;
+    size_t size = mxg_scene_primitive_path(scene, primitive, NULL, 0) + 1;
     char *path = memory_alloc(size);
-    mxg_scene_path(scene, primitive, path, size);
+    mxg_scene_primitive_path(scene, primitive, path, size);
     return path;
 }
 

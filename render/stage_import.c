@@ -42,13 +42,14 @@ static char *part_of(const char *name)
 static char *add_primitive(struct importer *in, const char *parent, const char *name)
 {
     char *part = part_of(name), *path = cli_format("%s/%s", parent, part);
-    for (unsigned number = 2; mxg_scene_find(in->stage->scene, path) != UINT32_MAX; ++number) {
+    for (unsigned number = 2; mxg_scene_find_primitive(in->stage->scene, path) != UINT32_MAX;
+         ++number) {
         free(path);
         path = cli_format("%s/%s_%u", parent, part, number);
     }
     free(part);
     in->good = report_status(in->stage->report,
-                             mxg_scene_add(in->stage->scene, (const char *const *)&path, 1))
+                             mxg_scene_add_paths(in->stage->scene, (const char *const *)&path, 1))
                && in->good;
     return path;
 }
@@ -106,7 +107,7 @@ static void add_object(struct importer *in, const struct aiMesh *mesh, const cha
         return;
     }
     struct scene_object *object =
-        stage_add(in->stage, mxg_scene_find(in->stage->scene, path), world);
+        stage_add(in->stage, mxg_scene_find_primitive(in->stage->scene, path), world);
     object->mesh = made;
     add_primvars(mesh, object);
     if (!mesh_complete(&object->mesh, import_missing(mesh)))

@@ -67,11 +67,11 @@ bool stage_subjects_make(struct painter *painter, const struct stage *stage,
                          struct stage_subjects *out)
 {
     struct report *report = &painter->cli->report;
-    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     *out = (struct stage_subjects){0};
     desc.look = look;
     mxg_status status =
-        mxg_bind(painter->cli->context, document, stage->scene, &desc, &out->bindings);
+        mxg_bindings_create(painter->cli->context, document, stage->scene, &desc, &out->bindings);
     if (out->bindings)
         report_list(report, mxg_bindings_diagnostics(out->bindings));
     if (!report_status(report, status))

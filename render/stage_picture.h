@@ -14,8 +14,8 @@ struct stage_subjects {
 };
 
 /*
- * Binds a look (NULL: as for mxg_bind) to the stage, and groups its objects. false after reporting
- * an error. Call stage_subjects_finish in any case.
+ * Binds a look (NULL: as for mxg_bindings_create) to the stage, and groups its objects. false after
+ * reporting an error. Call stage_subjects_finish in any case.
  */
 bool stage_subjects_make(struct painter *painter, const struct stage *stage,
                          const mxg_document *document, const char *path, const char *look,

@@ -13,25 +13,25 @@
 double *usd_numbers(const struct stage *stage, uint32_t primitive, const char *name,
                     size_t *out_count)
 {
-    *out_count = mxg_scene_numbers(stage->scene, primitive, name, NULL, 0);
+    *out_count = mxg_scene_property_numbers(stage->scene, primitive, name, NULL, 0);
     if (!*out_count)
         return NULL;
     double *numbers = memory_alloc(*out_count * sizeof *numbers);
-    mxg_scene_numbers(stage->scene, primitive, name, numbers, *out_count);
+    mxg_scene_property_numbers(stage->scene, primitive, name, numbers, *out_count);
     return numbers;
 }
 
 double usd_number(const struct stage *stage, uint32_t primitive, const char *name, double otherwise)
 {
     double number = otherwise;
-    mxg_scene_numbers(stage->scene, primitive, name, &number, 1);
+    mxg_scene_property_numbers(stage->scene, primitive, name, &number, 1);
     return number;
 }
 
 bool usd_is(const struct stage *stage, uint32_t primitive, const char *name, const char *value)
 {
     char word[64];
-    return mxg_scene_word(stage->scene, primitive, name, 0, word, sizeof word)
+    return mxg_scene_property_word(stage->scene, primitive, name, 0, word, sizeof word)
            && strcmp(word, value) == 0;
 }
 
@@ -158,10 +158,10 @@ static void add_instances(struct walk *walk, struct visit at, struct matrix worl
         stage_fail(stage, at.primitive, "protoIndices", "has %zu numbers for %zu positions",
                    in.num_prototypes, in.num);
     for (size_t i = in.num_prototypes == in.num ? in.num : 0; i-- > 0;) {
-        uint32_t prototype = in.prototypes[i] >= 0 && in.prototypes[i] < UINT32_MAX
-                                 ? mxg_scene_target(stage->scene, at.primitive, "prototypes",
-                                                    (uint32_t)in.prototypes[i])
-                                 : UINT32_MAX;
+        uint32_t prototype =
+            in.prototypes[i] >= 0 && in.prototypes[i] < UINT32_MAX ? mxg_scene_property_target(
+                stage->scene, at.primitive, "prototypes", (uint32_t)in.prototypes[i])
+                                                                   : UINT32_MAX;
         if (prototype == UINT32_MAX) {
             stage_fail(stage, at.primitive, "protoIndices", "has %g, which is no prototype",
                        in.prototypes[i]);

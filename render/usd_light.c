@@ -74,7 +74,8 @@ static void tell_unread(const struct lamp *lamp)
             continue;
         double value = usd_number(lamp->stage, lamp->primitive, name, inputs[i].neutral);
         bool has_word =
-            mxg_scene_word(lamp->stage->scene, lamp->primitive, name, 0, word, sizeof word) > 0
+            mxg_scene_property_word(lamp->stage->scene, lamp->primitive, name, 0, word, sizeof word)
+                > 0
             && strcmp(word, "None") != 0;
         if (inputs[i].is_word ? has_word : value != inputs[i].neutral)
             stage_warn(lamp->stage, "light-unread", lamp->primitive, name,
@@ -108,7 +109,7 @@ static void read_power(struct lamp *lamp, double intensity)
     char name[64];
     double color[3] = {1, 1, 1}, tint[3] = {1, 1, 1};
     find_input(lamp, "color", name);
-    mxg_scene_numbers(lamp->stage->scene, lamp->primitive, name, color, 3);
+    mxg_scene_property_numbers(lamp->stage->scene, lamp->primitive, name, color, 3);
     if (input(lamp, "enableColorTemperature", 0) != 0)
         black_body(input(lamp, "colorTemperature", 6500), tint);
     for (size_t i = 0; i < 3; ++i)
@@ -228,7 +229,8 @@ static bool read_map(struct lamp *lamp, struct image *out)
 {
     char name[64], file[1024], reason[256];
     if (!find_input(lamp, "texture:file", name)
-        || mxg_scene_word(lamp->stage->scene, lamp->primitive, name, 0, file, sizeof file) < 3)
+        || mxg_scene_property_word(lamp->stage->scene, lamp->primitive, name, 0, file, sizeof file)
+               < 3)
         return environment_make_plain(1, out);
     size_t marks = strncmp(file, "@@@", 3) == 0 ? 3 : 1, len = strlen(file);
     file[len - marks] = '\0';
@@ -246,7 +248,7 @@ static void add_dome_of(struct lamp *lamp, bool has_pole)
     char name[64];
     find_input(lamp, "texture:format", name);
     char format[32] = "automatic";
-    mxg_scene_word(stage->scene, lamp->primitive, name, 0, format, sizeof format);
+    mxg_scene_property_word(stage->scene, lamp->primitive, name, 0, format, sizeof format);
     if (stage->has_dome || (strcmp(format, "automatic") != 0 && strcmp(format, "latlong") != 0)) {
         stage_warn(stage, "light-left-out", lamp->primitive, stage->has_dome ? NULL : name,
                    stage->has_dome ? "is a second dome; the first lights the picture"

@@ -69,7 +69,7 @@ static struct matrix read_op(struct stage *stage, uint32_t primitive, const char
     name += is_inverse ? strlen(inverse) : 0;
     double v[16];
     struct matrix out = matrix_identity();
-    size_t count = mxg_scene_numbers(stage->scene, primitive, name, v, 16);
+    size_t count = mxg_scene_property_numbers(stage->scene, primitive, name, v, 16);
     bool good = strncmp(name, prefix, strlen(prefix)) == 0
                 && make_matrix(name + strlen(prefix), v, count, &out);
     if (!good)
@@ -86,7 +86,8 @@ struct matrix usd_transform(struct stage *stage, uint32_t primitive, bool *out_r
     struct matrix out = matrix_identity();
     *out_resets = false;
     for (uint32_t i = 0;
-         mxg_scene_word(stage->scene, primitive, "xformOpOrder", i, name, sizeof name); ++i) {
+         mxg_scene_property_word(stage->scene, primitive, "xformOpOrder", i, name, sizeof name);
+         ++i) {
         if (strcmp(name, "!resetXformStack!") == 0) {
             *out_resets = true;
             out = matrix_identity();

@@ -51,7 +51,7 @@ struct host {
 
 static void print_diagnostics(const mxg_diagnostics *list)
 {
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         char text[1024];
         mxg_diagnostics_format(list, i, NULL, 0, false, text, sizeof text);
         fprintf(stderr, "%s\n", text);
@@ -165,7 +165,7 @@ static void fill_block(struct host *h, uint32_t index, uint32_t number)
     unsigned char *bytes = h->uniforms.bytes + ball->offsets[number];
     mxg_block_info block = MXG_INIT(mxg_block_info);
     mxg_result_block(ball->result, uniform_blocks[number], &block);
-    mxg_result_pack(ball->result, uniform_blocks[number], bytes, block.byte_size);
+    mxg_result_pack_block(ball->result, uniform_blocks[number], bytes, block.byte_size);
     for (uint32_t i = 0; i < block.num_variables; ++i) {
         mxg_variable v = MXG_INIT(mxg_variable);
         float values[16];
@@ -356,10 +356,10 @@ static bool end_edit(struct host *h, mxg_edit *edit, bool only_uniforms)
     mxg_document *next;
     if (mxg_edit_error(edit)[0]) {
         fprintf(stderr, "%s\n", mxg_edit_error(edit));
-        mxg_edit_cancel(edit);
+        mxg_edit_destroy(edit);
         return false;
     }
-    mxg_status status = mxg_edit_end(edit, &next);
+    mxg_status status = mxg_edit_commit(edit, &next);
     print_diagnostics(mxg_document_diagnostics(next));
     if (status != MXG_OK) {
         mxg_document_destroy(next);
@@ -384,18 +384,19 @@ static bool set(struct host *h, const char *node, const char *input, const float
         fprintf(stderr, use.known ? "%s is connected\n" : "there is no %s\n", path);
         return false;
     }
-    if (mxg_edit_begin(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
+    if (mxg_edit_create(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
         return false;
-    mxg_edit_numbers(edit, mxg_edit_find(edit, node), input, use.type, values, num);
+    mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, node), input, use.type, values, num);
     return end_edit(h, edit, !use.compiled);
 }
 
 static bool connect_input(struct host *h, const char *node, const char *input, const char *from)
 {
     mxg_edit *edit;
-    if (mxg_edit_begin(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
+    if (mxg_edit_create(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
         return false;
-    mxg_edit_connect(edit, mxg_edit_find(edit, node), input, mxg_edit_find(edit, from), NULL);
+    mxg_edit_connect_input(edit, mxg_edit_find_element(edit, node), input,
+                           mxg_edit_find_element(edit, from), NULL);
     return end_edit(h, edit, false);
 }
 

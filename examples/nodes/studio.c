@@ -47,11 +47,12 @@ static bool build_curve(void *user_data, mxg_build *build, mxg_ref *results)
     struct knot knots[MAX_KNOTS];
     mxg_value text = MXG_INIT(mxg_value);
     (void)user_data;
-    if (!mxg_build_constant(build, "knots", &text))
+    if (!mxg_build_require_constant(build, "knots", &text))
         return false;
     int n = read_knots(text.text, knots);
     if (n == 0) {
-        mxg_build_error(build, "knots", "expected knots in ascending order, such as '0:0, 1:1'");
+        mxg_build_report_error(build, "knots",
+                               "expected knots in ascending order, such as '0:0, 1:1'");
         return false;
     }
     mxg_ref x = mxg_build_input(build, "in"),
@@ -78,14 +79,14 @@ static bool build_placed_texcoord(void *user_data, mxg_build *build, mxg_ref *re
     char stream[32];
     mxg_value index = MXG_INIT(mxg_value);
     (void)user_data;
-    if (!mxg_build_constant(build, "index", &index))
+    if (!mxg_build_require_constant(build, "index", &index))
         return false;
     snprintf(stream, sizeof stream, "texcoord_%d", index.integer);
     const mxg_ref args[] = {mxg_build_stream(build, stream, "vec2"),
                             mxg_build_input(build, "scale"), mxg_build_input(build, "offset")};
     mxg_ref placed =
         mxg_build_expression(build, "vec2", "{{uv}} * {{scale}} + {{offset}}", names, args, 3);
-    results[0] = mxg_build_interpolated(build, "placed_texcoord", placed);
+    results[0] = mxg_build_interpolation(build, "placed_texcoord", placed);
     return true;
 }
 

@@ -25,15 +25,15 @@ typedef uint32_t mxg_element;
 /* <materialx> */
 MXG_API mxg_element mxg_document_root(const mxg_document *document);
 /* By path: "NG_marble1/out". */
-MXG_API mxg_element mxg_document_find(const mxg_document *document, const char *path);
-MXG_API mxg_element mxg_document_child(const mxg_document *document, mxg_element parent,
-                                       const char *name);
+MXG_API mxg_element mxg_document_find_element(const mxg_document *document, const char *path);
+MXG_API mxg_element mxg_document_find_child(const mxg_document *document, mxg_element parent,
+                                            const char *name);
 /*
  * Writes the path as far as it fits, and a NUL; returns its length, or 0 for the root and for no
  * element.
  */
-MXG_API size_t mxg_document_path(const mxg_document *document, mxg_element element, char *out,
-                                 size_t capacity);
+MXG_API size_t mxg_document_element_path(const mxg_document *document, mxg_element element,
+                                         char *out, size_t capacity);
 
 typedef struct mxg_element_info {
     size_t size;                           /* in */
@@ -56,8 +56,8 @@ typedef struct mxg_attribute {
 MXG_API mxg_status mxg_document_attribute(const mxg_document *document, mxg_element element,
                                           uint32_t index, mxg_attribute *out);
 /* The value of an attribute by name ("name" included); NULL if it is absent. */
-MXG_API const char *mxg_document_attribute_value(const mxg_document *document, mxg_element element,
-                                                 const char *name);
+MXG_API const char *mxg_document_find_attribute(const mxg_document *document, mxg_element element,
+                                                const char *name);
 
 /* The value of an input, output, token or other element with `value`. */
 typedef struct mxg_value {
@@ -96,10 +96,10 @@ MXG_API mxg_status mxg_document_connection(const mxg_document *document, mxg_ele
 /*
  * The definition of a node, or of the nodegraph that implements it. The index counts through the
  * library and the document: mxg_document_nodedef. false: there is none, or it does not fit; the
- * diagnostics of mxg_document_validate give the reason.
+ * diagnostics of mxg_validate give the reason.
  */
-MXG_API bool mxg_document_definition(const mxg_document *document, mxg_element element,
-                                     uint32_t *out_nodedef);
+MXG_API bool mxg_document_find_nodedef(const mxg_document *document, mxg_element element,
+                                       uint32_t *out_nodedef);
 /* Like mxg_library_nodedef and its neighbours, with the definitions of the document as well. */
 MXG_API uint32_t mxg_document_num_nodedefs(const mxg_document *document);
 MXG_API mxg_status mxg_document_nodedef(const mxg_document *document, uint32_t index,
@@ -117,24 +117,24 @@ MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_s
 /* ---- Edits ---- */
 
 /*
- * Makes a document from another one, or from nothing. Documents stay immutable: mxg_edit_end makes
- * the next one, which shares memory with the document that it comes from. An edit takes time and
- * memory for its changes, however large the document. Only a change of a definition, the first
+ * Makes a document from another one, or from nothing. Documents stay immutable: mxg_edit_commit
+ * makes the next one, which shares memory with the document that it comes from. An edit takes time
+ * and memory for its changes, however large the document. Only a change of a definition, the first
  * material of a document, and the removal of the last one take the time of an index of the whole,
  * and so does an edit after as many changes as the document has elements.
  *
  *     mxg_edit *edit;
- *     mxg_edit_begin(ctx, lib, NULL, "gold", &edit);
- *     mxg_element shader = mxg_edit_add(edit, 0, "standard_surface", "SR", "surfaceshader");
- *     mxg_edit_value(edit, shader, "base_color", "color3", "0.9, 0.6, 0.2");
- *     mxg_element material = mxg_edit_add(edit, 0, "surfacematerial", "Gold", "material");
- *     mxg_edit_connect(edit, material, "surfaceshader", shader, NULL);
- *     mxg_edit_end(edit, &doc);
+ *     mxg_edit_create(ctx, lib, NULL, "gold", &edit);
+ *     mxg_element shader = mxg_edit_add_element(edit, 0, "standard_surface", "SR",
+ * "surfaceshader"); mxg_edit_set_value(edit, shader, "base_color", "color3", "0.9, 0.6, 0.2");
+ *     mxg_element material = mxg_edit_add_element(edit, 0, "surfacematerial", "Gold", "material");
+ *     mxg_edit_connect_input(edit, material, "surfaceshader", shader, NULL);
+ *     mxg_edit_commit(edit, &doc);
  *
  * An edit that fails changes nothing, returns MXG_ERROR_ARGUMENT (or 0 for an element), and
  * mxg_edit_error gives the reason. The calls check what they can check alone: names, places in the
- * tree, text that XML can hold. mxg_edit_end checks the rest like mxg_document_parse. One thread at
- * a time may use an edit.
+ * tree, text that XML can hold. mxg_edit_commit checks the rest like mxg_document_parse. One thread
+ * at a time may use an edit.
  */
 typedef struct mxg_edit mxg_edit;
 
@@ -144,53 +144,55 @@ typedef struct mxg_edit mxg_edit;
  * library must be `library`. `from` may end before the edit; its context must outlive the document
  * that the edit makes.
  */
-MXG_API mxg_status mxg_edit_begin(mxg_context *context, mxg_library *library,
-                                  const mxg_document *from, const char *name, mxg_edit **out_edit);
+MXG_API mxg_status mxg_edit_create(mxg_context *context, mxg_library *library,
+                                   const mxg_document *from, const char *name, mxg_edit **out_edit);
 
 /* Elements of the edit, as it is now. */
-MXG_API mxg_element mxg_edit_find(const mxg_edit *edit, const char *path);
-MXG_API mxg_element mxg_edit_child(const mxg_edit *edit, mxg_element parent, const char *name);
+MXG_API mxg_element mxg_edit_find_element(const mxg_edit *edit, const char *path);
+MXG_API mxg_element mxg_edit_find_child(const mxg_edit *edit, mxg_element parent, const char *name);
 
 /*
  * Appends an element; parent 0 is the root. `name` and `type` may be NULL. A name must be valid and
  * new below the parent.
  */
-MXG_API mxg_element mxg_edit_add(mxg_edit *edit, mxg_element parent, const char *category,
-                                 const char *name, const char *type);
-/* Sets an attribute; a value of NULL removes it. "name" works like mxg_edit_rename. */
-MXG_API mxg_status mxg_edit_set(mxg_edit *edit, mxg_element element, const char *attribute,
-                                const char *value);
+MXG_API mxg_element mxg_edit_add_element(mxg_edit *edit, mxg_element parent, const char *category,
+                                         const char *name, const char *type);
+/* Sets an attribute; a value of NULL removes it. "name" works like mxg_edit_rename_element. */
+MXG_API mxg_status mxg_edit_set_attribute(mxg_edit *edit, mxg_element element,
+                                          const char *attribute, const char *value);
 /* Renames an element, and changes the references to it: connections, definitions, assignments. */
-MXG_API mxg_status mxg_edit_rename(mxg_edit *edit, mxg_element element, const char *name);
+MXG_API mxg_status mxg_edit_rename_element(mxg_edit *edit, mxg_element element, const char *name);
 /*
  * Gives an input of a node a value, and removes its connection. Adds the input if the node has
  * none of this name. `type` NULL: the type of the input that is there.
  */
-MXG_API mxg_status mxg_edit_value(mxg_edit *edit, mxg_element node, const char *input,
-                                  const char *type, const char *value);
+MXG_API mxg_status mxg_edit_set_value(mxg_edit *edit, mxg_element node, const char *input,
+                                      const char *type, const char *value);
 /* The same for a number, integer, boolean, colour, vector or matrix. */
-MXG_API mxg_status mxg_edit_numbers(mxg_edit *edit, mxg_element node, const char *input,
-                                    const char *type, const float *values, uint32_t num_values);
+MXG_API mxg_status mxg_edit_set_numbers(mxg_edit *edit, mxg_element node, const char *input,
+                                        const char *type, const float *values, uint32_t num_values);
 /*
  * Connects an input of a node, or an <output> element (then `input` is NULL), to a node or
  * nodegraph beside it, to a nodegraph of the root, or to an input of the nodegraph around it.
  * Removes the value. Adds the input if it is missing, with the type of `from`, or of its output
  * `output` (NULL: the only one).
  */
-MXG_API mxg_status mxg_edit_connect(mxg_edit *edit, mxg_element node, const char *input,
-                                    mxg_element from, const char *output);
-/* Removes an element with all below it. References to it become errors of mxg_edit_end's document.
+MXG_API mxg_status mxg_edit_connect_input(mxg_edit *edit, mxg_element node, const char *input,
+                                          mxg_element from, const char *output);
+/* Removes an element with all below it. References to it become errors of mxg_edit_commit's
+ * document.
  */
-MXG_API mxg_status mxg_edit_remove(mxg_edit *edit, mxg_element element);
+MXG_API mxg_status mxg_edit_remove_element(mxg_edit *edit, mxg_element element);
 /* Moves an element before another one (`before` 0: to the end) below `parent` (0: the root). */
-MXG_API mxg_status mxg_edit_move(mxg_edit *edit, mxg_element element, mxg_element parent,
-                                 mxg_element before);
+MXG_API mxg_status mxg_edit_move_element(mxg_edit *edit, mxg_element element, mxg_element parent,
+                                         mxg_element before);
 /*
  * Appends a copy of an element of any document, with all below it. `name` NULL keeps the name,
  * which must be new below the parent.
  */
-MXG_API mxg_element mxg_edit_copy(mxg_edit *edit, mxg_element parent, const mxg_document *document,
-                                  mxg_element element, const char *name);
+MXG_API mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent,
+                                          const mxg_document *document, mxg_element element,
+                                          const char *name);
 
 /* The reason of the last failure; "" if no call failed. Valid until the next call. */
 MXG_API const char *mxg_edit_error(const mxg_edit *edit);
@@ -200,9 +202,9 @@ MXG_API const char *mxg_edit_error(const mxg_edit *edit);
  * allows, also with MXG_ERROR_DOCUMENT. Diagnostics name an element that the edit added by its
  * path, because it has no line.
  */
-MXG_API mxg_status mxg_edit_end(mxg_edit *edit, mxg_document **out_document);
+MXG_API mxg_status mxg_edit_commit(mxg_edit *edit, mxg_document **out_document);
 /* Frees the edit. Accepts NULL. */
-MXG_API void mxg_edit_cancel(mxg_edit *edit);
+MXG_API void mxg_edit_destroy(mxg_edit *edit);
 
 /* ---- Text for text ---- */
 

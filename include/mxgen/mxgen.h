@@ -77,11 +77,7 @@ extern "C" {
 #define MXG_VERSION_MINOR 1
 #define MXG_VERSION_PATCH 0
 
-/*
- * The version of the library at run time, as major * 1000000 + minor * 1000 + patch and as text
- * "0.1.0".
- */
-MXG_API uint32_t mxg_version(void);
+/* The version of the library at run time: "0.1.0". */
 MXG_API const char *mxg_version_string(void);
 
 /* ---- Status ---- */
@@ -270,12 +266,11 @@ typedef struct mxg_diagnostic {
  * diagnostic that they explain.
  */
 typedef struct mxg_diagnostics mxg_diagnostics;
-MXG_API uint32_t mxg_diagnostics_count(const mxg_diagnostics *list);
+MXG_API uint32_t mxg_diagnostics_num_items(const mxg_diagnostics *list);
 /* number of errors, including errors beyond max_errors */
-MXG_API uint32_t mxg_diagnostics_errors(const mxg_diagnostics *list);
-MXG_API uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list);
-MXG_API mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index,
-                                       mxg_diagnostic *out);
+MXG_API uint32_t mxg_diagnostics_num_errors(const mxg_diagnostics *list);
+MXG_API mxg_status mxg_diagnostics_item(const mxg_diagnostics *list, uint32_t index,
+                                        mxg_diagnostic *out);
 /*
  * Formats one diagnostic as compilers do. If `source`, which may be NULL, contains the text of the
  * file, the output shows the source line with a caret. Writes at most `capacity` bytes including a
@@ -303,8 +298,8 @@ typedef struct mxg_diagnostic_kind {
      */
     const char *example;
 } mxg_diagnostic_kind;
-MXG_API uint32_t mxg_num_diagnostic_kinds(void);
-MXG_API mxg_status mxg_get_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *out);
+MXG_API uint32_t mxg_catalogue_num_diagnostic_kinds(void);
+MXG_API mxg_status mxg_catalogue_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *out);
 
 MXG_API const mxg_diagnostics *mxg_library_diagnostics(const mxg_library *library);
 MXG_API const mxg_diagnostics *mxg_document_diagnostics(const mxg_document *document);
@@ -344,8 +339,7 @@ MXG_API const char *mxg_library_file(const mxg_library *library, uint32_t index)
  */
 MXG_API mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size);
 /* The library as a plain MaterialX document with all templates expanded. */
-MXG_API mxg_status mxg_library_expand(mxg_library *library, const char **out_text,
-                                      size_t *out_size);
+MXG_API mxg_status mxg_library_xml(mxg_library *library, const char **out_text, size_t *out_size);
 /*
  * What this document lacks: a warning `expand-loss` for each input that mxgen's code for a node
  * reads, and the node's graph for other tools does not. They live as long as the library. NULL: out
@@ -380,7 +374,8 @@ MXG_API mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t inde
 MXG_API mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
                                     mxg_port *out);
 /* True if the definition has an implementation for the target (by name). */
-MXG_API bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const char *target);
+MXG_API bool mxg_library_has_implementation(const mxg_library *library, uint32_t nodedef,
+                                            const char *target);
 
 /* ---- Document ---- */
 
@@ -423,8 +418,8 @@ MXG_API mxg_status mxg_document_look_material(const mxg_document *document, cons
 /*
  * Checks every node, connection and value of the document against its library, without generating.
  */
-MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document,
-                                         mxg_result **out_result);
+MXG_API mxg_status mxg_validate(mxg_context *context, const mxg_document *document,
+                                mxg_result **out_result);
 
 /* The elements of documents, edits, and documents as text. */
 #include <mxgen/document.h>
@@ -444,8 +439,8 @@ typedef struct mxg_target {
      */
     const char *stage_suffix[2];
 } mxg_target;
-MXG_API uint32_t mxg_num_targets(void);
-MXG_API mxg_status mxg_get_target(uint32_t index, mxg_target *out);
+MXG_API uint32_t mxg_catalogue_num_targets(void);
+MXG_API mxg_status mxg_catalogue_target(uint32_t index, mxg_target *out);
 
 typedef enum mxg_option_type {
     MXG_OPTION_BOOL,
@@ -468,13 +463,13 @@ typedef struct mxg_option {
  * Every option of generation. The command line makes its flags from this list; a host can make its
  * user interface from it.
  */
-MXG_API uint32_t mxg_num_options(void);
-MXG_API mxg_status mxg_get_option(uint32_t index, mxg_option *out);
+MXG_API uint32_t mxg_catalogue_num_options(void);
+MXG_API mxg_status mxg_catalogue_option(uint32_t index, mxg_option *out);
 /*
  * True if the option has a meaning for the target; a target ignores the others, so one set of
  * options serves several targets. False for an unknown index or target.
  */
-MXG_API bool mxg_option_applies(uint32_t index, const char *target);
+MXG_API bool mxg_catalogue_has_option(uint32_t index, const char *target);
 
 MXG_API mxg_status mxg_options_create(mxg_context *context, mxg_options **out_options);
 MXG_API void mxg_options_destroy(mxg_options *options);
@@ -540,8 +535,8 @@ MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *docume
  * that the options do not ask for ("diffuse", "blur") has no source and no reflection. `desc` names
  * a target and options only.
  */
-MXG_API uint32_t mxg_num_passes(void);
-MXG_API const char *mxg_pass_name(uint32_t index); /* NULL: there is no such pass */
+MXG_API uint32_t mxg_catalogue_num_passes(void);
+MXG_API const char *mxg_catalogue_pass(uint32_t index); /* NULL: there is no such pass */
 MXG_API mxg_status mxg_generate_pass(mxg_context *context, uint32_t index,
                                      const mxg_generate_desc *desc, mxg_result **out_result);
 
@@ -560,8 +555,8 @@ typedef struct mxg_pass_resource {
     uint32_t byte_size;   /* of a buffer, without its arrays per tile or pixel */
     uint32_t num_members; /* of a buffer */
 } mxg_pass_resource;
-MXG_API uint32_t mxg_num_pass_resources(void);
-MXG_API mxg_status mxg_get_pass_resource(uint32_t index, mxg_pass_resource *out);
+MXG_API uint32_t mxg_catalogue_num_pass_resources(void);
+MXG_API mxg_status mxg_catalogue_pass_resource(uint32_t index, mxg_pass_resource *out);
 
 /* A member of a buffer. */
 typedef struct mxg_pass_member {
@@ -577,7 +572,8 @@ typedef struct mxg_pass_member {
     bool
         is_nested; /* in the struct that is the type of the last member before that is not nested */
 } mxg_pass_member;
-MXG_API mxg_status mxg_get_pass_member(uint32_t resource, uint32_t index, mxg_pass_member *out);
+MXG_API mxg_status mxg_catalogue_pass_member(uint32_t resource, uint32_t index,
+                                             mxg_pass_member *out);
 
 /* How a pass runs. */
 typedef struct mxg_pass {
@@ -822,8 +818,8 @@ typedef struct mxg_semantic {
     const char *type; /* "vec3"; "": several */
     const char *doc;
 } mxg_semantic;
-MXG_API uint32_t mxg_num_semantics(void);
-MXG_API mxg_status mxg_get_semantic(uint32_t index, mxg_semantic *out);
+MXG_API uint32_t mxg_catalogue_num_semantics(void);
+MXG_API mxg_status mxg_catalogue_semantic(uint32_t index, mxg_semantic *out);
 
 /* ---- Values ---- */
 
@@ -868,8 +864,8 @@ MXG_API mxg_status mxg_result_block(const mxg_result *result, mxg_block block, m
  * columns matrix_stride bytes apart, and bytes between members are 0. Lights are 0. Returns
  * byte_size of the block; writes nothing if `capacity` is less.
  */
-MXG_API size_t mxg_result_pack(const mxg_result *result, mxg_block block, void *bytes,
-                               size_t capacity);
+MXG_API size_t mxg_result_pack_block(const mxg_result *result, mxg_block block, void *bytes,
+                                     size_t capacity);
 /*
  * Writes the value of one variable to its place in such a buffer; `element` is the light of a
  * member of LightData, or the element of an array, else 0. Integers and booleans come as numbers.
@@ -881,15 +877,16 @@ MXG_API mxg_status mxg_result_pack_value(const mxg_result *result, uint32_t vari
                                          void *bytes, size_t capacity);
 
 /*
- * Fills a buffer like mxg_result_pack, with the values that another document has for the program:
- * the next document after an edit of inputs that are uniforms (mxg_result_input_state). Reads these
- * inputs and nothing else, so it is much faster than a generation, which mxg_result_change needs.
- * MXG_ERROR_DOCUMENT if the document has another node or no value there, for example because the
- * input is connected; the buffer is then not filled, and the host generates. MXG_ERROR_ARGUMENT if
- * the document has another library, the block is in no buffer, or `capacity` is too small.
+ * Fills a buffer like mxg_result_pack_block, with the values that another document has for the
+ * program: the next document after an edit of inputs that are uniforms (mxg_result_input_state).
+ * Reads these inputs and nothing else, so it is much faster than a generation, which
+ * mxg_result_change needs. MXG_ERROR_DOCUMENT if the document has another node or no value there,
+ * for example because the input is connected; the buffer is then not filled, and the host
+ * generates. MXG_ERROR_ARGUMENT if the document has another library, the block is in no buffer, or
+ * `capacity` is too small.
  */
-MXG_API mxg_status mxg_document_values(const mxg_document *document, const mxg_result *program,
-                                       mxg_block block, void *bytes, size_t capacity);
+MXG_API mxg_status mxg_document_pack_block(const mxg_document *document, const mxg_result *program,
+                                           mxg_block block, void *bytes, size_t capacity);
 
 /* A light shader of the result: u_lightData[i].type selects it for light i. */
 typedef struct mxg_light_type {

@@ -40,9 +40,9 @@ typedef uint32_t mxg_ref;
 
 /*
  * Writes a value for each output, in the order of the definition. Returns false if it reported an
- * error (mxg_build_error). mxgen calls the function for each use with other arguments, and may keep
- * the results for equal ones: they may only depend on the arguments, on the options of generation
- * and on `version`. Several threads may call it at once.
+ * error (mxg_build_report_error). mxgen calls the function for each use with other arguments, and
+ * may keep the results for equal ones: they may only depend on the arguments, on the options of
+ * generation and on `version`. Several threads may call it at once.
  *
  * A call below that fails reports the reason, or the memory or the number of nodes has reached the
  * limit of the context. Every later call then returns 0 or false at once, so a function may test
@@ -74,9 +74,9 @@ typedef struct mxg_build_info {
     const char *node;    /* "gain" */
     const char *target;  /* MaterialX name, "genglsl" */
     uint32_t num_inputs, num_outputs;
-    bool has_vertex_stage; /* otherwise mxg_build_interpolated changes nothing */
+    bool has_vertex_stage; /* otherwise mxg_build_interpolation changes nothing */
 } mxg_build_info;
-MXG_API mxg_status mxg_build_get_info(mxg_build *build, mxg_build_info *out);
+MXG_API mxg_status mxg_build_use(mxg_build *build, mxg_build_info *out);
 /* Name and type of an input, or after the inputs of an output. NULL: there is none. */
 MXG_API const char *mxg_build_port(mxg_build *build, uint32_t index, const char **out_type);
 
@@ -93,14 +93,14 @@ MXG_API const char *mxg_build_type(mxg_build *build, mxg_ref value);
  * True if the value is a constant; *out, which may be NULL, receives it. `text` is set for strings
  * and lives until the generation ends.
  */
-MXG_API bool mxg_build_known(mxg_build *build, mxg_ref value, struct mxg_value *out);
+MXG_API bool mxg_build_value(mxg_build *build, mxg_ref value, struct mxg_value *out);
 /*
  * The value of an input on which the result depends in another way than by ops, such as an index or
  * a list in a string. If a uniform has it, the input becomes one that is compiled in. False after
  * the message that the input must be a constant. In networks of OSL, only strings and inputs with
  * uniform="true" in the definition are constants.
  */
-MXG_API bool mxg_build_constant(mxg_build *build, const char *input, struct mxg_value *out);
+MXG_API bool mxg_build_require_constant(mxg_build *build, const char *input, struct mxg_value *out);
 
 /* ---- Values ---- */
 
@@ -145,7 +145,7 @@ MXG_API mxg_ref mxg_build_stream(mxg_build *build, const char *name, const char 
  * varies little. At the vertices, derivatives are 0 and textures have level 0. Integers and vectors
  * of integers are not interpolated: a pixel has the value of one vertex. `name` names the variable.
  */
-MXG_API mxg_ref mxg_build_interpolated(mxg_build *build, const char *name, mxg_ref value);
+MXG_API mxg_ref mxg_build_interpolation(mxg_build *build, const char *name, mxg_ref value);
 
 /* A uniform or texture that the host sets; equal names are one variable. */
 typedef struct mxg_build_uniform {
@@ -168,7 +168,7 @@ MXG_API mxg_ref mxg_build_add_uniform(mxg_build *build, const mxg_build_uniform 
  * Reports an error of the node, or of one of its inputs; `input` may be NULL. The function then
  * returns false.
  */
-MXG_API void mxg_build_error(mxg_build *build, const char *input, const char *text);
+MXG_API void mxg_build_report_error(mxg_build *build, const char *input, const char *text);
 
 /* ---- Plug-ins ---- */
 

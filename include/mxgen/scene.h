@@ -36,10 +36,11 @@ MXG_API void mxg_scene_destroy(mxg_scene *scene);
 /*
  * Adds primitives by their paths, "/set/table", and those above them. MXG_ERROR_DOCUMENT if a path
  * is none; the others are added. A change of a scene, also by the functions below, makes its
- * bindings say nothing any more (0, UINT32_MAX, MXG_ERROR_ARGUMENT): call mxg_bind again, which
- * needs little time with member `previous` of mxg_bind_desc.
+ * bindings say nothing any more (0, UINT32_MAX, MXG_ERROR_ARGUMENT): call mxg_bindings_create
+ * again, which needs little time with member `previous` of mxg_bindings_desc.
  */
-MXG_API mxg_status mxg_scene_add(mxg_scene *scene, const char *const *paths, size_t num_paths);
+MXG_API mxg_status mxg_scene_add_paths(mxg_scene *scene, const char *const *paths,
+                                       size_t num_paths);
 
 typedef struct mxg_primitive {
     size_t size; /* in */
@@ -52,22 +53,22 @@ typedef struct mxg_primitive {
 } mxg_primitive;
 
 /*
- * The same as mxg_scene_add, from a callback, which gives one primitive in each call and returns
- * false at the end: `parent` (UINT32_MAX: none), `name`, which may be a path below the parent,
- * "b/c", and `type`; the texts live until the next call. `last` is the number of the primitive
- * before, also if the scene had it already; UINT32_MAX: there is none, or it was faulty. The
- * callback must not use the scene.
+ * The same as mxg_scene_add_paths, from a callback, which gives one primitive in each call and
+ * returns false at the end: `parent` (UINT32_MAX: none), `name`, which may be a path below the
+ * parent, "b/c", and `type`; the texts live until the next call. `last` is the number of the
+ * primitive before, also if the scene had it already; UINT32_MAX: there is none, or it was faulty.
+ * The callback must not use the scene.
  */
-MXG_API mxg_status mxg_scene_add_each(mxg_scene *scene,
-                                      bool (*next_primitive)(void *user_data, uint32_t last,
-                                                             mxg_primitive *out),
-                                      void *user_data);
+MXG_API mxg_status mxg_scene_add_primitives(mxg_scene *scene,
+                                            bool (*next_primitive)(void *user_data, uint32_t last,
+                                                                   mxg_primitive *out),
+                                            void *user_data);
 /*
  * Removes primitives, all below them, and their bindings. MXG_ERROR_ARGUMENT if a number is none of
  * a primitive: all stay.
  */
-MXG_API mxg_status mxg_scene_remove(mxg_scene *scene, const uint32_t *primitives,
-                                    size_t num_primitives);
+MXG_API mxg_status mxg_scene_remove_primitives(mxg_scene *scene, const uint32_t *primitives,
+                                               size_t num_primitives);
 /*
  * Primitives have numbers from 0 on, below this one; a parent has a lower one than its children.
  * The others keep theirs when some are removed, whose numbers say MXG_ERROR_ARGUMENT from then on.
@@ -75,10 +76,10 @@ MXG_API mxg_status mxg_scene_remove(mxg_scene *scene, const uint32_t *primitives
 MXG_API uint32_t mxg_scene_num_primitives(const mxg_scene *scene);
 MXG_API mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primitive *out);
 /* The number of a primitive; UINT32_MAX: there is none of this path. */
-MXG_API uint32_t mxg_scene_find(const mxg_scene *scene, const char *path);
+MXG_API uint32_t mxg_scene_find_primitive(const mxg_scene *scene, const char *path);
 /* Writes a path like mxg_slot_encode. */
-MXG_API size_t mxg_scene_path(const mxg_scene *scene, uint32_t index, char *buffer,
-                              size_t capacity);
+MXG_API size_t mxg_scene_primitive_path(const mxg_scene *scene, uint32_t index, char *buffer,
+                                        size_t capacity);
 
 /* ---- Bindings of the scene itself ---- */
 
@@ -86,12 +87,13 @@ MXG_API size_t mxg_scene_path(const mxg_scene *scene, uint32_t index, char *buff
  * Binds a material to a slot of a primitive, or a nodegraph or a material to an override; ""
  * removes what the primitive would inherit. It replaces the direct bindings of the slot there, also
  * those of a file. Primitive UINT32_MAX is the whole scene. Bindings of a scene count as earlier
- * than those of a look. MXG_ERROR_DOCUMENT if the slot's name is none; mxg_bind finds the material.
+ * than those of a look. MXG_ERROR_DOCUMENT if the slot's name is none; mxg_bindings_create finds
+ * the material.
  */
-MXG_API mxg_status mxg_scene_bind(mxg_scene *scene, uint32_t primitive, const char *slot,
-                                  const char *material);
+MXG_API mxg_status mxg_scene_set_binding(mxg_scene *scene, uint32_t primitive, const char *slot,
+                                         const char *material);
 /* Removes the direct bindings of a slot there; what the primitive inherits shows again. */
-MXG_API mxg_status mxg_scene_unbind(mxg_scene *scene, uint32_t primitive, const char *slot);
+MXG_API mxg_status mxg_scene_remove_binding(mxg_scene *scene, uint32_t primitive, const char *slot);
 
 typedef struct mxg_slot_binding {
     size_t size; /* in */
@@ -100,7 +102,7 @@ typedef struct mxg_slot_binding {
     bool is_collection;   /* it is for the members of a collection */
     bool is_strong;       /* it beats the bindings of the scene below it */
     bool is_purpose;      /* it is for the purpose of mxg_scene_load */
-    const char *file;     /* "": from mxg_scene_bind */
+    const char *file;     /* "": from mxg_scene_set_binding */
     uint32_t line;
 } mxg_slot_binding;
 /* The bindings that stand at a primitive (UINT32_MAX: the whole scene). Texts live until a change.
@@ -136,17 +138,17 @@ MXG_API bool mxg_scene_find_property(const mxg_scene *scene, uint32_t primitive,
  * The numbers of a property in a row; true is 1. Writes at most `capacity` of them, and returns
  * how many there are.
  */
-MXG_API size_t mxg_scene_numbers(const mxg_scene *scene, uint32_t primitive, const char *name,
-                                 double *out, size_t capacity);
+MXG_API size_t mxg_scene_property_numbers(const mxg_scene *scene, uint32_t primitive,
+                                          const char *name, double *out, size_t capacity);
 /*
  * Word `index` of a property: a string or token without quotes, or a path. Writes like
  * mxg_slot_encode; 0: there is none.
  */
-MXG_API size_t mxg_scene_word(const mxg_scene *scene, uint32_t primitive, const char *name,
-                              uint32_t index, char *buffer, size_t capacity);
+MXG_API size_t mxg_scene_property_word(const mxg_scene *scene, uint32_t primitive, const char *name,
+                                       uint32_t index, char *buffer, size_t capacity);
 /* The primitive that word `index` of a relationship names; UINT32_MAX: none. */
-MXG_API uint32_t mxg_scene_target(const mxg_scene *scene, uint32_t primitive, const char *name,
-                                  uint32_t index);
+MXG_API uint32_t mxg_scene_property_target(const mxg_scene *scene, uint32_t primitive,
+                                           const char *name, uint32_t index);
 /* 'Y' or 'Z'. */
 MXG_API char mxg_scene_up_axis(const mxg_scene *scene);
 /* Metres in a unit of the scene; 0.01 if a file of USD does not say it, 0 of a list. */
@@ -158,13 +160,13 @@ MXG_API double mxg_scene_meters_per_unit(const mxg_scene *scene);
  * Material become the interface of the nodegraph. NULL as document: only these materials.
  * *out_document is set like that of mxg_document_parse.
  */
-MXG_API mxg_status mxg_document_with_materials(mxg_context *context, mxg_library *library,
-                                               const mxg_document *document, const mxg_scene *scene,
-                                               mxg_document **out_document);
+MXG_API mxg_status mxg_document_import(mxg_context *context, mxg_library *library,
+                                       const mxg_document *document, const mxg_scene *scene,
+                                       mxg_document **out_document);
 
 /* ---- Bindings ---- */
 
-typedef struct mxg_bind_desc {
+typedef struct mxg_bindings_desc {
     size_t size;
     /*
      * a look, or a look group with a default; NULL: the only look, or just the bindings of the
@@ -179,22 +181,23 @@ typedef struct mxg_bind_desc {
      * again. The result is the same.
      */
     const mxg_bindings *previous;
-} mxg_bind_desc;
-#define MXG_BIND_DESC_INIT MXG_INIT(mxg_bind_desc)
+} mxg_bindings_desc;
+#define MXG_BINDINGS_DESC_INIT MXG_INIT(mxg_bindings_desc)
 
 /*
  * Finds the layers of each primitive of a scene. desc may be NULL: all defaults. *out_bindings is
  * set whenever memory allows; with MXG_ERROR_DOCUMENT the faulty assignments are missing.
  */
-MXG_API mxg_status mxg_bind(mxg_context *context, const mxg_document *document, mxg_scene *scene,
-                            const mxg_bind_desc *desc, mxg_bindings **out_bindings);
+MXG_API mxg_status mxg_bindings_create(mxg_context *context, const mxg_document *document,
+                                       mxg_scene *scene, const mxg_bindings_desc *desc,
+                                       mxg_bindings **out_bindings);
 MXG_API void mxg_bindings_destroy(mxg_bindings *bindings);
 /*
  * The number of primitives whose assignments were found: all, or with `previous` those at or below
  * a new primitive or a place where an assignment or a collection stands that was not there. A
  * removed assignment, or another material, needs none.
  */
-MXG_API uint32_t mxg_bindings_num_resolved(const mxg_bindings *bindings);
+MXG_API uint32_t mxg_bindings_num_resolved_primitives(const mxg_bindings *bindings);
 
 typedef enum mxg_layer_kind {
     MXG_LAYER,          /* a slot; the base comes first */
@@ -270,10 +273,10 @@ MXG_API mxg_status mxg_bindings_write(const mxg_bindings *bindings, mxg_bindings
                                       bool (*write)(void *user_data, const char *data, size_t size),
                                       void *user_data);
 /* The same for the reasons of one primitive's layers: every assignment that was considered. */
-MXG_API mxg_status mxg_bindings_explain(const mxg_bindings *bindings, uint32_t primitive,
-                                        bool (*write)(void *user_data, const char *data,
-                                                      size_t size),
-                                        void *user_data);
+MXG_API mxg_status mxg_bindings_write_reasons(const mxg_bindings *bindings, uint32_t primitive,
+                                              bool (*write)(void *user_data, const char *data,
+                                                            size_t size),
+                                              void *user_data);
 
 #ifdef __cplusplus
 }

@@ -282,7 +282,7 @@ export class Context extends Owner {
         const native = this._native, used = document ? document.library : this.#libraryFor(library);
         return native.using(() => {
             const called = native.newText(name, "name");
-            const { handle } = this._make("mxg_edit_begin", "mxg_edit_cancel", document ? [used._handle, document._handle] : [used._handle],
+            const { handle } = this._make("mxg_edit_create", "mxg_edit_destroy", document ? [used._handle, document._handle] : [used._handle],
                                           out => [used._pointer, document ? document._pointer : 0, called, out]);
             return new Edit(this, used, document, handle);
         });
@@ -298,12 +298,12 @@ export class Context extends Owner {
         const native = this._native, { lib } = native;
         return native.using(() => withOptions(this, options, made => {
             const desc = native.newStruct("mxg_generate_desc", { target: native.newText(target, "target"), options: made });
-            const all = Array.from({ length: lib.mxg_num_passes() }, (_, index) => {
+            const all = Array.from({ length: lib.mxg_catalogue_num_passes() }, (_, index) => {
                 const { handle, status } = this._make("mxg_generate_pass", "mxg_result_destroy", [], out => [index, desc, out]);
                 const shader = new Shader(native, handle);
                 if (status === STATUS.errorDocument)
                     throw new DocumentError(shader.diagnostics);
-                return { name: native.text(lib.mxg_pass_name(index)), shader };
+                return { name: native.text(lib.mxg_catalogue_pass(index)), shader };
             });
             return all.filter(({ shader }) => shader.pixel !== null);
         }));
@@ -337,7 +337,7 @@ export class Context extends Owner {
     /** The materials in a USD scene as a document. `Document.withMaterials` adds them to one. Throws DocumentError. */
     sceneMaterials(scene, { library = null } = {}) {
         expect(scene, Scene, "scene");
-        return this._document(library, "mxg_document_with_materials", out => [0, scene._pointer, out]);
+        return this._document(library, "mxg_document_import", out => [0, scene._pointer, out]);
     }
 
     // ---- Texts ----

@@ -11,10 +11,10 @@ export class Diagnostics {
         this.#owner = owner;
         this.#list = list;
         const native = owner._native;
-        this.items = Object.freeze(native.records("mxg_diagnostic", native.lib.mxg_diagnostics_count(list),
-                                                  (index, out) => native.lib.mxg_diagnostics_get(list, index, out)));
-        this.errors = native.lib.mxg_diagnostics_errors(list);
-        this.warnings = native.lib.mxg_diagnostics_warnings(list);
+        this.items = Object.freeze(native.records("mxg_diagnostic", native.lib.mxg_diagnostics_num_items(list),
+                                                  (index, out) => native.lib.mxg_diagnostics_item(list, index, out)));
+        this.errors = native.lib.mxg_diagnostics_num_errors(list);
+        this.warnings = this.items.filter(item => item.severity === "warning").length;
     }
 
     get length() {

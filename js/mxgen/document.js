@@ -51,7 +51,7 @@ export class Element {
     /** "NG_marble1/out"; "" for the root. */
     get path() {
         const pointer = this.document._pointer;
-        return this.document._native.sizedText((out, capacity) => this.#lib.mxg_document_path(pointer, this.number, out, capacity));
+        return this.document._native.sizedText((out, capacity) => this.#lib.mxg_document_element_path(pointer, this.number, out, capacity));
     }
 
     /** Where the element begins: line and column from 1; null after an edit. */
@@ -78,7 +78,7 @@ export class Element {
     /** The element of a name directly below; null: there is none. */
     child(name) {
         const native = this.document._native;
-        return native.using(() => this.#element(this.#lib.mxg_document_child(this.document._pointer, this.number, native.newText(name, "name"))));
+        return native.using(() => this.#element(this.#lib.mxg_document_find_child(this.document._pointer, this.number, native.newText(name, "name"))));
     }
 
     /** The element and all elements below, in the order of the document. */
@@ -93,7 +93,7 @@ export class Element {
     /** The text of an attribute ("name" included); null if it is absent. */
     get(attribute) {
         const native = this.document._native;
-        return native.using(() => native.text(this.#lib.mxg_document_attribute_value(this.document._pointer, this.number,
+        return native.using(() => native.text(this.#lib.mxg_document_find_attribute(this.document._pointer, this.number,
                                                                                     native.newText(attribute, "attribute"))));
     }
 
@@ -146,7 +146,7 @@ export class Element {
         const native = this.document._native;
         const index = native.using(() => {
             const out = native.space(4);
-            return this.#lib.mxg_document_definition(this.document._pointer, this.number, out) ? native.pointer(out) : null;
+            return this.#lib.mxg_document_find_nodedef(this.document._pointer, this.number, out) ? native.pointer(out) : null;
         });
         return index === null ? null : readNodeDef(this.document, index, this.#lib.mxg_document_nodedef, this.#lib.mxg_document_port);
     }
@@ -186,7 +186,7 @@ export class Document extends Owner {
 
     /** An element by path: "NG_marble1/out"; null: there is none. */
     find(path) {
-        const number = this._native.using(() => this._native.lib.mxg_document_find(this._pointer, this._native.newText(path, "path")));
+        const number = this._native.using(() => this._native.lib.mxg_document_find_element(this._pointer, this._native.newText(path, "path")));
         return number ? new Element(this, number) : null;
     }
 
@@ -239,7 +239,7 @@ export class Document extends Owner {
     /** A copy with the materials of a USD scene that the document lacks. Throws DocumentError. */
     withMaterials(scene) {
         expect(scene, Scene, "scene");
-        return this.context._document(this.library, "mxg_document_with_materials", out => [this._pointer, scene._pointer, out]);
+        return this.context._document(this.library, "mxg_document_import", out => [this._pointer, scene._pointer, out]);
     }
 
     /**
@@ -251,11 +251,11 @@ export class Document extends Owner {
         expect(scene, Scene, "scene");
         const native = this._native;
         return native.using(() => {
-            const desc = native.newStruct("mxg_bind_desc", {
+            const desc = native.newStruct("mxg_bindings_desc", {
                 look: native.newOptionalText(look, "look"), solo: native.newTexts(solo, "a name of solo"), numSolo: solo.length,
                 mute: native.newTexts(mute, "a name of mute"), numMute: mute.length,
                 previous: previous === null ? 0 : expect(previous, Bindings, "previous")._pointer });
-            const { handle, status } = this.context._make("mxg_bind", "mxg_bindings_destroy", [this._handle, scene._handle],
+            const { handle, status } = this.context._make("mxg_bindings_create", "mxg_bindings_destroy", [this._handle, scene._handle],
                                                           out => [this._pointer, scene._pointer, desc, out]);
             const bindings = new Bindings(this, scene, handle);
             if (status !== STATUS.ok)
@@ -268,7 +268,7 @@ export class Document extends Owner {
 
     /** Checks every node, connection and value against the library, without generating. Errors are in the result. */
     validate() {
-        const made = this.context._make("mxg_document_validate", "mxg_result_destroy", [this._handle], out => [this._pointer, out]);
+        const made = this.context._make("mxg_validate", "mxg_result_destroy", [this._handle], out => [this._pointer, out]);
         return new Shader(this._native, made.handle).diagnostics;
     }
 

@@ -24,34 +24,34 @@ export class Draft {
 
     /** Appends an element below. The name must be new there. */
     add(category, name = null, type = null) {
-        return this.edit._made((lib, native, pointer) => lib.mxg_edit_add(pointer, this.number, native.newText(category, "category"),
+        return this.edit._made((lib, native, pointer) => lib.mxg_edit_add_element(pointer, this.number, native.newText(category, "category"),
             native.newOptionalText(name, "name"), native.newOptionalText(type, "type")));
     }
 
     /** The element of a name directly below; null: there is none. */
     child(name) {
         const native = this.edit._native;
-        const number = native.using(() => native.lib.mxg_edit_child(this.edit._pointer, this.number, native.newText(name, "name")));
+        const number = native.using(() => native.lib.mxg_edit_find_child(this.edit._pointer, this.number, native.newText(name, "name")));
         return number ? new Draft(this.edit, number) : null;
     }
 
     /** Sets an attribute; null removes it. */
     set(attribute, value) {
-        this.edit._change((lib, native, pointer) => lib.mxg_edit_set(pointer, this.number, native.newText(attribute, "attribute"),
+        this.edit._change((lib, native, pointer) => lib.mxg_edit_set_attribute(pointer, this.number, native.newText(attribute, "attribute"),
                                                                     native.newOptionalText(value, "value")));
         return this;
     }
 
     /** Renames the element, and changes the references to it. */
     rename(name) {
-        this.edit._change((lib, native, pointer) => lib.mxg_edit_rename(pointer, this.number, native.newText(name, "name")));
+        this.edit._change((lib, native, pointer) => lib.mxg_edit_rename_element(pointer, this.number, native.newText(name, "name")));
         return this;
     }
 
     /** Gives an input of a node a value, and removes its connection. An input that the node does not have yet needs a type. */
     value(input, value, type = null) {
         const text = textOf(value);
-        this.edit._change((lib, native, pointer) => lib.mxg_edit_value(pointer, this.number, native.newText(input, "input"),
+        this.edit._change((lib, native, pointer) => lib.mxg_edit_set_value(pointer, this.number, native.newText(input, "input"),
             native.newOptionalText(type, "type"), native.newText(text, "value")));
         return this;
     }
@@ -62,14 +62,14 @@ export class Draft {
      */
     connect(input, source, output = null) {
         this.edit._own(source);
-        this.edit._change((lib, native, pointer) => lib.mxg_edit_connect(pointer, this.number, native.newOptionalText(input, "input"),
+        this.edit._change((lib, native, pointer) => lib.mxg_edit_connect_input(pointer, this.number, native.newOptionalText(input, "input"),
             source.number, native.newOptionalText(output, "output")));
         return this;
     }
 
     /** Removes the element with all below it. */
     remove() {
-        this.edit._change((lib, _, pointer) => lib.mxg_edit_remove(pointer, this.number));
+        this.edit._change((lib, _, pointer) => lib.mxg_edit_remove_element(pointer, this.number));
     }
 
     /** Moves the element before another one (null: to the end) below `parent` (null: the root). */
@@ -77,7 +77,7 @@ export class Draft {
         for (const other of [parent, before])
             if (other !== null)
                 this.edit._own(other);
-        this.edit._change((lib, _, pointer) => lib.mxg_edit_move(pointer, this.number, parent?.number ?? 0, before?.number ?? 0));
+        this.edit._change((lib, _, pointer) => lib.mxg_edit_move_element(pointer, this.number, parent?.number ?? 0, before?.number ?? 0));
         return this;
     }
 
@@ -86,7 +86,7 @@ export class Draft {
         expect(element, Element, "element");
         if (element.document._native !== this.edit._native)
             throw new ArgumentError("the element is of another instance of mxgen");
-        return this.edit._made((lib, native, pointer) => lib.mxg_edit_copy(pointer, this.number, element.document._pointer, element.number,
+        return this.edit._made((lib, native, pointer) => lib.mxg_edit_copy_element(pointer, this.number, element.document._pointer, element.number,
                                                                           native.newOptionalText(name, "name")));
     }
 }
@@ -150,7 +150,7 @@ export class Edit extends Owner {
                 throw new ArgumentError("the edit comes from another document");
             return new Draft(this, path.number);
         }
-        const native = this._native, number = native.using(() => native.lib.mxg_edit_find(this._pointer, native.newText(path, "path")));
+        const native = this._native, number = native.using(() => native.lib.mxg_edit_find_element(this._pointer, native.newText(path, "path")));
         return number ? new Draft(this, number) : null;
     }
 
@@ -175,8 +175,8 @@ export class Edit extends Owner {
                 const out = native.space(4);
                 try {
                     status = this.#context._turn(() => {
-                        handle.forget(); // mxg_edit_end frees the edit in every case
-                        return native.lib.mxg_edit_end(pointer, out);
+                        handle.forget(); // mxg_edit_commit frees the edit in every case
+                        return native.lib.mxg_edit_commit(pointer, out);
                     });
                 } finally {
                     if (native.pointer(out))

@@ -63,7 +63,7 @@ export class Library extends Owner {
         const index = (this._handle, this.#index()).get(expect(name, "string", "name"));
         if (index === undefined)
             throw new ArgumentError(`the library has no definition '${name}'`);
-        return this._native.using(() => this._native.lib.mxg_library_supports(this._pointer, index, this._native.newText(target, "target")) !== 0);
+        return this._native.using(() => this._native.lib.mxg_library_has_implementation(this._pointer, index, this._native.newText(target, "target")) !== 0);
     }
 
     /** The library image, for `Context.loadLibrary(…, { standalone: true })`. The library must be standalone. */
@@ -73,7 +73,7 @@ export class Library extends Owner {
 
     /** The library as a plain MaterialX document with all templates expanded. */
     expand() {
-        return new TextDecoder().decode(this.#made(this._native.lib.mxg_library_expand));
+        return new TextDecoder().decode(this.#made(this._native.lib.mxg_library_xml));
     }
 
     /** What `expand` cannot say in graphs for other tools: a warning for each input. */

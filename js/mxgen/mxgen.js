@@ -38,22 +38,22 @@ export class Mxgen {
     /** Every target. */
     get targets() {
         const { lib } = this.#native;
-        return this.#native.records("mxg_target", lib.mxg_num_targets(), (index, out) => lib.mxg_get_target(index, out)).map(
+        return this.#native.records("mxg_target", lib.mxg_catalogue_num_targets(), (index, out) => lib.mxg_catalogue_target(index, out)).map(
             ({ stageSuffix: [vertex, pixel], ...target }) => ({ ...target, suffixes: { vertex, pixel } }));
     }
 
     /** Every option of `Document.generate`. */
     get options() {
         const { lib } = this.#native;
-        return this.#native.records("mxg_option", lib.mxg_num_options(), (index, out) => lib.mxg_get_option(index, out));
+        return this.#native.records("mxg_option", lib.mxg_catalogue_num_options(), (index, out) => lib.mxg_catalogue_option(index, out));
     }
 
     /** The resources that the passes of the deferred pipeline share; the place in the list is the binding. */
     get passResources() {
         const { lib } = this.#native;
-        const found = this.#native.records("mxg_pass_resource", lib.mxg_num_pass_resources(), (index, out) => lib.mxg_get_pass_resource(index, out));
+        const found = this.#native.records("mxg_pass_resource", lib.mxg_catalogue_num_pass_resources(), (index, out) => lib.mxg_catalogue_pass_resource(index, out));
         return found.map(({ numMembers, ...resource }, binding) => ({ ...resource,
-            members: this.#native.records("mxg_pass_member", numMembers, (index, out) => lib.mxg_get_pass_member(binding, index, out)) }));
+            members: this.#native.records("mxg_pass_member", numMembers, (index, out) => lib.mxg_catalogue_pass_member(binding, index, out)) }));
     }
 
     /** Whether an option has a meaning for a target, which ignores the others. */
@@ -63,7 +63,7 @@ export class Mxgen {
             throw new ArgumentError(`there is no option '${key}'`);
         if (!this.targets.some(({ name }) => name === target))
             throw new ArgumentError(`there is no target '${target}'`);
-        return this.#native.using(() => this.#native.lib.mxg_option_applies(index, this.#native.newText(target, "target")) !== 0);
+        return this.#native.using(() => this.#native.lib.mxg_catalogue_has_option(index, this.#native.newText(target, "target")) !== 0);
     }
 
     /** The name of a slot in USD: "050::010" is "_050:_:_010". */
@@ -79,13 +79,13 @@ export class Mxgen {
     /** Every diagnostic that mxgen can report. */
     get diagnosticKinds() {
         const { lib } = this.#native;
-        return this.#native.records("mxg_diagnostic_kind", lib.mxg_num_diagnostic_kinds(), (index, out) => lib.mxg_get_diagnostic_kind(index, out));
+        return this.#native.records("mxg_diagnostic_kind", lib.mxg_catalogue_num_diagnostic_kinds(), (index, out) => lib.mxg_catalogue_diagnostic_kind(index, out));
     }
 
     /** The meanings of variables without a path. */
     get semantics() {
         const { lib } = this.#native;
-        return this.#native.records("mxg_semantic", lib.mxg_num_semantics(), (index, out) => lib.mxg_get_semantic(index, out));
+        return this.#native.records("mxg_semantic", lib.mxg_catalogue_num_semantics(), (index, out) => lib.mxg_catalogue_semantic(index, out));
     }
 
     /** The values of an enumeration of the C interface: "mxg_view". */

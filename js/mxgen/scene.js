@@ -51,7 +51,7 @@ export class Primitive {
     /** "/set/table" */
     get path() {
         const { lib } = this.#native;
-        return this.#native.sizedText((out, capacity) => lib.mxg_scene_path(this.scene._pointer, this.number, out, capacity));
+        return this.#native.sizedText((out, capacity) => lib.mxg_scene_primitive_path(this.scene._pointer, this.number, out, capacity));
     }
 
     /** The primitive above; null for a root. */
@@ -91,7 +91,7 @@ export class Primitive {
     numbers(name) {
         const native = this.#native;
         return native.using(() => {
-            const key = native.newText(name, "name"), read = (out, capacity) => native.lib.mxg_scene_numbers(this.scene._pointer, this.number, key, out, capacity);
+            const key = native.newText(name, "name"), read = (out, capacity) => native.lib.mxg_scene_property_numbers(this.scene._pointer, this.number, key, out, capacity);
             const count = read(0, 0), out = native.space(count * 8);
             read(out, count);
             return Array.from({ length: count }, (_, index) => native.view.getFloat64(out + index * 8, true));
@@ -103,7 +103,7 @@ export class Primitive {
         const native = this.#native, found = [];
         return native.using(() => {
             const key = native.newText(name, "name");
-            for (let word; (word = native.sizedText((out, capacity) => native.lib.mxg_scene_word(this.scene._pointer, this.number, key, found.length, out,
+            for (let word; (word = native.sizedText((out, capacity) => native.lib.mxg_scene_property_word(this.scene._pointer, this.number, key, found.length, out,
                                                                                                 capacity)));)
                 found.push(word);
             return found;
@@ -114,7 +114,7 @@ export class Primitive {
     targets(name) {
         const native = this.#native;
         return this.words(name).map((_, index) => native.using(() => this.scene._primitive(
-            native.lib.mxg_scene_target(this.scene._pointer, this.number, native.newText(name, "name"), index))));
+            native.lib.mxg_scene_property_target(this.scene._pointer, this.number, native.newText(name, "name"), index))));
     }
 
     /** Whether both are the same primitive of the same scene. */
@@ -206,7 +206,7 @@ export class Scene extends Owner {
     add(...paths) {
         const native = this._native;
         native.using(() => {
-            const status = native.lib.mxg_scene_add(this._pointer, native.newTexts(paths, "a path"), paths.length);
+            const status = native.lib.mxg_scene_add_paths(this._pointer, native.newTexts(paths, "a path"), paths.length);
             this.#check(status);
         });
     }
@@ -238,7 +238,7 @@ export class Scene extends Owner {
     /** Removes primitives, all below them, and their bindings. The numbers of the others stay. Throws if one is removed already: all stay then. */
     remove(...primitives) {
         const native = this._native, numbers = primitives.map(primitive => this.#place(primitive));
-        native.using(() => this.#check(native.lib.mxg_scene_remove(this._pointer, native.newNumbers(numbers), numbers.length)));
+        native.using(() => this.#check(native.lib.mxg_scene_remove_primitives(this._pointer, native.newNumbers(numbers), numbers.length)));
     }
 
     // ---- Bindings of the scene itself ----
@@ -258,13 +258,13 @@ export class Scene extends Owner {
      */
     bind(primitive, slot, material) {
         const native = this._native, place = this.#place(primitive);
-        native.using(() => this.#check(native.lib.mxg_scene_bind(this._pointer, place, native.newText(slot, "slot"), native.newText(material, "material"))));
+        native.using(() => this.#check(native.lib.mxg_scene_set_binding(this._pointer, place, native.newText(slot, "slot"), native.newText(material, "material"))));
     }
 
     /** Removes the direct bindings of a slot from a primitive. */
     unbind(primitive, slot) {
         const native = this._native, place = this.#place(primitive);
-        native.using(() => this.#check(native.lib.mxg_scene_unbind(this._pointer, place, native.newText(slot, "slot"))));
+        native.using(() => this.#check(native.lib.mxg_scene_remove_binding(this._pointer, place, native.newText(slot, "slot"))));
     }
 
     /** The bindings of the scene itself that stand at a primitive; null: the whole scene. */
@@ -277,7 +277,7 @@ export class Scene extends Owner {
     /** A primitive by path; null: there is none. */
     find(path) {
         const native = this._native;
-        return this._primitive(native.using(() => native.lib.mxg_scene_find(this._pointer, native.newText(path, "path"))));
+        return this._primitive(native.using(() => native.lib.mxg_scene_find_primitive(this._pointer, native.newText(path, "path"))));
     }
 
     /** The number of primitives. */
@@ -289,7 +289,7 @@ export class Scene extends Owner {
     *[Symbol.iterator]() {
         const { lib } = this._native, num = lib.mxg_scene_num_primitives(this._pointer);
         for (let number = 0; number < num; number++)
-            if (lib.mxg_scene_path(this._pointer, number, 0, 0))
+            if (lib.mxg_scene_primitive_path(this._pointer, number, 0, 0))
                 yield new Primitive(this, number);
     }
 
@@ -332,7 +332,7 @@ export class Bindings extends Owner {
 
     /** The number of primitives whose assignments were found: all, or with `previous` those at or below a difference. */
     get numResolved() {
-        return this._native.lib.mxg_bindings_num_resolved(this._pointer);
+        return this._native.lib.mxg_bindings_num_resolved_primitives(this._pointer);
     }
 
     /** The structs of a primitive; `source` is the primitive that each comes from. */

@@ -171,8 +171,8 @@ export class Shader extends Owner {
     #filled(block, change) {
         const native = this._native, number = numberOf("mxg_block", block, "block");
         return native.using(() => {
-            const size = native.lib.mxg_result_pack(this._pointer, number, 0, 0), data = native.space(size);
-            native.lib.mxg_result_pack(this._pointer, number, data, size);
+            const size = native.lib.mxg_result_pack_block(this._pointer, number, 0, 0), data = native.space(size);
+            native.lib.mxg_result_pack_block(this._pointer, number, data, size);
             if (size)
                 change(number, data, size);
             return native.bytes(data, size).slice();
@@ -186,7 +186,7 @@ export class Shader extends Owner {
     packFrom(document, block) {
         expect(document, Document, "document");
         return this.#filled(block, (number, data, size) => {
-            const status = this._native.lib.mxg_document_values(document._pointer, this._pointer, number, data, size);
+            const status = this._native.lib.mxg_document_pack_block(document._pointer, this._pointer, number, data, size);
             if (status === STATUS.errorDocument)
                 throw new ArgumentError("an input of the block has no value in the document");
             this._native.check(status, status === STATUS.errorArgument ? "the document has another library" : "");

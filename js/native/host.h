@@ -32,7 +32,7 @@ bool host_read_texels(void *context, const char *from, const char *file, const c
 /* Takes a piece of the text that the current call writes. */
 IMPORT(write) bool host_write(void *user_data, const char *data, size_t size);
 
-/* The parameter of mxg_scene_add_each; `adding` is a number that native.js gave. */
+/* The parameter of mxg_scene_add_primitives; `adding` is a number that native.js gave. */
 IMPORT(next_primitive)
 bool host_next_primitive(void *adding, uint32_t last, mxg_primitive *primitive);
 

@@ -89,7 +89,7 @@ class PassResource:
 def _pass_members(resource: int, count: int) -> tuple[PassMember, ...]:
     found = []
     for index in range(count):
-        values = record("mxg_pass_member", lib.mxg_get_pass_member, resource, index)
+        values = record("mxg_pass_member", lib.mxg_catalogue_pass_member, resource, index)
         assert values is not None
         found.append(PassMember(**values))
     return tuple(found)
@@ -98,8 +98,8 @@ def _pass_members(resource: int, count: int) -> tuple[PassMember, ...]:
 def pass_resources() -> tuple[PassResource, ...]:
     """The resources of the deferred pipeline."""
     found = []
-    for index in range(lib.mxg_num_pass_resources()):
-        values = record("mxg_pass_resource", lib.mxg_get_pass_resource, index)
+    for index in range(lib.mxg_catalogue_num_pass_resources()):
+        values = record("mxg_pass_resource", lib.mxg_catalogue_pass_resource, index)
         assert values is not None
         values["members"] = _pass_members(index, values.pop("num_members"))
         found.append(PassResource(**values))
@@ -109,8 +109,8 @@ def pass_resources() -> tuple[PassResource, ...]:
 def targets() -> tuple[Target, ...]:
     """Every target."""
     found = []
-    for index in range(lib.mxg_num_targets()):
-        values = record("mxg_target", lib.mxg_get_target, index)
+    for index in range(lib.mxg_catalogue_num_targets()):
+        values = record("mxg_target", lib.mxg_catalogue_target, index)
         assert values is not None
         found.append(Target(**values))
     return tuple(found)
@@ -119,8 +119,8 @@ def targets() -> tuple[Target, ...]:
 def options() -> tuple[Option, ...]:
     """Every option of `Document.generate`."""
     found = []
-    for index in range(lib.mxg_num_options()):
-        values = record("mxg_option", lib.mxg_get_option, index)
+    for index in range(lib.mxg_catalogue_num_options()):
+        values = record("mxg_option", lib.mxg_catalogue_option, index)
         assert values is not None
         values["type"] = OptionType(values["type"])
         found.append(Option(**values))
@@ -137,4 +137,4 @@ def option_applies(key: str, target: str) -> bool:
         raise ValueError(f"there is no option '{key}'")
     if target not in [known.name for known in targets()]:
         raise ValueError(f"there is no target '{target}'")
-    return bool(lib.mxg_option_applies(keys.index(key), target.encode()))
+    return bool(lib.mxg_catalogue_has_option(keys.index(key), target.encode()))

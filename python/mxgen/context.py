@@ -289,7 +289,7 @@ class Context(Native):
         """The passes of the deferred pipeline that belong to no material (docs/deferred.md), by name, in their order, as far
         as the options ask for them. The source of a pass is that of `Shader.pixel`, a compute stage. Raises DocumentError."""
         found = {}
-        for index in range(lib.mxg_num_passes()):
+        for index in range(lib.mxg_catalogue_num_passes()):
             keep: list[Any] = []
             desc = ffi.new("mxg_generate_desc *", {"size": ffi.sizeof("mxg_generate_desc")})
             desc.target = keep_text(c_text(target, "target"), keep)
@@ -301,7 +301,7 @@ class Context(Native):
             if status != lib.MXG_OK:
                 raise DocumentError(shader.diagnostics)
             if shader.pixel is not None:
-                found[py_text(lib.mxg_pass_name(index))] = shader
+                found[py_text(lib.mxg_catalogue_pass(index))] = shader
         return found
 
     # ---- Libraries ----
@@ -391,7 +391,7 @@ class Context(Native):
         """The materials in a USD scene as a document. `Document.with_materials` adds them to one. Raises DocumentError."""
         if not isinstance(scene, Scene):
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
-        return self._document(self._library_for(library), lib.mxg_document_with_materials, ffi.NULL, scene._handle.pointer)
+        return self._document(self._library_for(library), lib.mxg_document_import, ffi.NULL, scene._handle.pointer)
 
     # ---- Texts ----
 

@@ -132,7 +132,7 @@ class Library(Native):
             raise TypeError(f"nodedef must be NodeDef, not {type(nodedef).__name__}")
         if nodedef._owner is not self:
             raise ValueError(f"'{nodedef.name}' is not a definition of this library")
-        return bool(lib.mxg_library_supports(self._handle.pointer, nodedef._index, c_text(target, "target")))
+        return bool(lib.mxg_library_has_implementation(self._handle.pointer, nodedef._index, c_text(target, "target")))
 
     def image(self) -> bytes:
         """The library image, for `Context.load_library(..., standalone=True)`. The library must be standalone."""
@@ -143,7 +143,7 @@ class Library(Native):
     def expand(self) -> str:
         """The library as a plain MaterialX document with all templates expanded."""
         text, size = ffi.new("const char **"), ffi.new("size_t *")
-        self._read(lib.mxg_library_expand, text, size)
+        self._read(lib.mxg_library_xml, text, size)
         return py_text(text[0])
 
     @property

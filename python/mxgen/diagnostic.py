@@ -77,7 +77,7 @@ class Diagnostics(Sequence[Diagnostic]):
         self._owner = owner
 
     def __len__(self) -> int:
-        return int(lib.mxg_diagnostics_count(self._pointer))
+        return int(lib.mxg_diagnostics_num_items(self._pointer))
 
     @overload
     def __getitem__(self, index: int) -> Diagnostic: ...
@@ -89,7 +89,7 @@ class Diagnostics(Sequence[Diagnostic]):
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         place = range(len(self))[index]
-        values = record("mxg_diagnostic", lib.mxg_diagnostics_get, self._pointer, place)
+        values = record("mxg_diagnostic", lib.mxg_diagnostics_item, self._pointer, place)
         assert values is not None
         values["severity"] = Severity(values["severity"])
         return Diagnostic(**values, _list=self, _index=place)
@@ -97,12 +97,12 @@ class Diagnostics(Sequence[Diagnostic]):
     @property
     def errors(self) -> int:
         """The number of errors, including those beyond `max_errors` of the context."""
-        return int(lib.mxg_diagnostics_errors(self._pointer))
+        return int(lib.mxg_diagnostics_num_errors(self._pointer))
 
     @property
     def warnings(self) -> int:
         """The number of warnings."""
-        return int(lib.mxg_diagnostics_warnings(self._pointer))
+        return sum(diagnostic.severity is Severity.WARNING for diagnostic in self)
 
     def format(self, source: str | None = None, *, colour: bool = False) -> str:
         """All diagnostics as compilers write them."""
@@ -133,8 +133,8 @@ class DiagnosticKind:
 def diagnostic_kinds() -> tuple[DiagnosticKind, ...]:
     """Every diagnostic that mxgen can report."""
     found = []
-    for index in range(lib.mxg_num_diagnostic_kinds()):
-        values = record("mxg_diagnostic_kind", lib.mxg_get_diagnostic_kind, index)
+    for index in range(lib.mxg_catalogue_num_diagnostic_kinds()):
+        values = record("mxg_diagnostic_kind", lib.mxg_catalogue_diagnostic_kind, index)
         assert values is not None
         values["severity"] = Severity(values["severity"])
         found.append(DiagnosticKind(**values))

@@ -87,7 +87,7 @@ class Element:
     def path(self) -> str:
         """"NG_marble1/out"; "" for the root."""
         pointer = self.document._handle.pointer
-        return sized_text(lambda out, capacity: lib.mxg_document_path(pointer, self.number, out, capacity))
+        return sized_text(lambda out, capacity: lib.mxg_document_element_path(pointer, self.number, out, capacity))
 
     @property
     def file(self) -> str | None:
@@ -122,7 +122,7 @@ class Element:
 
     def child(self, name: str) -> Element | None:
         """The element of a name directly below."""
-        return self._element(lib.mxg_document_child(self.document._handle.pointer, self.number, c_text(name, "name")))
+        return self._element(lib.mxg_document_find_child(self.document._handle.pointer, self.number, c_text(name, "name")))
 
     def children_of(self, category: str) -> Iterator[Element]:
         """The elements of a category directly below."""
@@ -150,7 +150,7 @@ class Element:
 
     def get(self, attribute: str) -> str | None:
         """The text of an attribute ("name" included); None if it is absent."""
-        text = lib.mxg_document_attribute_value(self.document._handle.pointer, self.number, c_text(attribute, "attribute"))
+        text = lib.mxg_document_find_attribute(self.document._handle.pointer, self.number, c_text(attribute, "attribute"))
         return py_text(text) if text else None
 
     @property
@@ -213,7 +213,7 @@ class Element:
         """The definition of a node, or of the nodegraph that implements it; None: there is none, or it does not fit. The
         diagnostics of `Document.validate` give the reason."""
         index = ffi.new("uint32_t *")
-        if not lib.mxg_document_definition(self.document._handle.pointer, self.number, index):
+        if not lib.mxg_document_find_nodedef(self.document._handle.pointer, self.number, index):
             return None
         return read_nodedef(self.document, index[0], lib.mxg_document_nodedef, lib.mxg_document_port)
 
@@ -257,7 +257,7 @@ class Document(Native):
 
     def find(self, path: str) -> Element | None:
         """An element by path: "NG_marble1/out"."""
-        number = lib.mxg_document_find(self._handle.pointer, c_text(path, "path"))
+        number = lib.mxg_document_find_element(self._handle.pointer, c_text(path, "path"))
         return Element(self, number) if number else None
 
     def __getitem__(self, path: str) -> Element:
@@ -316,7 +316,7 @@ class Document(Native):
         """A copy with the materials of a USD scene that the document lacks. Raises DocumentError."""
         if not isinstance(scene, Scene):
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
-        return self.context._document(self.library, lib.mxg_document_with_materials, self._handle.pointer, scene._handle.pointer)
+        return self.context._document(self.library, lib.mxg_document_import, self._handle.pointer, scene._handle.pointer)
 
     def bind(self, scene: Scene, look: str | None = None, *, solo: Sequence[str] = (), mute: Sequence[str] = (),
              previous: Bindings | None = None) -> Bindings:
@@ -327,7 +327,7 @@ class Document(Native):
         if not isinstance(scene, Scene):
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
         keep: list[Any] = []
-        handle, status = self.context._make("mxg_bindings", lib.mxg_bind, lib.mxg_bindings_destroy, (self._handle, scene._handle),
+        handle, status = self.context._make("mxg_bindings", lib.mxg_bindings_create, lib.mxg_bindings_destroy, (self._handle, scene._handle),
                                             self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, previous, keep))
         bindings = Bindings(self, scene, handle)
         if status != lib.MXG_OK:
@@ -350,7 +350,7 @@ class Document(Native):
 
     def validate(self, *, context: Context | None = None) -> Diagnostics:
         """Checks every node, connection and value against the library, without generating. Errors are in the result."""
-        return self._call(context, lib.mxg_document_validate)[0].diagnostics
+        return self._call(context, lib.mxg_validate)[0].diagnostics
 
     def _request(self, context: Context | None, target: str, element: str | Element | Stack | None,
                  options: Mapping[str, OptionValue] | None, keep: list[Any]) -> Any:

@@ -31,58 +31,58 @@ class Draft:
 
     def add(self, category: str, name: str | None = None, type: str | None = None) -> Draft:
         """Appends an element below. The name must be new there."""
-        return self.edit._made(lib.mxg_edit_add, self.number, c_text(category, "category"), _optional(name, "name"),
+        return self.edit._made(lib.mxg_edit_add_element, self.number, c_text(category, "category"), _optional(name, "name"),
                                _optional(type, "type"))
 
     def child(self, name: str) -> Draft | None:
         """The element of a name directly below."""
-        number = lib.mxg_edit_child(self.edit._pointer(), self.number, c_text(name, "name"))
+        number = lib.mxg_edit_find_child(self.edit._pointer(), self.number, c_text(name, "name"))
         return Draft(self.edit, number) if number else None
 
     def set(self, attribute: str, value: str | None) -> Draft:
         """Sets an attribute; None removes it."""
-        self.edit._change(lib.mxg_edit_set, self.number, c_text(attribute, "attribute"), _optional(value, "value"))
+        self.edit._change(lib.mxg_edit_set_attribute, self.number, c_text(attribute, "attribute"), _optional(value, "value"))
         return self
 
     def rename(self, name: str) -> Draft:
         """Renames the element, and changes the references to it."""
-        self.edit._change(lib.mxg_edit_rename, self.number, c_text(name, "name"))
+        self.edit._change(lib.mxg_edit_rename_element, self.number, c_text(name, "name"))
         return self
 
     def value(self, input: str, value: NewValue, type: str | None = None) -> Draft:
         """Gives an input of a node a value, and removes its connection. An input that the node does not have yet needs a type."""
         name, kind = c_text(input, "input"), _optional(type, "type")
         if kind is ffi.NULL or isinstance(value, (str, int)):
-            self.edit._change(lib.mxg_edit_value, self.number, name, kind, _text_of(value))
+            self.edit._change(lib.mxg_edit_set_value, self.number, name, kind, _text_of(value))
         else:
             numbers = _numbers_of(value)
-            self.edit._change(lib.mxg_edit_numbers, self.number, name, kind, ffi.new("float[]", numbers), len(numbers))
+            self.edit._change(lib.mxg_edit_set_numbers, self.number, name, kind, ffi.new("float[]", numbers), len(numbers))
         return self
 
     def connect(self, input: str | None, source: Draft, output: str | None = None) -> Draft:
         """Connects an input of a node, or an <output> element (then `input` is None), to a node, a nodegraph or an input of the
         nodegraph around it. `output` None: the only output of the source."""
         self.edit._own(source)
-        self.edit._change(lib.mxg_edit_connect, self.number, _optional(input, "input"), source.number, _optional(output, "output"))
+        self.edit._change(lib.mxg_edit_connect_input, self.number, _optional(input, "input"), source.number, _optional(output, "output"))
         return self
 
     def remove(self) -> None:
         """Removes the element with all below it."""
-        self.edit._change(lib.mxg_edit_remove, self.number)
+        self.edit._change(lib.mxg_edit_remove_element, self.number)
 
     def move(self, parent: Draft | None = None, before: Draft | None = None) -> Draft:
         """Moves the element before another one (None: to the end) below `parent` (None: the root)."""
         for other in parent, before:
             if other is not None:
                 self.edit._own(other)
-        self.edit._change(lib.mxg_edit_move, self.number, parent.number if parent else 0, before.number if before else 0)
+        self.edit._change(lib.mxg_edit_move_element, self.number, parent.number if parent else 0, before.number if before else 0)
         return self
 
     def copy(self, element: Element, name: str | None = None) -> Draft:
         """Appends a copy of an element of any document, with all below it."""
         if not isinstance(element, Element):
             raise TypeError(f"element must be Element, not {_type_name(element)}")
-        return self.edit._made(lib.mxg_edit_copy, self.number, element.document._handle.pointer, element.number,
+        return self.edit._made(lib.mxg_edit_copy_element, self.number, element.document._handle.pointer, element.number,
                                _optional(name, "name"))
 
     def __eq__(self, other: object) -> bool:
@@ -103,7 +103,7 @@ class Edit(Native):
 
     def __init__(self, context: Context, library: Library, source: Document | None, name: str) -> None:
         parents = (library._handle,) if source is None else (library._handle, source._handle)
-        handle, _ = context._make("mxg_edit", lib.mxg_edit_begin, lib.mxg_edit_cancel, parents, library._handle.pointer,
+        handle, _ = context._make("mxg_edit", lib.mxg_edit_create, lib.mxg_edit_destroy, parents, library._handle.pointer,
                                   ffi.NULL if source is None else source._handle.pointer, c_text(name, "name"))
         self._handle = handle
         self._context = context
@@ -153,7 +153,7 @@ class Edit(Native):
 
     def find(self, path: str) -> Draft | None:
         """An element by path, as the edit is now."""
-        number = lib.mxg_edit_find(self._pointer(), c_text(path, "path"))
+        number = lib.mxg_edit_find_element(self._pointer(), c_text(path, "path"))
         return Draft(self, number) if number else None
 
     def __getitem__(self, path: str | Element) -> Draft:
@@ -186,8 +186,8 @@ class Edit(Native):
         made = None
         try:
             with self._context._turn():
-                handle.forget() # mxg_edit_end frees the edit in every case
-                status = lib.mxg_edit_end(pointer, out)
+                handle.forget() # mxg_edit_commit frees the edit in every case
+                status = lib.mxg_edit_commit(pointer, out)
                 if out[0]:
                     made = Handle(out[0], lib.mxg_document_destroy, (self._context._handle, self._library._handle))
         except BaseException: # of a callback

@@ -94,7 +94,7 @@ class Primitive:
     def path(self) -> str:
         """"/set/table"."""
         pointer = self.scene._handle.pointer
-        return sized_text(lambda out, capacity: lib.mxg_scene_path(pointer, self.number, out, capacity))
+        return sized_text(lambda out, capacity: lib.mxg_scene_primitive_path(pointer, self.number, out, capacity))
 
     @property
     def parent(self) -> Primitive | None:
@@ -133,9 +133,9 @@ class Primitive:
         """The numbers of a property in a row; true is 1. Empty: there are none."""
         key = c_text(name, "name")
         pointer = self.scene._handle.pointer
-        count = lib.mxg_scene_numbers(pointer, self.number, key, ffi.NULL, 0)
+        count = lib.mxg_scene_property_numbers(pointer, self.number, key, ffi.NULL, 0)
         out = ffi.new("double[]", count)
-        lib.mxg_scene_numbers(pointer, self.number, key, out, count)
+        lib.mxg_scene_property_numbers(pointer, self.number, key, out, count)
         return tuple(out)
 
     def words(self, name: str) -> tuple[str, ...]:
@@ -144,7 +144,7 @@ class Primitive:
         pointer = self.scene._handle.pointer
         found: list[str] = []
         while True:
-            word = sized_text(lambda out, capacity: lib.mxg_scene_word(pointer, self.number, key, len(found), out, capacity))
+            word = sized_text(lambda out, capacity: lib.mxg_scene_property_word(pointer, self.number, key, len(found), out, capacity))
             if not word:
                 return tuple(found)
             found.append(word)
@@ -153,7 +153,7 @@ class Primitive:
         """The primitives that a relationship names; None for a path that the scene does not have."""
         key = c_text(name, "name")
         pointer = self.scene._handle.pointer
-        return tuple(self.scene._primitive(lib.mxg_scene_target(pointer, self.number, key, index))
+        return tuple(self.scene._primitive(lib.mxg_scene_property_target(pointer, self.number, key, index))
                      for index in range(len(self.words(name))))
 
     def __eq__(self, other: object) -> bool:
@@ -253,7 +253,7 @@ class _Adding:
 
 @ffi.def_extern(error=False, onerror=_keep_exception)
 def callback_next_primitive(user_data: Any, last: int, out: Any) -> bool:
-    """The parameter of mxg_scene_add_each."""
+    """The parameter of mxg_scene_add_primitives."""
     adding: _Adding = ffi.from_handle(user_data)
     return adding.fill(last, out)
 
@@ -277,7 +277,7 @@ class Scene(Native):
         scene its bindings say nothing any more: call `Document.bind` with `previous`."""
         keep: list[Any] = []
         names = ffi.new("const char *[]", [keep_text(c_text(path, "a path"), keep) for path in paths])
-        status = lib.mxg_scene_add(self._handle.pointer, names, len(paths))
+        status = lib.mxg_scene_add_paths(self._handle.pointer, names, len(paths))
         if status == lib.MXG_ERROR_DOCUMENT:
             raise DocumentError(self.diagnostics)
         if status != lib.MXG_OK:
@@ -288,7 +288,7 @@ class Scene(Native):
         faulty ones. The iterable must not use the scene."""
         adding = _Adding(self, primitives)
         handle = ffi.new_handle(adding)
-        status = lib.mxg_scene_add_each(self._handle.pointer, lib.callback_next_primitive, handle)
+        status = lib.mxg_scene_add_primitives(self._handle.pointer, lib.callback_next_primitive, handle)
         if adding.raised is not None:
             raise adding.raised
         if status == lib.MXG_ERROR_DOCUMENT:
@@ -301,7 +301,7 @@ class Scene(Native):
         """Removes primitives, all below them, and their bindings. The numbers of the others stay. Raises ArgumentError if one is removed
         already, and KeyError for an unknown path: all stay then."""
         numbers = [self._place(primitive) for primitive in primitives]
-        self._change(lib.mxg_scene_remove(self._handle.pointer, ffi.new("uint32_t[]", numbers), len(numbers)))
+        self._change(lib.mxg_scene_remove_primitives(self._handle.pointer, ffi.new("uint32_t[]", numbers), len(numbers)))
 
     # ---- Bindings of the scene itself ----
 
@@ -324,11 +324,11 @@ class Scene(Native):
     def bind(self, primitive: Primitive | str | None, slot: str, material: str) -> None:
         """Binds a material to a slot of a primitive (None: the whole scene), in the place of its direct bindings there. "" removes what
         the primitive would inherit. Raises DocumentError if the slot's name is none."""
-        self._change(lib.mxg_scene_bind(self._handle.pointer, self._place(primitive), c_text(slot, "slot"), c_text(material, "material")))
+        self._change(lib.mxg_scene_set_binding(self._handle.pointer, self._place(primitive), c_text(slot, "slot"), c_text(material, "material")))
 
     def unbind(self, primitive: Primitive | str | None, slot: str) -> None:
         """Removes the direct bindings of a slot from a primitive."""
-        self._change(lib.mxg_scene_unbind(self._handle.pointer, self._place(primitive), c_text(slot, "slot")))
+        self._change(lib.mxg_scene_remove_binding(self._handle.pointer, self._place(primitive), c_text(slot, "slot")))
 
     def bindings_of(self, primitive: Primitive | str | None) -> tuple[SlotBinding, ...]:
         """The bindings of the scene itself that stand at a primitive; None: the whole scene."""
@@ -343,7 +343,7 @@ class Scene(Native):
 
     def find(self, path: str) -> Primitive | None:
         """A primitive by path."""
-        return self._primitive(lib.mxg_scene_find(self._handle.pointer, c_text(path, "path")))
+        return self._primitive(lib.mxg_scene_find_primitive(self._handle.pointer, c_text(path, "path")))
 
     def __getitem__(self, path: str) -> Primitive:
         """A primitive by path. Raises KeyError."""
@@ -467,7 +467,7 @@ class _Pieces:
 
 @ffi.def_extern(error=False, onerror=_keep_exception)
 def callback_write(user_data: Any, data: Any, size: int) -> bool:
-    """The parameter of mxg_bindings_write and mxg_bindings_explain."""
+    """The parameter of mxg_bindings_write and mxg_bindings_write_reasons."""
     ffi.from_handle(user_data).data.extend(ffi.buffer(data, size))
     return True
 
@@ -517,7 +517,7 @@ class Bindings(Native):
     @property
     def num_resolved(self) -> int:
         """The number of primitives whose assignments were found: all, or with `previous` those at or below a difference."""
-        return int(lib.mxg_bindings_num_resolved(self._handle.pointer))
+        return int(lib.mxg_bindings_num_resolved_primitives(self._handle.pointer))
 
     def _records(self, struct: str, count: Any, get: Any, primitive: Primitive | str) -> Iterator[dict[str, Any]]:
         """The members of each struct of a primitive; `source` is the primitive that it comes from."""
@@ -563,15 +563,15 @@ class Bindings(Native):
 
     def explain(self, primitive: Primitive | str) -> str:
         """The reasons of a primitive's layers: every assignment that was considered."""
-        made, status = _written(lib.mxg_bindings_explain, self._handle.pointer, self._number(primitive))
+        made, status = _written(lib.mxg_bindings_write_reasons, self._handle.pointer, self._number(primitive))
         if status != lib.MXG_OK:
             raise error_of(status)
         return made
 
 
 def make_bind_desc(look: str | None, solo: Sequence[str], mute: Sequence[str], previous: Bindings | None, keep: list[Any]) -> Any:
-    """A mxg_bind_desc; it lives as long as `keep`."""
-    desc = ffi.new("mxg_bind_desc *", {"size": ffi.sizeof("mxg_bind_desc")})
+    """A mxg_bindings_desc; it lives as long as `keep`."""
+    desc = ffi.new("mxg_bindings_desc *", {"size": ffi.sizeof("mxg_bindings_desc")})
     if previous is not None:
         if not isinstance(previous, Bindings):
             raise TypeError(f"previous must be Bindings, not {type(previous).__name__}")

@@ -447,10 +447,10 @@ class Shader(Native):
 
     def pack(self, block: Block) -> bytearray:
         """The buffer of a block of uniforms with the default values, ready for upload."""
-        size = lib.mxg_result_pack(self._handle.pointer, Block(block), ffi.NULL, 0)
+        size = lib.mxg_result_pack_block(self._handle.pointer, Block(block), ffi.NULL, 0)
         data = bytearray(size)
         if size:
-            lib.mxg_result_pack(self._handle.pointer, Block(block), ffi.from_buffer(data), size)
+            lib.mxg_result_pack_block(self._handle.pointer, Block(block), ffi.from_buffer(data), size)
         return data
 
     def pack_from(self, document: Document, block: Block) -> bytearray:
@@ -461,7 +461,7 @@ class Shader(Native):
         data = self.pack(block)
         if not data:
             return data
-        status = lib.mxg_document_values(document._handle.pointer, self._handle.pointer, Block(block), ffi.from_buffer(data),
+        status = lib.mxg_document_pack_block(document._handle.pointer, self._handle.pointer, Block(block), ffi.from_buffer(data),
                                          len(data))
         if status == lib.MXG_ERROR_DOCUMENT:
             raise ValueError("an input of the block has no value in the document")
@@ -519,8 +519,8 @@ class Shader(Native):
 def semantics() -> tuple[Semantic, ...]:
     """The meanings of variables without a path."""
     found = []
-    for index in range(lib.mxg_num_semantics()):
-        values = record("mxg_semantic", lib.mxg_get_semantic, index)
+    for index in range(lib.mxg_catalogue_num_semantics()):
+        values = record("mxg_semantic", lib.mxg_catalogue_semantic, index)
         assert values is not None
         values["block"] = Block(values["block"])
         found.append(Semantic(**values))

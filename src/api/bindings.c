@@ -7,7 +7,7 @@
 
 struct bind_job {
     mxg_bindings *result;
-    mxg_bind_desc desc;
+    mxg_bindings_desc desc;
     struct arena scratch;
 };
 
@@ -43,10 +43,10 @@ static void resolve(void *arg)
     result->is_resolved = true;
 }
 
-mxg_status mxg_bind(mxg_context *context, const mxg_document *document, mxg_scene *scene,
-                    const mxg_bind_desc *desc, mxg_bindings **out_bindings)
+mxg_status mxg_bindings_create(mxg_context *context, const mxg_document *document, mxg_scene *scene,
+                               const mxg_bindings_desc *desc, mxg_bindings **out_bindings)
 {
-    struct bind_job job = {.desc = MXG_BIND_DESC_INIT};
+    struct bind_job job = {.desc = MXG_BINDINGS_DESC_INIT};
     if (out_bindings)
         *out_bindings = NULL;
     if (!context || !document || !scene || !out_bindings
@@ -157,7 +157,7 @@ uint32_t mxg_bindings_num_stacks(const mxg_bindings *bindings)
     return is_valid(bindings) ? bindings->bindings.stacks.len : 0;
 }
 
-uint32_t mxg_bindings_num_resolved(const mxg_bindings *bindings)
+uint32_t mxg_bindings_num_resolved_primitives(const mxg_bindings *bindings)
 {
     return bindings && bindings->is_resolved ? bindings->bindings.num_resolved : 0;
 }
@@ -281,9 +281,9 @@ static void write_reasons(void *arg, struct arena *scratch)
     flush_text(job, &out);
 }
 
-mxg_status mxg_bindings_explain(const mxg_bindings *bindings, uint32_t primitive,
-                                bool (*write)(void *user_data, const char *data, size_t size),
-                                void *user_data)
+mxg_status mxg_bindings_write_reasons(const mxg_bindings *bindings, uint32_t primitive,
+                                      bool (*write)(void *user_data, const char *data, size_t size),
+                                      void *user_data)
 {
     if (!state_of(bindings, primitive) || !write)
         return MXG_ERROR_ARGUMENT;

@@ -51,7 +51,8 @@ void block_write_words(const struct shader_variable *v, const union ir_word *wor
                sizeof *words);
 }
 
-size_t mxg_result_pack(const mxg_result *result, mxg_block block, void *bytes, size_t capacity)
+size_t mxg_result_pack_block(const mxg_result *result, mxg_block block, void *bytes,
+                             size_t capacity)
 {
     const struct shader_buffer *buffer = buffer_of(result, block);
     if (!buffer)

@@ -8,11 +8,6 @@
 #define TEXT_OF(number) #number
 #define VERSION_TEXT(major, minor, patch) TEXT_OF(major) "." TEXT_OF(minor) "." TEXT_OF(patch)
 
-uint32_t mxg_version(void)
-{
-    return MXG_VERSION_MAJOR * 1000000 + MXG_VERSION_MINOR * 1000 + MXG_VERSION_PATCH;
-}
-
 const char *mxg_version_string(void)
 {
     return VERSION_TEXT(MXG_VERSION_MAJOR, MXG_VERSION_MINOR, MXG_VERSION_PATCH);

@@ -3,19 +3,14 @@
 
 #include <assert.h>
 
-uint32_t mxg_diagnostics_count(const mxg_diagnostics *list)
+uint32_t mxg_diagnostics_num_items(const mxg_diagnostics *list)
 {
     return list ? list->list.items.len : 0;
 }
 
-uint32_t mxg_diagnostics_errors(const mxg_diagnostics *list)
+uint32_t mxg_diagnostics_num_errors(const mxg_diagnostics *list)
 {
     return list ? list->list.num_errors : 0;
-}
-
-uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list)
-{
-    return list ? list->list.num_warnings : 0;
 }
 
 static const mxg_severity severities[] = {[DIAG_ERROR] = MXG_SEVERITY_ERROR,
@@ -23,9 +18,9 @@ static const mxg_severity severities[] = {[DIAG_ERROR] = MXG_SEVERITY_ERROR,
                                           [DIAG_NOTE] = MXG_SEVERITY_NOTE,
                                           [DIAG_REMARK] = MXG_SEVERITY_NOTE};
 
-mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_diagnostic *out)
+mxg_status mxg_diagnostics_item(const mxg_diagnostics *list, uint32_t index, mxg_diagnostic *out)
 {
-    if (index >= mxg_diagnostics_count(list))
+    if (index >= mxg_diagnostics_num_items(list))
         return MXG_ERROR_ARGUMENT;
     const struct diag *diag = &list->list.items.items[index];
     assert(diag->parent <= index);
@@ -44,12 +39,12 @@ mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_
     return struct_write(out, &full, sizeof full);
 }
 
-uint32_t mxg_num_diagnostic_kinds(void)
+uint32_t mxg_catalogue_num_diagnostic_kinds(void)
 {
     return DIAG_NUM_IDS;
 }
 
-mxg_status mxg_get_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *out)
+mxg_status mxg_catalogue_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *out)
 {
     if (index >= DIAG_NUM_IDS)
         return MXG_ERROR_ARGUMENT;
@@ -86,7 +81,7 @@ static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_
                      char *buffer, size_t capacity)
 {
     text_copy("", 0, buffer, capacity);
-    if (index >= mxg_diagnostics_count(list))
+    if (index >= mxg_diagnostics_num_items(list))
         return 0;
     struct object scratch = {.size = 0};
     object_init(&scratch, list->owner->context, 0);

@@ -97,8 +97,8 @@ static mxg_edit *new_edit(mxg_context *context, mxg_library *library, const mxg_
     return edit;
 }
 
-mxg_status mxg_edit_begin(mxg_context *context, mxg_library *library, const mxg_document *from,
-                          const char *name, mxg_edit **out_edit)
+mxg_status mxg_edit_create(mxg_context *context, mxg_library *library, const mxg_document *from,
+                           const char *name, mxg_edit **out_edit)
 {
     if (out_edit)
         *out_edit = NULL;
@@ -112,11 +112,11 @@ mxg_status mxg_edit_begin(mxg_context *context, mxg_library *library, const mxg_
     if (status == MXG_OK)
         *out_edit = job.edit;
     else
-        mxg_edit_cancel(job.edit);
+        mxg_edit_destroy(job.edit);
     return status;
 }
 
-void mxg_edit_cancel(mxg_edit *edit)
+void mxg_edit_destroy(mxg_edit *edit)
 {
     object_unref(edit ? &edit->object : NULL);
 }
@@ -128,7 +128,7 @@ static elem_id in_tree(const mxg_edit *edit, mxg_element element)
     return doc_has_element(tree_of(edit), element) ? element : 0;
 }
 
-mxg_element mxg_edit_find(const mxg_edit *edit, const char *path)
+mxg_element mxg_edit_find_element(const mxg_edit *edit, const char *path)
 {
     return edit && path ? in_tree(edit, doc_find(tree_of(edit), path, strlen(path))) : 0;
 }
@@ -139,7 +139,7 @@ static elem_id child_of(const mxg_edit *edit, elem_id parent, const char *name)
     return doc_child(doc, parent, str_find(doc->strings, name, strlen(name)));
 }
 
-mxg_element mxg_edit_child(const mxg_edit *edit, mxg_element parent, const char *name)
+mxg_element mxg_edit_find_child(const mxg_edit *edit, mxg_element parent, const char *name)
 {
     if (!edit || !name)
         return 0;
@@ -288,8 +288,8 @@ static void add(void *arg)
         c->result = add_element(c, c->element, c->category, c->name, c->type);
 }
 
-mxg_element mxg_edit_add(mxg_edit *edit, mxg_element parent, const char *category, const char *name,
-                         const char *type)
+mxg_element mxg_edit_add_element(mxg_edit *edit, mxg_element parent, const char *category,
+                                 const char *name, const char *type)
 {
     struct change change = {
         .edit = edit, .element = parent, .category = category, .name = name, .type = type};
@@ -309,7 +309,7 @@ static void rename_element(void *arg)
         doc_rename(tree_of(c->edit), c->element, word(c, c->text));
 }
 
-mxg_status mxg_edit_rename(mxg_edit *edit, mxg_element element, const char *name)
+mxg_status mxg_edit_rename_element(mxg_edit *edit, mxg_element element, const char *name)
 {
     struct change change = {.edit = edit, .element = element, .text = name};
     return edit ? run(&change, rename_element) : MXG_ERROR_ARGUMENT;
@@ -328,11 +328,11 @@ static void set(void *arg)
     doc_index_change(tree_of(c->edit), c->element);
 }
 
-mxg_status mxg_edit_set(mxg_edit *edit, mxg_element element, const char *attribute,
-                        const char *value)
+mxg_status mxg_edit_set_attribute(mxg_edit *edit, mxg_element element, const char *attribute,
+                                  const char *value)
 {
     if (attribute && strcmp(attribute, "name") == 0)
-        return mxg_edit_rename(edit, element, value);
+        return mxg_edit_rename_element(edit, element, value);
     struct change change = {.edit = edit, .element = element, .name = attribute, .text = value};
     return edit ? run(&change, set) : MXG_ERROR_ARGUMENT;
 }
@@ -404,8 +404,8 @@ static void set_value(void *arg)
     doc_set_attr(doc, input, STR_value, word(c, c->text));
 }
 
-mxg_status mxg_edit_value(mxg_edit *edit, mxg_element node, const char *input, const char *type,
-                          const char *value)
+mxg_status mxg_edit_set_value(mxg_edit *edit, mxg_element node, const char *input, const char *type,
+                              const char *value)
 {
     struct change change = {
         .edit = edit, .element = node, .name = input, .type = type, .text = value};
@@ -450,8 +450,8 @@ static void set_numbers(void *arg)
     set_value(c);
 }
 
-mxg_status mxg_edit_numbers(mxg_edit *edit, mxg_element node, const char *input, const char *type,
-                            const float *values, uint32_t num_values)
+mxg_status mxg_edit_set_numbers(mxg_edit *edit, mxg_element node, const char *input,
+                                const char *type, const float *values, uint32_t num_values)
 {
     struct change change = {.edit = edit,
                             .element = node,
@@ -546,8 +546,8 @@ static void connect(void *arg)
     doc_index_change(doc, port);
 }
 
-mxg_status mxg_edit_connect(mxg_edit *edit, mxg_element node, const char *input, mxg_element from,
-                            const char *output)
+mxg_status mxg_edit_connect_input(mxg_edit *edit, mxg_element node, const char *input,
+                                  mxg_element from, const char *output)
 {
     struct change change = {
         .edit = edit, .element = node, .name = input, .other = from, .text = output};
@@ -563,7 +563,7 @@ static void remove_element(void *arg)
         doc_remove_element(tree_of(c->edit), c->element);
 }
 
-mxg_status mxg_edit_remove(mxg_edit *edit, mxg_element element)
+mxg_status mxg_edit_remove_element(mxg_edit *edit, mxg_element element)
 {
     struct change change = {.edit = edit, .element = element};
     return edit ? run(&change, remove_element) : MXG_ERROR_ARGUMENT;
@@ -594,8 +594,8 @@ static void move(void *arg)
     doc_index_change(doc, c->element);
 }
 
-mxg_status mxg_edit_move(mxg_edit *edit, mxg_element element, mxg_element parent,
-                         mxg_element before)
+mxg_status mxg_edit_move_element(mxg_edit *edit, mxg_element element, mxg_element parent,
+                                 mxg_element before)
 {
     struct change change = {.edit = edit, .element = element, .other = parent, .before = before};
     return edit ? run(&change, move) : MXG_ERROR_ARGUMENT;
@@ -622,8 +622,8 @@ static void copy(void *arg)
         fail(c, "the document would have more elements than the context allows");
 }
 
-mxg_element mxg_edit_copy(mxg_edit *edit, mxg_element parent, const mxg_document *document,
-                          mxg_element element, const char *name)
+mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent, const mxg_document *document,
+                                  mxg_element element, const char *name)
 {
     struct change change = {
         .edit = edit, .element = parent, .source = document, .other = element, .name = name};
@@ -686,12 +686,12 @@ static void hold_library(struct object *object, const mxg_document *origin)
     object_unref(former);
 }
 
-mxg_status mxg_edit_end(mxg_edit *edit, mxg_document **out_document)
+mxg_status mxg_edit_commit(mxg_edit *edit, mxg_document **out_document)
 {
     if (out_document)
         *out_document = NULL;
     if (!edit || !out_document) {
-        mxg_edit_cancel(edit);
+        mxg_edit_destroy(edit);
         return MXG_ERROR_ARGUMENT;
     }
     struct end_job job = {.document = edit->document, .is_unchecked = edit->is_unchecked};
@@ -707,7 +707,7 @@ mxg_status mxg_edit_end(mxg_edit *edit, mxg_document **out_document)
         *out_document = edit->document;
         status = object_status(object);
     }
-    mxg_edit_cancel(edit);
+    mxg_edit_destroy(edit);
     return status;
 }
 
@@ -726,16 +726,16 @@ static void add_materials(void *arg)
                        &job->document->object.diagnostics.list);
 }
 
-mxg_status mxg_document_with_materials(mxg_context *context, mxg_library *library,
-                                       const mxg_document *document, const mxg_scene *scene,
-                                       mxg_document **out_document)
+mxg_status mxg_document_import(mxg_context *context, mxg_library *library,
+                               const mxg_document *document, const mxg_scene *scene,
+                               mxg_document **out_document)
 {
     mxg_edit *edit;
     if (out_document)
         *out_document = NULL;
     if (!scene || !out_document)
         return MXG_ERROR_ARGUMENT;
-    mxg_status status = mxg_edit_begin(context, library, document, "<stage>", &edit);
+    mxg_status status = mxg_edit_create(context, library, document, "<stage>", &edit);
     if (status != MXG_OK)
         return status;
     struct materials_job job = {.document = edit->document, .scene = scene};
@@ -744,7 +744,7 @@ mxg_status mxg_document_with_materials(mxg_context *context, mxg_library *librar
     status = object_run(&edit->document->object, add_materials, &job);
     arena_finish(&job.scratch);
     if (status == MXG_OK)
-        return mxg_edit_end(edit, out_document);
-    mxg_edit_cancel(edit);
+        return mxg_edit_commit(edit, out_document);
+    mxg_edit_destroy(edit);
     return status;
 }

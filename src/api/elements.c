@@ -25,13 +25,14 @@ mxg_element mxg_document_root(const mxg_document *document)
     return document ? tree_of(document)->root : 0;
 }
 
-mxg_element mxg_document_find(const mxg_document *document, const char *path)
+mxg_element mxg_document_find_element(const mxg_document *document, const char *path)
 {
     return document && path ? in_tree(document, doc_find(tree_of(document), path, strlen(path)))
                             : 0;
 }
 
-mxg_element mxg_document_child(const mxg_document *document, mxg_element parent, const char *name)
+mxg_element mxg_document_find_child(const mxg_document *document, mxg_element parent,
+                                    const char *name)
 {
     elem_id element = in_tree(document, parent);
     if (!element || !name)
@@ -56,8 +57,8 @@ static void write_path(void *arg, struct arena *scratch)
     job->len = text_copy(path.data, path.len, job->out, job->capacity);
 }
 
-size_t mxg_document_path(const mxg_document *document, mxg_element element, char *out,
-                         size_t capacity)
+size_t mxg_document_element_path(const mxg_document *document, mxg_element element, char *out,
+                                 size_t capacity)
 {
     text_copy("", 0, out, capacity);
     if (!in_tree(document, element))
@@ -102,8 +103,8 @@ mxg_status mxg_document_attribute(const mxg_document *document, mxg_element elem
     return struct_write(out, &full, sizeof full);
 }
 
-const char *mxg_document_attribute_value(const mxg_document *document, mxg_element element,
-                                         const char *name)
+const char *mxg_document_find_attribute(const mxg_document *document, mxg_element element,
+                                        const char *name)
 {
     if (!in_tree(document, element) || !name)
         return NULL;
@@ -212,8 +213,8 @@ static void match(void *arg, struct arena *scratch)
         job->nodedef = library_implemented_nodedef(lib, job->element);
 }
 
-bool mxg_document_definition(const mxg_document *document, mxg_element element,
-                             uint32_t *out_nodedef)
+bool mxg_document_find_nodedef(const mxg_document *document, mxg_element element,
+                               uint32_t *out_nodedef)
 {
     struct match_job job = {document, element, LIBRARY_NONE};
     if (!in_tree(document, element) || !out_nodedef

@@ -132,7 +132,7 @@ static bool find_input(const mxg_result *result, const char *path, struct found_
     *out = (struct found_input){.node = node,
                                 .element = doc_child_of_kind(doc, node, KIND_INPUT, name)};
     uint32_t nodedef;
-    if (!mxg_document_definition(result->document, node, &nodedef))
+    if (!mxg_document_find_nodedef(result->document, node, &nodedef))
         return kind == KIND_NODEGRAPH && out->element;
     int index = library_find_input(&result->document->layer, nodedef, name);
     if (index >= 0)

@@ -286,7 +286,7 @@ mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t
     return MXG_OK;
 }
 
-mxg_status mxg_library_expand(mxg_library *library, const char **out_text, size_t *out_size)
+mxg_status mxg_library_xml(mxg_library *library, const char **out_text, size_t *out_size)
 {
     if (!library || !out_text || !out_size)
         return MXG_ERROR_ARGUMENT;
@@ -352,7 +352,8 @@ static bool has_implementation(const struct mxg_context *context, const struct l
     return false;
 }
 
-bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const char *target)
+bool mxg_library_has_implementation(const mxg_library *library, uint32_t nodedef,
+                                    const char *target)
 {
     const struct target *found =
         library && target ? context_target(library->object.context, target) : NULL;

@@ -180,7 +180,7 @@ static void make_interpolated(void *request)
     r->result = code_issue(r->build, value);
 }
 
-mxg_ref mxg_build_interpolated(mxg_build *build, const char *name, mxg_ref value)
+mxg_ref mxg_build_interpolation(mxg_build *build, const char *name, mxg_ref value)
 {
     return code_request(&(struct code_request){.build = build, .name = name, .value = value},
                         make_interpolated);

@@ -33,12 +33,12 @@ const char *option_key(enum option_id option)
     return table[option].key;
 }
 
-uint32_t mxg_num_options(void)
+uint32_t mxg_catalogue_num_options(void)
 {
     return NUM_OPTIONS;
 }
 
-mxg_status mxg_get_option(uint32_t index, mxg_option *out)
+mxg_status mxg_catalogue_option(uint32_t index, mxg_option *out)
 {
     return index < NUM_OPTIONS ? struct_write(out, &table[index], sizeof table[index])
                                : MXG_ERROR_ARGUMENT;
@@ -51,7 +51,7 @@ static bool option_applies(enum option_id option, const struct target *target)
     return (needs[option] & ~caps) == 0;
 }
 
-bool mxg_option_applies(uint32_t index, const char *target)
+bool mxg_catalogue_has_option(uint32_t index, const char *target)
 {
     const struct target *found = target ? target_find(target) : NULL;
     return found && index < NUM_OPTIONS && option_applies((enum option_id)index, found);

@@ -7,12 +7,12 @@
 
 #include <assert.h>
 
-uint32_t mxg_num_passes(void)
+uint32_t mxg_catalogue_num_passes(void)
 {
     return NUM_PASSES;
 }
 
-const char *mxg_pass_name(uint32_t index)
+const char *mxg_catalogue_pass(uint32_t index)
 {
     return index < NUM_PASSES ? deferred_pass_name((enum deferred_pass)index) : NULL;
 }

@@ -171,7 +171,7 @@ static void add_paths(void *arg)
     }
 }
 
-mxg_status mxg_scene_add(mxg_scene *scene, const char *const *paths, size_t num_paths)
+mxg_status mxg_scene_add_paths(mxg_scene *scene, const char *const *paths, size_t num_paths)
 {
     if (!scene || (!paths && num_paths))
         return MXG_ERROR_ARGUMENT;
@@ -210,10 +210,10 @@ static void add_each(void *arg)
     }
 }
 
-mxg_status mxg_scene_add_each(mxg_scene *scene,
-                              bool (*next_primitive)(void *user_data, uint32_t last,
-                                                     mxg_primitive *out),
-                              void *user_data)
+mxg_status mxg_scene_add_primitives(mxg_scene *scene,
+                                    bool (*next_primitive)(void *user_data, uint32_t last,
+                                                           mxg_primitive *out),
+                                    void *user_data)
 {
     if (!scene || !next_primitive)
         return MXG_ERROR_ARGUMENT;
@@ -237,7 +237,8 @@ static void remove_primitives(void *arg)
     arena_release(&r->scene->object.arena, prims, r->num * sizeof *prims);
 }
 
-mxg_status mxg_scene_remove(mxg_scene *scene, const uint32_t *primitives, size_t num_primitives)
+mxg_status mxg_scene_remove_primitives(mxg_scene *scene, const uint32_t *primitives,
+                                       size_t num_primitives)
 {
     if (!scene || (!primitives && num_primitives))
         return MXG_ERROR_ARGUMENT;
@@ -280,12 +281,13 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
     return struct_write(out, &full, sizeof full);
 }
 
-uint32_t mxg_scene_find(const mxg_scene *scene, const char *path)
+uint32_t mxg_scene_find_primitive(const mxg_scene *scene, const char *path)
 {
     return scene && path ? number_of(scene_find(&scene->scene, path, strlen(path))) : UINT32_MAX;
 }
 
-size_t mxg_scene_path(const mxg_scene *scene, uint32_t index, char *buffer, size_t capacity)
+size_t mxg_scene_primitive_path(const mxg_scene *scene, uint32_t index, char *buffer,
+                                size_t capacity)
 {
     if (!has_primitive(scene, index))
         return 0;

@@ -43,14 +43,14 @@ static mxg_status run_change(struct binding_change change, uint32_t primitive)
     return object->diagnostics.list.num_errors > errors ? MXG_ERROR_DOCUMENT : MXG_OK;
 }
 
-mxg_status mxg_scene_bind(mxg_scene *scene, uint32_t primitive, const char *slot,
-                          const char *material)
+mxg_status mxg_scene_set_binding(mxg_scene *scene, uint32_t primitive, const char *slot,
+                                 const char *material)
 {
     struct binding_change change = {.scene = scene, .slot = slot, .material = material};
     return material ? run_change(change, primitive) : MXG_ERROR_ARGUMENT;
 }
 
-mxg_status mxg_scene_unbind(mxg_scene *scene, uint32_t primitive, const char *slot)
+mxg_status mxg_scene_remove_binding(mxg_scene *scene, uint32_t primitive, const char *slot)
 {
     struct binding_change change = {.scene = scene, .slot = slot};
     return run_change(change, primitive);

@@ -100,8 +100,8 @@ static struct text_word value_of(const mxg_scene *scene, uint32_t primitive, con
     return found ? usda_value(found) : (struct text_word){0};
 }
 
-size_t mxg_scene_numbers(const mxg_scene *scene, uint32_t primitive, const char *name, double *out,
-                         size_t capacity)
+size_t mxg_scene_property_numbers(const mxg_scene *scene, uint32_t primitive, const char *name,
+                                  double *out, size_t capacity)
 {
     struct text_word rest = value_of(scene, primitive, name, NULL);
     size_t num = 0;
@@ -120,8 +120,8 @@ static bool find_word(struct text_word value, uint32_t index, struct text_word *
     return good;
 }
 
-size_t mxg_scene_word(const mxg_scene *scene, uint32_t primitive, const char *name, uint32_t index,
-                      char *buffer, size_t capacity)
+size_t mxg_scene_property_word(const mxg_scene *scene, uint32_t primitive, const char *name,
+                               uint32_t index, char *buffer, size_t capacity)
 {
     struct text_word word;
     return find_word(value_of(scene, primitive, name, NULL), index, &word)
@@ -129,8 +129,8 @@ size_t mxg_scene_word(const mxg_scene *scene, uint32_t primitive, const char *na
                : 0;
 }
 
-uint32_t mxg_scene_target(const mxg_scene *scene, uint32_t primitive, const char *name,
-                          uint32_t index)
+uint32_t mxg_scene_property_target(const mxg_scene *scene, uint32_t primitive, const char *name,
+                                   uint32_t index)
 {
     uint32_t source = 0;
     struct text_word path;

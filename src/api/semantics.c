@@ -8,13 +8,14 @@ static const mxg_semantic table[] = {
 #include "shader/semantics.def"
 };
 
-uint32_t mxg_num_semantics(void)
+uint32_t mxg_catalogue_num_semantics(void)
 {
     return sizeof table / sizeof *table;
 }
 
-mxg_status mxg_get_semantic(uint32_t index, mxg_semantic *out)
+mxg_status mxg_catalogue_semantic(uint32_t index, mxg_semantic *out)
 {
-    return index < mxg_num_semantics() ? struct_write(out, &table[index], sizeof table[index])
-                                       : MXG_ERROR_ARGUMENT;
+    return index < mxg_catalogue_num_semantics()
+               ? struct_write(out, &table[index], sizeof table[index])
+               : MXG_ERROR_ARGUMENT;
 }

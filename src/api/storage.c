@@ -5,12 +5,12 @@
 
 #include <string.h>
 
-uint32_t mxg_num_pass_resources(void)
+uint32_t mxg_catalogue_num_pass_resources(void)
 {
     return NUM_RESOURCES;
 }
 
-mxg_status mxg_get_pass_resource(uint32_t index, mxg_pass_resource *out)
+mxg_status mxg_catalogue_pass_resource(uint32_t index, mxg_pass_resource *out)
 {
     if (index >= NUM_RESOURCES)
         return MXG_ERROR_ARGUMENT;
@@ -25,7 +25,7 @@ mxg_status mxg_get_pass_resource(uint32_t index, mxg_pass_resource *out)
     return struct_write(out, &full, sizeof full);
 }
 
-mxg_status mxg_get_pass_member(uint32_t resource, uint32_t index, mxg_pass_member *out)
+mxg_status mxg_catalogue_pass_member(uint32_t resource, uint32_t index, mxg_pass_member *out)
 {
     if (resource >= NUM_RESOURCES
         || index >= deferred_resource((enum deferred_binding)resource)->num_members)

@@ -2,7 +2,7 @@
 /* The list of targets, for callers. */
 #include "api/api.h"
 
-uint32_t mxg_num_targets(void)
+uint32_t mxg_catalogue_num_targets(void)
 {
     uint32_t count = 0;
     while (targets[count])
@@ -22,9 +22,9 @@ bool target_exists(const void *context, const char *materialx_name)
     return false;
 }
 
-mxg_status mxg_get_target(uint32_t index, mxg_target *out)
+mxg_status mxg_catalogue_target(uint32_t index, mxg_target *out)
 {
-    if (index >= mxg_num_targets())
+    if (index >= mxg_catalogue_num_targets())
         return MXG_ERROR_ARGUMENT;
     const struct target *target = targets[index];
     mxg_target full = {

@@ -208,8 +208,7 @@ static void validate(struct generation *g)
     check_textures(g);
 }
 
-mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document,
-                                 mxg_result **out_result)
+mxg_status mxg_validate(mxg_context *context, const mxg_document *document, mxg_result **out_result)
 {
     return generation_run(context, document, NULL, validate, NULL, out_result);
 }

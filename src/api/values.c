@@ -55,10 +55,10 @@ static bool read_value(const mxg_result *program, const struct document *doc,
            && out->type == v->type;
 }
 
-mxg_status mxg_document_values(const mxg_document *document, const mxg_result *program,
-                               mxg_block block, void *bytes, size_t capacity)
+mxg_status mxg_document_pack_block(const mxg_document *document, const mxg_result *program,
+                                   mxg_block block, void *bytes, size_t capacity)
 {
-    size_t size = program ? mxg_result_pack(program, block, NULL, 0) : 0;
+    size_t size = program ? mxg_result_pack_block(program, block, NULL, 0) : 0;
     if (!document || !size || !bytes || capacity < size
         || document->layer.base != program->document->layer.base)
         return MXG_ERROR_ARGUMENT;
@@ -68,7 +68,7 @@ mxg_status mxg_document_values(const mxg_document *document, const mxg_result *p
     for (unsigned writes = 0; writes < 2;
          writes++) { /* first a test, so that all or nothing is written */
         if (writes)
-            mxg_result_pack(program, block, bytes, capacity);
+            mxg_result_pack_block(program, block, bytes, capacity);
         for (uint32_t i = shader->first_of_block[block]; i < shader->first_of_block[block + 1];
              i++) {
             const struct shader_variable *v = result_variable(program, i);

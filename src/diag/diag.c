@@ -191,7 +191,6 @@ static bool is_kept(struct diag_list *list, enum diag_severity severity)
     if (severity == DIAG_NOTE)
         return !list->muted_notes;
     list->num_errors += severity == DIAG_ERROR;
-    list->num_warnings += severity == DIAG_WARNING;
     bool is_too_many =
         severity == DIAG_ERROR && list->max_errors && list->num_errors > list->max_errors;
     list->muted_notes = is_too_many || severity == DIAG_IGNORED;

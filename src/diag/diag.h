@@ -59,7 +59,7 @@ struct diag_list {
     void (*trace)(void *user_data, struct diag_list *list);
     void *trace_data;
     VEC(struct diag) items;
-    uint32_t num_errors, num_warnings;
+    uint32_t num_errors;
     uint32_t num_guesses; /* number of suggestions so far: diag_guess_begin */
     uint32_t max_errors;  /* the list counts further errors but does not keep them; 0 = unlimited */
     /*

@@ -167,7 +167,7 @@ static void read_known(void *request)
                         && (!r->out || write_value(build, &known, r->out));
 }
 
-bool mxg_build_known(mxg_build *build, mxg_ref value, mxg_value *out)
+bool mxg_build_value(mxg_build *build, mxg_ref value, mxg_value *out)
 {
     struct known_request r = {.request = {.build = build, .value = value}, .out = out};
     return code_request(&r.request, read_known) != 0;
@@ -197,7 +197,7 @@ static void read_constant(void *request)
         r->request.result = write_value(build, &value, r->out);
 }
 
-bool mxg_build_constant(mxg_build *build, const char *input, mxg_value *out)
+bool mxg_build_require_constant(mxg_build *build, const char *input, mxg_value *out)
 {
     struct known_request r = {.request = {.build = build, .name = input}, .out = out};
     return code_request(&r.request, read_constant) != 0;
@@ -205,7 +205,7 @@ bool mxg_build_constant(mxg_build *build, const char *input, mxg_value *out)
 
 /* ---- The definition ---- */
 
-mxg_status mxg_build_get_info(mxg_build *build, mxg_build_info *out)
+mxg_status mxg_build_use(mxg_build *build, mxg_build_info *out)
 {
     if (!build)
         return MXG_ERROR_ARGUMENT;
@@ -254,7 +254,7 @@ static void report_error(void *request)
              build_text(build->b, build->def->node), r->text ? r->text : "");
 }
 
-void mxg_build_error(mxg_build *build, const char *input, const char *text)
+void mxg_build_report_error(mxg_build *build, const char *input, const char *text)
 {
     code_request(&(struct code_request){.build = build, .name = input, .text = text}, report_error);
 }

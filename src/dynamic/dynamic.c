@@ -49,11 +49,11 @@ static mxg_ref op2(mxg_build *build, const char *op, mxg_ref a, mxg_ref b)
 static bool read_index(mxg_build *build, int32_t *out)
 {
     mxg_value index = MXG_INIT(mxg_value);
-    if (!mxg_build_constant(build, "index", &index))
+    if (!mxg_build_require_constant(build, "index", &index))
         return false;
     *out = index.integer;
     if (index.integer < 0)
-        mxg_build_error(build, "index", "the index is negative; the first one is 0");
+        mxg_build_report_error(build, "index", "the index is negative; the first one is 0");
     return index.integer >= 0;
 }
 
@@ -134,7 +134,7 @@ static bool build_axis(mxg_build *build, const char *object, const char *world, 
     mxg_value space = MXG_INIT(mxg_value);
     int32_t index = 0;
     if ((build->b->options->indexed_tangents && !read_index(build, &index))
-        || !mxg_build_constant(build, "space", &space))
+        || !mxg_build_require_constant(build, "space", &space))
         return false;
     bool is_world = strcmp(space.text, "world") == 0;
     if (index == 0) {
@@ -213,7 +213,7 @@ static bool build_geompropvalue(void *user_data, mxg_build *build, mxg_ref *resu
 {
     mxg_value name = MXG_INIT(mxg_value);
     (void)user_data;
-    if (!mxg_build_constant(build, "geomprop", &name))
+    if (!mxg_build_require_constant(build, "geomprop", &name))
         return false;
     if (!name.text[0] || build->type == IR_TYPE_STRING) { /* the node names no property */
         results[0] = mxg_build_input(build, "default");
@@ -356,11 +356,11 @@ static ir_ref set_share(const mxg_build *build, str_id name)
 static int constant_mode(mxg_build *build, const char *input)
 {
     mxg_value value = MXG_INIT(mxg_value);
-    if (!mxg_build_constant(build, input, &value))
+    if (!mxg_build_require_constant(build, input, &value))
         return -1;
     int mode = build_mode(value.text);
     if (mode < 0)
-        mxg_build_error(build, input, "the modes are add, mix and none");
+        mxg_build_report_error(build, input, "the modes are add, mix and none");
     return mode;
 }
 
@@ -401,7 +401,7 @@ static bool build_chosen_input(void *user_data, mxg_build *build, mxg_ref *resul
         return dynamic_misfit(build, "the built-in code needs a number and inputs to choose from");
     if (library_type_ir(b->lib, build->ports[0].type) != IR_TYPE_INT)
         return dynamic_misfit(build, "the built-in code needs an integer as its first input");
-    if (!mxg_build_constant(build, build_text(b, build->ports[0].name), &number))
+    if (!mxg_build_require_constant(build, build_text(b, build->ports[0].name), &number))
         return false;
     if (number.integer < 0 || number.integer >= build->def->num_inputs - 1)
         return dynamic_misfit(build, "it has no input with this number");

@@ -236,7 +236,7 @@ bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results)
 {
     mxg_value thin = MXG_INIT(mxg_value);
     (void)user_data;
-    if (!mxg_build_constant(build, "thin", &thin))
+    if (!mxg_build_require_constant(build, "thin", &thin))
         return false;
     ir_ref args[3] = {dynamic_arg(build, STR_bsdf),
                       ir_const_bool(build->b->graph, thin.values[0] != 0),

@@ -65,8 +65,8 @@ bool dynamic_occlusion(void *user_data, mxg_build *build, mxg_ref *results)
     mxg_value angle = MXG_INIT(mxg_value), distance = MXG_INIT(mxg_value);
     ir_ref open = 0;
     (void)user_data;
-    if (!mxg_build_constant(build, "coneangle", &angle)
-        || !mxg_build_constant(build, "maxdistance", &distance))
+    if (!mxg_build_require_constant(build, "coneangle", &angle)
+        || !mxg_build_require_constant(build, "maxdistance", &distance))
         return false;
     switch ((enum build_occlusion)b->options->occlusion) {
     case OCCLUSION_MAP: open = closure_occlusion(b->shader, b->options->texture_origin == 1); break;

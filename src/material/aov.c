@@ -31,11 +31,11 @@ void build_leave_out_aov(struct builder *b, const struct aov_use *use, const cha
 static str_id name_from(mxg_build *build, const char *input)
 {
     mxg_value value = MXG_INIT(mxg_value);
-    if (!mxg_build_constant(build, input, &value))
+    if (!mxg_build_require_constant(build, input, &value))
         return 0;
     if (value.text[0])
         return str_intern_z(build->b->shader->strings, value.text);
-    mxg_build_error(build, input, "an AOV needs a name");
+    mxg_build_report_error(build, input, "an AOV needs a name");
     return 0;
 }
 

@@ -167,9 +167,9 @@ static const struct memory_file fixture_files[] = {
 
 static inline bool has_diagnostic(const mxg_diagnostics *list, const char *id)
 {
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); i++) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); i++) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        if (mxg_diagnostics_get(list, i, &diagnostic) == MXG_OK && strcmp(diagnostic.id, id) == 0)
+        if (mxg_diagnostics_item(list, i, &diagnostic) == MXG_OK && strcmp(diagnostic.id, id) == 0)
             return true;
     }
     return false;

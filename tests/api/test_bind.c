@@ -88,7 +88,7 @@ static mxg_scene *make_scene(mxg_context *context, const char *paths, bool rever
         list[num++] = path;
     for (size_t i = 0; i < num; i++) {
         const char *path = list[reverse ? num - 1 - i : i];
-        REQUIRE(mxg_scene_add(scene, &path, 1) == MXG_OK);
+        REQUIRE(mxg_scene_add_paths(scene, &path, 1) == MXG_OK);
     }
     free(copy);
     return scene;
@@ -97,9 +97,9 @@ static mxg_scene *make_scene(mxg_context *context, const char *paths, bool rever
 static void check_messages(const struct rule *rule, const mxg_diagnostics *list)
 {
     char given[512] = "";
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); i++) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); i++) {
         mxg_diagnostic d = {sizeof d};
-        mxg_diagnostics_get(list, i, &d);
+        mxg_diagnostics_item(list, i, &d);
         snprintf(given + strlen(given), sizeof given - strlen(given), "%s%s", *given ? " " : "",
                  d.id);
     }
@@ -144,10 +144,10 @@ static void check_rule(mxg_context *context, const struct rule *rule, bool rever
 {
     mxg_document *document = parse_rule(context, rule);
     mxg_scene *scene = make_scene(context, rule->paths, reverse);
-    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     mxg_bindings *bindings = NULL;
     desc.look = strstr(rule->looks, "name='Child'") ? "Child" : "L";
-    mxg_status status = mxg_bind(context, document, scene, &desc, &bindings);
+    mxg_status status = mxg_bindings_create(context, document, scene, &desc, &bindings);
     if (!REQUIRE_EQ(status, rule->rows ? MXG_OK : MXG_ERROR_DOCUMENT))
         printf("    of: %s\n", rule->what);
     check_messages(rule, mxg_bindings_diagnostics(bindings));
@@ -200,9 +200,9 @@ static void test_queries(mxg_context *context)
     mxg_document *document = parse_rule(context, &rule);
     mxg_scene *scene = make_scene(context, rule.paths, false);
     mxg_bindings *bindings = NULL;
-    REQUIRE_EQ(mxg_bind(context, document, scene, NULL, &bindings), MXG_OK);
-    uint32_t a = mxg_scene_find(scene, "/a"), b = mxg_scene_find(scene, "/a/b"),
-             c = mxg_scene_find(scene, "/a/c");
+    REQUIRE_EQ(mxg_bindings_create(context, document, scene, NULL, &bindings), MXG_OK);
+    uint32_t a = mxg_scene_find_primitive(scene, "/a"), b = mxg_scene_find_primitive(scene, "/a/b"),
+             c = mxg_scene_find_primitive(scene, "/a/c");
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, b), 3);
     mxg_layer layer = {sizeof layer};
     REQUIRE_EQ(mxg_bindings_layer(bindings, b, 0, &layer), MXG_OK);
@@ -235,20 +235,20 @@ static void test_scene(mxg_context *context)
     char path[16], small[4];
     const char *paths[] = {"/a/b", "a", "//", "/a//b", "/a/c/"};
     mxg_scene_create(context, &scene);
-    REQUIRE_EQ(mxg_scene_add(scene, paths, 5), MXG_ERROR_DOCUMENT);
-    REQUIRE_EQ(mxg_diagnostics_errors(mxg_scene_diagnostics(scene)), 3);
+    REQUIRE_EQ(mxg_scene_add_paths(scene, paths, 5), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_diagnostics_num_errors(mxg_scene_diagnostics(scene)), 3);
     REQUIRE_EQ(mxg_scene_num_primitives(scene), 3);
-    uint32_t b = mxg_scene_find(scene, "/a/b");
-    REQUIRE_EQ(mxg_scene_path(scene, b, path, sizeof path), 4);
+    uint32_t b = mxg_scene_find_primitive(scene, "/a/b");
+    REQUIRE_EQ(mxg_scene_primitive_path(scene, b, path, sizeof path), 4);
     REQUIRE_STR(path, "/a/b");
-    REQUIRE_EQ(mxg_scene_path(scene, b, small, sizeof small), 4);
+    REQUIRE_EQ(mxg_scene_primitive_path(scene, b, small, sizeof small), 4);
     REQUIRE_STR(small, "/a/");
-    REQUIRE_EQ(mxg_scene_find(scene, "/"), UINT32_MAX);
-    REQUIRE_EQ(mxg_scene_find(scene, "/x"), UINT32_MAX);
+    REQUIRE_EQ(mxg_scene_find_primitive(scene, "/"), UINT32_MAX);
+    REQUIRE_EQ(mxg_scene_find_primitive(scene, "/x"), UINT32_MAX);
     mxg_primitive primitive = {sizeof primitive};
     REQUIRE_EQ(mxg_scene_primitive(scene, b, &primitive), MXG_OK);
-    REQUIRE_EQ(primitive.parent, mxg_scene_find(scene, "/a"));
-    REQUIRE_EQ(primitive.next_sibling, mxg_scene_find(scene, "/a/c"));
+    REQUIRE_EQ(primitive.parent, mxg_scene_find_primitive(scene, "/a"));
+    REQUIRE_EQ(primitive.next_sibling, mxg_scene_find_primitive(scene, "/a/c"));
     REQUIRE_EQ(primitive.first_child, UINT32_MAX);
     mxg_scene_destroy(scene);
 }
@@ -275,7 +275,7 @@ static void test_memory(void)
         char *json = NULL;
         heap.calls = 0;
         heap.fail_at = fail_at;
-        status = mxg_bind(context, document, scene, NULL, &bindings);
+        status = mxg_bindings_create(context, document, scene, NULL, &bindings);
         REQUIRE((status == MXG_OK) == (bindings != NULL));
         if (status == MXG_OK)
             status = mxg_bindings_write(bindings, MXG_BINDINGS_JSON, append, &json);
@@ -313,7 +313,7 @@ static mxg_scene *make_large_scene(mxg_context *context, unsigned num_leaves)
         const char *list = path;
         snprintf(path, sizeof path, "/set_%u/a/row_%u/b/d/e/f/g/h/i/c_%u/leaf_%u", i / 10000,
                  i / 100, i % 7, i);
-        mxg_scene_add(scene, &list, 1);
+        mxg_scene_add_paths(scene, &list, 1);
     }
     return scene;
 }
@@ -354,7 +354,7 @@ static double bytes_of_large_scene(unsigned num_leaves, uint32_t *out_stacks)
     mxg_document *document = make_large_look(context);
     size_t before = heap.held;
     mxg_scene *scene = make_large_scene(context, num_leaves);
-    REQUIRE_EQ(mxg_bind(context, document, scene, NULL, &bindings), MXG_OK);
+    REQUIRE_EQ(mxg_bindings_create(context, document, scene, NULL, &bindings), MXG_OK);
     double bytes = (double)(heap.held - before) / mxg_scene_num_primitives(scene);
     *out_stacks = mxg_bindings_num_stacks(bindings);
     mxg_bindings_destroy(bindings);
@@ -389,7 +389,7 @@ static void test_many_layers(mxg_context *context)
     mxg_document *document = parse_rule(context, &rule);
     mxg_scene *scene = make_scene(context, rule.paths, false);
     mxg_bindings *bindings = NULL;
-    REQUIRE_EQ(mxg_bind(context, document, scene, NULL, &bindings), MXG_OK);
+    REQUIRE_EQ(mxg_bindings_create(context, document, scene, NULL, &bindings), MXG_OK);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, 1), NUM);
     mxg_layer layer = {sizeof layer};
     REQUIRE_EQ(mxg_bindings_layer(bindings, 1, NUM - 1, &layer), MXG_OK);
@@ -412,7 +412,7 @@ static void test_stacks(mxg_context *context)
     mxg_shader_info info = {sizeof info};
     mxg_result *result = NULL;
     char name[64];
-    REQUIRE(mxg_bind(context, document, scene, NULL, &bindings) == MXG_OK);
+    REQUIRE(mxg_bindings_create(context, document, scene, NULL, &bindings) == MXG_OK);
     desc.target = "vulkan";
     desc.bindings = bindings;
     for (uint32_t i = 0; i < mxg_scene_num_primitives(scene); i++) {

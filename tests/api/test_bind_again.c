@@ -65,8 +65,8 @@ static char *text_of(const mxg_bindings *bindings)
     mxg_diagnostic d = {sizeof d};
     REQUIRE(mxg_bindings_write(bindings, MXG_BINDINGS_JSON, append, &text) == MXG_OK);
     const mxg_diagnostics *list = mxg_bindings_diagnostics(bindings);
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); i++) {
-        mxg_diagnostics_get(list, i, &d);
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); i++) {
+        mxg_diagnostics_item(list, i, &d);
         append(&text, d.message, strlen(d.message));
         append(&text, "\n", 1);
     }
@@ -104,8 +104,8 @@ static mxg_scene *copy_scene(mxg_context *context, const mxg_scene *scene)
     for (uint32_t i = 0; i < mxg_scene_num_primitives(scene); i++) {
         char buffer[64];
         const char *path = buffer;
-        if (mxg_scene_path(scene, i, buffer, sizeof buffer))
-            REQUIRE_EQ(mxg_scene_add(copy, &path, 1), MXG_OK);
+        if (mxg_scene_primitive_path(scene, i, buffer, sizeof buffer))
+            REQUIRE_EQ(mxg_scene_add_paths(copy, &path, 1), MXG_OK);
     }
     return copy;
 }
@@ -114,12 +114,12 @@ static mxg_scene *copy_scene(mxg_context *context, const mxg_scene *scene)
 static uint32_t bind_again(mxg_context *context, const mxg_document *document, mxg_scene *scene,
                            mxg_bindings **previous)
 {
-    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     mxg_bindings *anew = NULL, *again = NULL;
-    REQUIRE_EQ(mxg_bind(context, document, scene, &desc, &anew), MXG_OK);
+    REQUIRE_EQ(mxg_bindings_create(context, document, scene, &desc, &anew), MXG_OK);
     desc.previous = *previous;
-    REQUIRE_EQ(mxg_bind(context, document, scene, &desc, &again), MXG_OK);
-    REQUIRE_EQ(mxg_bindings_num_resolved(anew), count_primitives(scene));
+    REQUIRE_EQ(mxg_bindings_create(context, document, scene, &desc, &again), MXG_OK);
+    REQUIRE_EQ(mxg_bindings_num_resolved_primitives(anew), count_primitives(scene));
     char *expected = text_of(anew), *given = text_of(again);
     add_facts(anew, scene, &expected);
     add_facts(again, scene, &given);
@@ -127,7 +127,7 @@ static uint32_t bind_again(mxg_context *context, const mxg_document *document, m
         printf("again:\n%s\nanew:\n%s\n", given, expected);
     free(expected);
     free(given);
-    uint32_t num = mxg_bindings_num_resolved(again);
+    uint32_t num = mxg_bindings_num_resolved_primitives(again);
     mxg_bindings_destroy(anew);
     mxg_bindings_destroy(*previous);
     *previous = again;
@@ -162,7 +162,7 @@ static bool next_of_row(void *user_data, uint32_t last, mxg_primitive *out)
 static uint32_t add_row(mxg_scene *scene, uint32_t parent, uint32_t num)
 {
     struct row row = {.parent = parent, .num = num};
-    REQUIRE_EQ(mxg_scene_add_each(scene, next_of_row, &row), MXG_OK);
+    REQUIRE_EQ(mxg_scene_add_primitives(scene, next_of_row, &row), MXG_OK);
     return row.first;
 }
 
@@ -250,7 +250,8 @@ static void test_scene_changes(mxg_context *context, bool with_leaves)
     mxg_bindings *bindings = NULL;
     set_line(&look, 0, with_leaves ? ASSIGN("050", "B", "//*") : ASSIGN("050", "B", "/p0"));
     mxg_document *document = parse_look(context, &look);
-    uint32_t leaf = mxg_scene_find(scene, "/p3/p4"), root = mxg_scene_find(scene, "/p3");
+    uint32_t leaf = mxg_scene_find_primitive(scene, "/p3/p4"),
+             root = mxg_scene_find_primitive(scene, "/p3");
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), NUM_ALL);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, leaf), with_leaves ? 1 : 0);
     /* a leaf gets a primitive below: it is none any more, which a pattern may ask for */
@@ -260,26 +261,26 @@ static void test_scene_changes(mxg_context *context, bool with_leaves)
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, leaf), 0);
     /* the second one below changes nothing above */
     const char *path = "/p3/p4/second";
-    REQUIRE_EQ(mxg_scene_add(scene, &path, 1), MXG_OK);
+    REQUIRE_EQ(mxg_scene_add_paths(scene, &path, 1), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), 1);
     const char *paths[] = {"/new/a", "/new/b", "/p5/new"};
-    REQUIRE_EQ(mxg_scene_add(scene, paths, 3), MXG_OK);
+    REQUIRE_EQ(mxg_scene_add_paths(scene, paths, 3), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), 4);
-    REQUIRE_EQ(mxg_scene_bind(scene, root, "000", "A"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, root, "000", "A"), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), NUM_BELOW + 3);
     mxg_layer layer = {sizeof layer};
     REQUIRE_EQ(mxg_bindings_layer(bindings, leaf, 0, &layer), MXG_OK);
     REQUIRE_STR(layer.material, "A");
     REQUIRE_EQ(layer.from, root);
     REQUIRE_STR(layer.assign, "/p3.material:slotBinding:_000");
-    REQUIRE_EQ(mxg_scene_bind(scene, root, "000", "B"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, root, "000", "B"), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), 0);
     REQUIRE_EQ(mxg_bindings_layer(bindings, leaf, 0, &layer), MXG_OK);
     REQUIRE_STR(layer.material, "B");
-    REQUIRE_EQ(mxg_scene_bind(scene, leaf, "000", ""), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, leaf, "000", ""), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), 3);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, leaf), 0);
-    REQUIRE_EQ(mxg_scene_unbind(scene, leaf, "000"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_remove_binding(scene, leaf, "000"), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), 0);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, leaf), 1);
     mxg_bindings_destroy(bindings);
@@ -306,7 +307,7 @@ static mxg_status add_one(mxg_scene *scene, uint32_t parent, const char *name)
 {
     mxg_primitive given = {.parent = parent, .name = name, .name_len = strlen(name)},
                   *next = &given;
-    return mxg_scene_add_each(scene, give_one, &next);
+    return mxg_scene_add_primitives(scene, give_one, &next);
 }
 
 static void test_primitives(mxg_context *context)
@@ -319,7 +320,7 @@ static void test_primitives(mxg_context *context)
     REQUIRE_EQ(primitive.type_len, 4);
     REQUIRE(memcmp(primitive.type, "Mesh", 4) == 0);
     REQUIRE_EQ(add_one(scene, 1, "b/c"), MXG_OK);
-    uint32_t c = mxg_scene_find(scene, "/p1/b/c");
+    uint32_t c = mxg_scene_find_primitive(scene, "/p1/b/c");
     REQUIRE_EQ(mxg_scene_primitive(scene, c, &primitive), MXG_OK);
     REQUIRE_EQ(primitive.type_len, 0);
     REQUIRE_EQ(add_one(scene, 1, "b/c"), MXG_OK);
@@ -328,9 +329,9 @@ static void test_primitives(mxg_context *context)
     for (size_t i = 0; i < sizeof faulty / sizeof *faulty; i++)
         REQUIRE_EQ(add_one(scene, 1, faulty[i]), MXG_ERROR_DOCUMENT);
     REQUIRE_EQ(add_one(scene, 99, "b"), MXG_ERROR_DOCUMENT);
-    REQUIRE_EQ(mxg_diagnostics_errors(mxg_scene_diagnostics(scene)), 4);
+    REQUIRE_EQ(mxg_diagnostics_num_errors(mxg_scene_diagnostics(scene)), 4);
     REQUIRE_EQ(mxg_scene_num_primitives(scene), 4);
-    REQUIRE_EQ(mxg_scene_add_each(scene, NULL, NULL), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_add_primitives(scene, NULL, NULL), MXG_ERROR_ARGUMENT);
     mxg_scene_destroy(scene);
 }
 
@@ -340,10 +341,10 @@ static void test_bindings_of_scene(mxg_context *context)
     mxg_slot_binding binding = {sizeof binding};
     mxg_scene_create(context, &scene);
     add_row(scene, UINT32_MAX, 2);
-    REQUIRE_EQ(mxg_scene_bind(scene, 1, "050::010", "NG"), MXG_OK);
-    REQUIRE_EQ(mxg_scene_bind(scene, 1, "050", "A"), MXG_OK);
-    REQUIRE_EQ(mxg_scene_bind(scene, 1, "050::010", ""), MXG_OK);
-    REQUIRE_EQ(mxg_scene_bind(scene, UINT32_MAX, "050", "B"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 1, "050::010", "NG"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 1, "050", "A"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 1, "050::010", ""), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, UINT32_MAX, "050", "B"), MXG_OK);
     REQUIRE_EQ(mxg_scene_num_bindings(scene, 0), 0);
     REQUIRE_EQ(mxg_scene_num_bindings(scene, 1), 2);
     REQUIRE_EQ(mxg_scene_num_bindings(scene, 2), 0);
@@ -354,15 +355,15 @@ static void test_bindings_of_scene(mxg_context *context)
     REQUIRE_EQ(mxg_scene_binding(scene, 1, 2, &binding), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_scene_binding(scene, UINT32_MAX, 0, &binding), MXG_OK);
     REQUIRE_STR(binding.material, "B");
-    REQUIRE_EQ(mxg_scene_unbind(scene, 1, "050"), MXG_OK);
-    REQUIRE_EQ(mxg_scene_unbind(scene, 1, "050"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_remove_binding(scene, 1, "050"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_remove_binding(scene, 1, "050"), MXG_OK);
     REQUIRE_EQ(mxg_scene_num_bindings(scene, 1), 1);
-    REQUIRE_EQ(mxg_scene_bind(scene, 2, "050", "A"), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_scene_bind(scene, 1, NULL, "A"), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_scene_bind(scene, 1, "050", NULL), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_scene_bind(scene, 1, "a:b", "A"), MXG_ERROR_DOCUMENT);
-    REQUIRE_EQ(mxg_scene_unbind(scene, 1, ""), MXG_ERROR_DOCUMENT);
-    REQUIRE_EQ(mxg_diagnostics_errors(mxg_scene_diagnostics(scene)), 2);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 2, "050", "A"), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 1, NULL, "A"), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 1, "050", NULL), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 1, "a:b", "A"), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_scene_remove_binding(scene, 1, ""), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_diagnostics_num_errors(mxg_scene_diagnostics(scene)), 2);
     mxg_scene_destroy(scene);
 }
 
@@ -376,7 +377,7 @@ static void test_plain_names(mxg_context *context)
     mxg_scene_create(context, &scene);
     REQUIRE_EQ(add_one(scene, UINT32_MAX, "a[1],*"), MXG_OK);
     REQUIRE_EQ(add_one(scene, UINT32_MAX, "a1"), MXG_OK);
-    REQUIRE_EQ(mxg_scene_bind(scene, 0, "000", "A"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 0, "000", "A"), MXG_OK);
     bind_again(context, document, scene, &bindings);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, 0), 1);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, 1), 0);
@@ -396,45 +397,47 @@ static void test_removals(mxg_context *context, bool with_leaves)
     set_line(&look, 0, with_leaves ? ASSIGN("050", "B", "//*") : ASSIGN("050", "B", "/p0"));
     mxg_document *document = parse_look(context, &look);
     const char *extra[] = {"/p3/p4/a/b", "/p3/p4/c"};
-    REQUIRE_EQ(mxg_scene_add(scene, extra, 2), MXG_OK);
-    uint32_t above = mxg_scene_find(scene, "/p3/p4"), a = mxg_scene_find(scene, "/p3/p4/a"),
-             b = mxg_scene_find(scene, "/p3/p4/a/b"), c = mxg_scene_find(scene, "/p3/p4/c");
-    REQUIRE_EQ(mxg_scene_bind(scene, b, "000", "A"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_add_paths(scene, extra, 2), MXG_OK);
+    uint32_t above = mxg_scene_find_primitive(scene, "/p3/p4"),
+             a = mxg_scene_find_primitive(scene, "/p3/p4/a"),
+             b = mxg_scene_find_primitive(scene, "/p3/p4/a/b"),
+             c = mxg_scene_find_primitive(scene, "/p3/p4/c");
+    REQUIRE_EQ(mxg_scene_set_binding(scene, b, "000", "A"), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), NUM_ALL + 3);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, above), 0);
-    REQUIRE_EQ(mxg_scene_remove(scene, &a, 1), MXG_OK);
+    REQUIRE_EQ(mxg_scene_remove_primitives(scene, &a, 1), MXG_OK);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, 0), 0);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), 0);
-    REQUIRE_EQ(mxg_scene_find(scene, "/p3/p4/a"), UINT32_MAX);
-    REQUIRE_EQ(mxg_scene_find(scene, "/p3/p4/a/b"), UINT32_MAX);
+    REQUIRE_EQ(mxg_scene_find_primitive(scene, "/p3/p4/a"), UINT32_MAX);
+    REQUIRE_EQ(mxg_scene_find_primitive(scene, "/p3/p4/a/b"), UINT32_MAX);
     REQUIRE_EQ(mxg_scene_primitive(scene, b, &primitive), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_scene_path(scene, a, path, sizeof path), 0);
+    REQUIRE_EQ(mxg_scene_primitive_path(scene, a, path, sizeof path), 0);
     REQUIRE_EQ(mxg_scene_num_bindings(scene, b), 0);
-    REQUIRE_EQ(mxg_scene_bind(scene, b, "000", "A"), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_scene_remove(scene, &b, 1), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_scene_remove(scene, NULL, 1), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_scene_remove(scene, NULL, 0), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, b, "000", "A"), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_remove_primitives(scene, &b, 1), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_remove_primitives(scene, NULL, 1), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_scene_remove_primitives(scene, NULL, 0), MXG_OK);
     REQUIRE_EQ(add_one(scene, a, "x"), MXG_ERROR_DOCUMENT);
     REQUIRE_EQ(mxg_bindings_stack(bindings, b), UINT32_MAX);
     REQUIRE_EQ(mxg_scene_primitive(scene, above, &primitive), MXG_OK);
     REQUIRE_EQ(primitive.first_child, c);
     /* the last one below: the parent is a leaf */
     uint32_t both[] = {c, above, c};
-    REQUIRE_EQ(mxg_scene_remove(scene, both, 1), MXG_OK);
+    REQUIRE_EQ(mxg_scene_remove_primitives(scene, both, 1), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), with_leaves ? 1 : 0);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, above), with_leaves ? 1 : 0);
     /* a path that comes again has another number, and no bindings */
-    REQUIRE_EQ(mxg_scene_add(scene, extra, 2), MXG_OK);
-    REQUIRE(mxg_scene_find(scene, "/p3/p4/a/b") > c);
+    REQUIRE_EQ(mxg_scene_add_paths(scene, extra, 2), MXG_OK);
+    REQUIRE(mxg_scene_find_primitive(scene, "/p3/p4/a/b") > c);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), with_leaves ? 4 : 3);
-    REQUIRE_EQ(mxg_bindings_num_layers(bindings, mxg_scene_find(scene, "/p3/p4/a/b")),
+    REQUIRE_EQ(mxg_bindings_num_layers(bindings, mxg_scene_find_primitive(scene, "/p3/p4/a/b")),
                with_leaves ? 1 : 0);
     /* several at once, one of them twice, and one below another */
-    both[0] = both[2] = mxg_scene_find(scene, "/p3/p4/c");
-    REQUIRE_EQ(mxg_scene_remove(scene, both, 3), MXG_OK);
+    both[0] = both[2] = mxg_scene_find_primitive(scene, "/p3/p4/c");
+    REQUIRE_EQ(mxg_scene_remove_primitives(scene, both, 3), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), 0);
-    REQUIRE_EQ(mxg_scene_find(scene, "/p3/p4"), UINT32_MAX);
-    REQUIRE(mxg_scene_find(scene, "/p3/p3") != UINT32_MAX);
+    REQUIRE_EQ(mxg_scene_find_primitive(scene, "/p3/p4"), UINT32_MAX);
+    REQUIRE(mxg_scene_find_primitive(scene, "/p3/p3") != UINT32_MAX);
     mxg_scene *copy = copy_scene(context, scene);
     mxg_bindings *of_copy = NULL;
     bind_again(context, document, copy, &of_copy);
@@ -457,13 +460,13 @@ static void test_stale(mxg_context *context)
     mxg_document *document = parse_look(context, &look);
     mxg_scene *scene = make_scene(context), *other = make_scene(context);
     mxg_bindings *bindings = NULL, *made = NULL;
-    mxg_bind_desc desc = MXG_BIND_DESC_INIT;
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     mxg_generate_desc generate = MXG_GENERATE_DESC_INIT;
     mxg_result *result = NULL;
     mxg_layer layer = {sizeof layer};
     char *text = NULL, name[64];
     bind_again(context, document, scene, &bindings);
-    REQUIRE_EQ(mxg_scene_bind(scene, 0, "000", "B"), MXG_OK);
+    REQUIRE_EQ(mxg_scene_set_binding(scene, 0, "000", "B"), MXG_OK);
     REQUIRE_EQ(mxg_bindings_num_layers(bindings, 0), 0);
     REQUIRE_EQ(mxg_bindings_layer(bindings, 0, 0, &layer), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_bindings_num_facts(bindings, 0), 0);
@@ -471,12 +474,12 @@ static void test_stale(mxg_context *context)
     REQUIRE_EQ(mxg_bindings_num_stacks(bindings), 0);
     REQUIRE_EQ(mxg_bindings_stack_name(bindings, 0, name, sizeof name), 0);
     REQUIRE_EQ(mxg_bindings_write(bindings, MXG_BINDINGS_JSON, append, &text), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_bindings_explain(bindings, 0, append, &text), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_bindings_write_reasons(bindings, 0, append, &text), MXG_ERROR_ARGUMENT);
     generate.target = "glsl";
     generate.bindings = bindings;
     REQUIRE_EQ(mxg_generate(context, document, &generate, &result), MXG_ERROR_ARGUMENT);
     desc.previous = bindings;
-    REQUIRE_EQ(mxg_bind(context, document, other, &desc, &made), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_bindings_create(context, document, other, &desc, &made), MXG_ERROR_ARGUMENT);
     mxg_bindings_destroy(bindings);
     mxg_scene_destroy(scene);
     mxg_scene_destroy(other);
@@ -539,11 +542,11 @@ static void change_scene(mxg_scene *scene)
         return; /* it was removed */
     switch (pick(5)) {
     case 4:
-        REQUIRE_EQ(mxg_scene_remove(scene, &prim, 1),
+        REQUIRE_EQ(mxg_scene_remove_primitives(scene, &prim, 1),
                    prim == UINT32_MAX ? MXG_ERROR_ARGUMENT : MXG_OK);
         break;
-    case 0: mxg_scene_unbind(scene, prim, slots[pick(NUM_SLOTS)]); break;
-    case 1: mxg_scene_bind(scene, prim, slots[pick(2)], pick(3) ? "A" : ""); break;
+    case 0: mxg_scene_remove_binding(scene, prim, slots[pick(NUM_SLOTS)]); break;
+    case 1: mxg_scene_set_binding(scene, prim, slots[pick(2)], pick(3) ? "A" : ""); break;
     default:
         snprintf(name, sizeof name, pick(4) ? "p%u" : "p%u/p1", pick(5));
         REQUIRE_EQ(add_one(scene, prim, name), MXG_OK);
@@ -592,7 +595,7 @@ static void test_memory(void)
     for (unsigned fail_at = 1; status == MXG_ERROR_MEMORY; fail_at++) {
         struct heap heap = {0};
         mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
-        mxg_bind_desc bind = MXG_BIND_DESC_INIT;
+        mxg_bindings_desc bind = MXG_BINDINGS_DESC_INIT;
         desc.realloc = heap_realloc;
         desc.realloc_user_data = &heap;
         mxg_context *context = NULL;
@@ -603,21 +606,22 @@ static void test_memory(void)
         set_line(&look, 1, ASSIGN("050", "A", "//p[3-4]//{a,p*}"));
         mxg_document *after = parse_look(context, &look);
         mxg_scene *scene = make_scene(context);
-        REQUIRE_EQ(mxg_bind(context, before, scene, NULL, &bindings), MXG_OK);
+        REQUIRE_EQ(mxg_bindings_create(context, before, scene, NULL, &bindings), MXG_OK);
         bind.previous = bindings;
         heap.calls = 0;
         heap.fail_at = fail_at;
-        status = mxg_scene_bind(scene, 3, "050", "A");
+        status = mxg_scene_set_binding(scene, 3, "050", "A");
         if (status == MXG_OK)
             status = add_one(scene, 3, "new");
         if (status == MXG_OK)
-            status = mxg_scene_remove(scene, &(uint32_t){mxg_scene_find(scene, "/p1/p1")}, 1);
+            status = mxg_scene_remove_primitives(
+                scene, &(uint32_t){mxg_scene_find_primitive(scene, "/p1/p1")}, 1);
         if (status == MXG_OK)
-            status = mxg_bind(context, after, scene, &bind, &again);
+            status = mxg_bindings_create(context, after, scene, &bind, &again);
         heap.fail_at = 0;
         REQUIRE((status == MXG_OK) == (again != NULL));
         mxg_bindings_destroy(again);
-        REQUIRE_EQ(mxg_bind(context, after, scene, &bind, &again), MXG_OK);
+        REQUIRE_EQ(mxg_bindings_create(context, after, scene, &bind, &again), MXG_OK);
         mxg_bindings_destroy(again);
         mxg_bindings_destroy(bindings);
         mxg_scene_destroy(scene);

@@ -101,7 +101,7 @@ static bool build_everything(void *user_data, mxg_build *build, mxg_ref *results
     mxg_value value = MXG_INIT(mxg_value);
     const char *type = NULL;
     (void)user_data;
-    REQUIRE_EQ(mxg_build_get_info(build, &info), MXG_OK);
+    REQUIRE_EQ(mxg_build_use(build, &info), MXG_OK);
     REQUIRE_STR(info.nodedef, "ND_probe");
     REQUIRE_STR(info.node, "probe");
     REQUIRE_EQ(info.num_inputs, 5);
@@ -113,14 +113,14 @@ static bool build_everything(void *user_data, mxg_build *build, mxg_ref *results
 
     mxg_ref in = mxg_build_input(build, "in"), tint = mxg_build_input(build, "tint");
     REQUIRE_STR(mxg_build_type(build, tint), "vec3");
-    REQUIRE(!mxg_build_known(build, mxg_build_stream(build, "normalWorld", NULL), &value));
-    REQUIRE(mxg_build_known(build, mxg_build_number(build, "vec3", numbers, 3), &value));
+    REQUIRE(!mxg_build_value(build, mxg_build_stream(build, "normalWorld", NULL), &value));
+    REQUIRE(mxg_build_value(build, mxg_build_number(build, "vec3", numbers, 3), &value));
     REQUIRE_EQ(value.num_values, 3);
     REQUIRE_EQ((int)value.values[2], 3);
-    REQUIRE(mxg_build_constant(build, "word", &value));
+    REQUIRE(mxg_build_require_constant(build, "word", &value));
     REQUIRE_STR(value.text, "plain");
     REQUIRE_STR(value.type, "string");
-    REQUIRE(mxg_build_constant(build, "number", &value));
+    REQUIRE(mxg_build_require_constant(build, "number", &value));
     REQUIRE_EQ(value.integer, 2);
 
     mxg_ref n =
@@ -149,10 +149,10 @@ static bool build_everything(void *user_data, mxg_build *build, mxg_ref *results
 
 static void test_values(void)
 {
-    for (uint32_t i = 0; i < mxg_num_targets(); i++) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); i++) {
         mxg_target target = MXG_INIT(mxg_target);
         struct host h;
-        mxg_get_target(i, &target);
+        mxg_catalogue_target(i, &target);
         open_host(&h, &(struct run){.build = build_everything, .of_target = target.name});
         REQUIRE_EQ(h.status, MXG_OK);
         REQUIRE(has_text(&h, MXG_STAGE_PIXEL, "noise"));
@@ -207,10 +207,10 @@ static bool build_blocks(void *user_data, mxg_build *build, mxg_ref *results)
 
 static void test_own_blocks(void)
 {
-    for (uint32_t i = 0; i < mxg_num_targets(); i++) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); i++) {
         mxg_target target = MXG_INIT(mxg_target);
         struct host h;
-        mxg_get_target(i, &target);
+        mxg_catalogue_target(i, &target);
         open_host(&h, &(struct run){.build = build_blocks, .of_target = target.name});
         REQUIRE_EQ(h.status, MXG_OK);
         REQUIRE(has_text(&h, MXG_STAGE_PIXEL, "gust"));
@@ -235,7 +235,7 @@ static void test_own_blocks(void)
     REQUIRE_EQ(frame.binding, 4);
     REQUIRE_EQ(shot.byte_size, 16);
     float bytes[4] = {0};
-    REQUIRE_EQ(mxg_result_pack(h.result, MXG_BLOCK_OWN_1, bytes, sizeof bytes), 16);
+    REQUIRE_EQ(mxg_result_pack_block(h.result, MXG_BLOCK_OWN_1, bytes, sizeof bytes), 16);
     REQUIRE(bytes[0] == 2 && bytes[2] == 2 && bytes[3] == 4);
     mxg_variable v = MXG_INIT(mxg_variable);
     REQUIRE_EQ(mxg_result_variable(h.result, shot.first_variable + 1, &v), MXG_OK);
@@ -283,20 +283,20 @@ static bool build_vertices(void *user_data, mxg_build *build, mxg_ref *results)
     const mxg_ref args[] = {mxg_build_stream(build, "positionObject", NULL),
                             mxg_build_input(build, "in")};
     bool *has_stage = user_data;
-    mxg_build_get_info(build, &info);
+    mxg_build_use(build, &info);
     *has_stage = info.has_vertex_stage;
     mxg_ref wave = mxg_build_expression(build, "float", "sin({{p}}.x * {{in}})", names, args, 2);
-    results[0] = mxg_build_interpolated(build, "wave", wave);
+    results[0] = mxg_build_interpolation(build, "wave", wave);
     return true;
 }
 
 static void test_vertices(void)
 {
-    for (uint32_t i = 0; i < mxg_num_targets(); i++) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); i++) {
         mxg_target target = MXG_INIT(mxg_target);
         struct host h;
         bool has_stage = false;
-        mxg_get_target(i, &target);
+        mxg_catalogue_target(i, &target);
         open_host(&h, &(struct run){.build = build_vertices,
                                     .user_data = &has_stage,
                                     .of_target = target.name});
@@ -333,10 +333,10 @@ static const char skin_body[] =
 
 static void test_closure(void)
 {
-    for (uint32_t i = 0; i < mxg_num_targets(); i++) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); i++) {
         mxg_target target = MXG_INIT(mxg_target);
         struct host h;
-        mxg_get_target(i, &target);
+        mxg_catalogue_target(i, &target);
         open_host(&h, &(struct run){.build = build_skin,
                                     .name = "skin",
                                     .body = skin_body,
@@ -421,9 +421,9 @@ static void test_choice(void)
 static bool fail_at_input(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data, (void)results;
-    mxg_build_error(build, "in", "100% of nothing: %s");
+    mxg_build_report_error(build, "in", "100% of nothing: %s");
     REQUIRE_EQ(mxg_build_input(build, "in"), 0); /* after a failure nothing works */
-    REQUIRE(!mxg_build_known(build, 1, NULL));
+    REQUIRE(!mxg_build_value(build, 1, NULL));
     return false;
 }
 
@@ -436,8 +436,8 @@ static void test_error_at_input(void)
                                         "<output name='M' type='float' nodename='use'/>"});
     mxg_diagnostic d = MXG_INIT(mxg_diagnostic);
     REQUIRE_EQ(h.status, MXG_ERROR_DOCUMENT);
-    REQUIRE_EQ(mxg_diagnostics_errors(mxg_result_diagnostics(h.result)), 1);
-    mxg_diagnostics_get(mxg_result_diagnostics(h.result), 0, &d);
+    REQUIRE_EQ(mxg_diagnostics_num_errors(mxg_result_diagnostics(h.result)), 1);
+    mxg_diagnostics_item(mxg_result_diagnostics(h.result), 0, &d);
     REQUIRE_STR(d.id, "code-error");
     REQUIRE_STR(d.message, "<probe>: 100% of nothing: %s");
     REQUIRE_STR(d.file, "code.mtlx");
@@ -504,7 +504,7 @@ static bool misuse_values(enum fault fault, mxg_build *build, mxg_ref in, mxg_re
     case FAULT_INTEGER: *out = mxg_build_number(build, "int", &huge, 1); return true;
     case FAULT_UNKNOWN_STREAM: *out = mxg_build_stream(build, "moonlight", NULL); return true;
     case FAULT_INTERPOLATED:
-        *out = mxg_build_interpolated(build, "w", mxg_build_string(build, "x"));
+        *out = mxg_build_interpolation(build, "w", mxg_build_string(build, "x"));
         return true;
     case FAULT_NULL_TEXTS: *out = mxg_build_op(build, NULL, NULL, NULL, 0); return true;
     default: return false;
@@ -587,7 +587,7 @@ static void test_misuse(void)
             printf("fault %d is not reported\n", i);
         REQUIRE_EQ(h.status, MXG_ERROR_DOCUMENT);
         REQUIRE(is_told);
-        REQUIRE_EQ(mxg_diagnostics_errors(mxg_result_diagnostics(h.result)), 1);
+        REQUIRE_EQ(mxg_diagnostics_num_errors(mxg_result_diagnostics(h.result)), 1);
         close_host(&h);
     }
 }
@@ -615,7 +615,7 @@ static void test_wrong_texts_and_values(void)
     mxg_diagnostic d = MXG_INIT(mxg_diagnostic);
     open_host(&h, &(struct run){.build = write_badly});
     REQUIRE_EQ(h.status, MXG_ERROR_DOCUMENT);
-    mxg_diagnostics_get(mxg_result_diagnostics(h.result), 0, &d);
+    mxg_diagnostics_item(mxg_result_diagnostics(h.result), 0, &d);
     REQUIRE_STR(d.file, "code of ND_probe");
     REQUIRE_EQ(d.line, 2);
     REQUIRE_EQ(d.column, 2);
@@ -697,7 +697,7 @@ static void test_descriptions(void)
     REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_build_input(NULL, "in"), 0);
     REQUIRE(mxg_build_type(NULL, 1) == NULL);
-    mxg_build_error(NULL, NULL, NULL);
+    mxg_build_report_error(NULL, NULL, NULL);
 }
 
 int main(void)

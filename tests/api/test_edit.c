@@ -52,7 +52,7 @@ static mxg_document *parse(struct fixture *f, const char *text)
 static mxg_edit *begin(struct fixture *f, const mxg_document *from)
 {
     mxg_edit *edit = NULL;
-    REQUIRE_EQ(mxg_edit_begin(f->context, f->library, from, NULL, &edit), MXG_OK);
+    REQUIRE_EQ(mxg_edit_create(f->context, f->library, from, NULL, &edit), MXG_OK);
     return edit;
 }
 
@@ -70,8 +70,8 @@ static void test_elements(void)
     struct fixture f;
     open_fixture(&f);
     const mxg_document *d = f.document;
-    mxg_element root = mxg_document_root(d), graph = mxg_document_find(d, "G"),
-                coat = mxg_document_find(d, "S/coat");
+    mxg_element root = mxg_document_root(d), graph = mxg_document_find_element(d, "G"),
+                coat = mxg_document_find_element(d, "S/coat");
     mxg_element_info info = MXG_INIT(mxg_element_info);
     REQUIRE_EQ(mxg_document_element(d, coat, &info), MXG_OK);
     REQUIRE_STR(info.category, "input");
@@ -80,12 +80,12 @@ static void test_elements(void)
     REQUIRE_STR(info.file, "main.mtlx");
     REQUIRE_EQ(info.line, 13);
     REQUIRE_EQ(info.column, 5);
-    REQUIRE_EQ(info.parent, mxg_document_find(d, "S"));
+    REQUIRE_EQ(info.parent, mxg_document_find_element(d, "S"));
     REQUIRE_EQ(info.num_attributes, 2);
-    REQUIRE_EQ(mxg_document_child(d, info.parent, "coat"), coat);
-    REQUIRE_STR(mxg_document_attribute_value(d, coat, "value"), "0.5");
-    REQUIRE_STR(mxg_document_attribute_value(d, coat, "name"), "coat");
-    REQUIRE(!mxg_document_attribute_value(d, coat, "uiname"));
+    REQUIRE_EQ(mxg_document_find_child(d, info.parent, "coat"), coat);
+    REQUIRE_STR(mxg_document_find_attribute(d, coat, "value"), "0.5");
+    REQUIRE_STR(mxg_document_find_attribute(d, coat, "name"), "coat");
+    REQUIRE(!mxg_document_find_attribute(d, coat, "uiname"));
     mxg_attribute attribute = MXG_INIT(mxg_attribute);
     REQUIRE_EQ(mxg_document_attribute(d, coat, 1, &attribute), MXG_OK);
     REQUIRE_STR(attribute.name, "value");
@@ -97,19 +97,20 @@ static void test_elements(void)
         REQUIRE_EQ(mxg_document_element(d, e, &info), MXG_OK);
     REQUIRE_EQ(children, 5);
     char path[64];
-    REQUIRE_EQ(mxg_document_path(d, mxg_document_find(d, "/G/n"), path, sizeof path), 3);
+    REQUIRE_EQ(
+        mxg_document_element_path(d, mxg_document_find_element(d, "/G/n"), path, sizeof path), 3);
     REQUIRE_STR(path, "G/n");
-    REQUIRE_EQ(mxg_document_path(d, coat, path, 3), 6);
+    REQUIRE_EQ(mxg_document_element_path(d, coat, path, 3), 6);
     REQUIRE_STR(path, "S/");
-    REQUIRE_EQ(mxg_document_path(d, root, path, sizeof path), 0);
-    REQUIRE_EQ(mxg_document_path(d, coat, NULL, 7), 6);
+    REQUIRE_EQ(mxg_document_element_path(d, root, path, sizeof path), 0);
+    REQUIRE_EQ(mxg_document_element_path(d, coat, NULL, 7), 6);
     /* numbers that are no element, and elements of the library */
     REQUIRE_EQ(mxg_document_element(d, 0, &info), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_element(d, 1, &info), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_element(d, UINT32_MAX, &info), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_document_find(d, "ND_mix_float"), 0);
-    REQUIRE_EQ(mxg_document_find(d, "G/none"), 0);
-    REQUIRE_EQ(mxg_document_child(NULL, graph, "n"), 0);
+    REQUIRE_EQ(mxg_document_find_element(d, "ND_mix_float"), 0);
+    REQUIRE_EQ(mxg_document_find_element(d, "G/none"), 0);
+    REQUIRE_EQ(mxg_document_find_child(NULL, graph, "n"), 0);
     close_fixture(&f);
 }
 
@@ -127,21 +128,22 @@ static void test_values(void)
                                 "<input name='f' type='float' nodename='N'/>"
                                 "</standard_surface></materialx>");
     mxg_value value = MXG_INIT(mxg_value);
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/a"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, "S/a"), &value), MXG_OK);
     REQUIRE_EQ(value.num_values, 3);
     REQUIRE(value.values[0] == 1 && value.values[1] == 0.5f && value.values[2] == 0);
     REQUIRE_STR(value.type, "color3");
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/b"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, "S/b"), &value), MXG_OK);
     REQUIRE_EQ(value.integer, 16777217);
     REQUIRE_EQ(value.num_values, 1);
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/c"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, "S/c"), &value), MXG_OK);
     REQUIRE(value.num_values == 1 && value.values[0] == 1);
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/d"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, "S/d"), &value), MXG_OK);
     REQUIRE_EQ(value.num_values, 0);
     REQUIRE_STR(value.text, "oren");
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/e"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, "S/e"), &value), MXG_OK);
     REQUIRE_EQ(value.num_values, 0);
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find(d, "S/f"), &value), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, "S/f"), &value),
+               MXG_ERROR_ARGUMENT);
     mxg_document_destroy(d);
     close_fixture(&f);
 }
@@ -152,28 +154,30 @@ static void test_links(void)
     open_fixture(&f);
     const mxg_document *d = f.document;
     mxg_connection link = MXG_INIT(mxg_connection);
-    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find(d, "S/base_color"), &link), MXG_OK);
-    REQUIRE_EQ(link.source, mxg_document_find(d, "G"));
+    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find_element(d, "S/base_color"), &link),
+               MXG_OK);
+    REQUIRE_EQ(link.source, mxg_document_find_element(d, "G"));
     REQUIRE_STR(link.output, "out");
-    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find(d, "G/n/amplitude"), &link), MXG_OK);
-    REQUIRE_EQ(link.source, mxg_document_find(d, "G/scale"));
+    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find_element(d, "G/n/amplitude"), &link),
+               MXG_OK);
+    REQUIRE_EQ(link.source, mxg_document_find_element(d, "G/scale"));
     REQUIRE_STR(link.interfacename, "scale");
-    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find(d, "G/out"), &link), MXG_OK);
-    REQUIRE_EQ(link.source, mxg_document_find(d, "G/t"));
-    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find(d, "S/coat"), &link),
+    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find_element(d, "G/out"), &link), MXG_OK);
+    REQUIRE_EQ(link.source, mxg_document_find_element(d, "G/t"));
+    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find_element(d, "S/coat"), &link),
                MXG_ERROR_ARGUMENT);
     mxg_document *broken = parse(&f, "<materialx version='1.39'><output name='o' type='float' "
                                      "nodename='none'/></materialx>");
-    REQUIRE_EQ(mxg_document_connection(broken, mxg_document_find(broken, "o"), &link),
+    REQUIRE_EQ(mxg_document_connection(broken, mxg_document_find_element(broken, "o"), &link),
                MXG_ERROR_DOCUMENT);
     mxg_document_destroy(broken);
     /* definitions of the library and of the document */
     uint32_t nodedef;
     mxg_nodedef definition = MXG_INIT(mxg_nodedef);
-    REQUIRE(mxg_document_definition(d, mxg_document_find(d, "S"), &nodedef));
+    REQUIRE(mxg_document_find_nodedef(d, mxg_document_find_element(d, "S"), &nodedef));
     REQUIRE_EQ(mxg_document_nodedef(d, nodedef, &definition), MXG_OK);
     REQUIRE_STR(definition.name, "ND_standard_surface_surfaceshader");
-    REQUIRE(mxg_document_definition(d, mxg_document_find(d, "G/t"), &nodedef));
+    REQUIRE(mxg_document_find_nodedef(d, mxg_document_find_element(d, "G/t"), &nodedef));
     REQUIRE_EQ(mxg_document_nodedef(d, nodedef, &definition), MXG_OK);
     REQUIRE_STR(definition.name, "ND_tint");
     REQUIRE_EQ(nodedef + 1, mxg_document_num_nodedefs(d));
@@ -181,7 +185,7 @@ static void test_links(void)
     REQUIRE_EQ(mxg_document_port(d, nodedef, 1, &port), MXG_OK);
     REQUIRE_STR(port.name, "by");
     REQUIRE_EQ(mxg_document_port(d, nodedef, 3, &port), MXG_ERROR_ARGUMENT);
-    REQUIRE(!mxg_document_definition(d, mxg_document_find(d, "G"), &nodedef));
+    REQUIRE(!mxg_document_find_nodedef(d, mxg_document_find_element(d, "G"), &nodedef));
     close_fixture(&f);
 }
 
@@ -211,23 +215,23 @@ static const char gold[] =
 
 static void build_gold(mxg_edit *e)
 {
-    mxg_element shader = mxg_edit_add(e, 0, "standard_surface", "SR", "surfaceshader"),
-                material = mxg_edit_add(e, 0, "surfacematerial", "Gold", "material"),
-                graph = mxg_edit_add(e, 0, "nodegraph", "NG", NULL),
-                amount = mxg_edit_add(e, graph, "input", "amount", "float"),
-                spots = mxg_edit_add(e, graph, "noise2d", "spots", "float"),
-                split = mxg_edit_add(e, graph, "separate2", "split", "multioutput"),
-                wear = mxg_edit_add(e, graph, "output", "wear", "float"),
-                x = mxg_edit_add(e, graph, "output", "x", "float");
+    mxg_element shader = mxg_edit_add_element(e, 0, "standard_surface", "SR", "surfaceshader"),
+                material = mxg_edit_add_element(e, 0, "surfacematerial", "Gold", "material"),
+                graph = mxg_edit_add_element(e, 0, "nodegraph", "NG", NULL),
+                amount = mxg_edit_add_element(e, graph, "input", "amount", "float"),
+                spots = mxg_edit_add_element(e, graph, "noise2d", "spots", "float"),
+                split = mxg_edit_add_element(e, graph, "separate2", "split", "multioutput"),
+                wear = mxg_edit_add_element(e, graph, "output", "wear", "float"),
+                x = mxg_edit_add_element(e, graph, "output", "x", "float");
     const float pair[] = {1, 2};
-    mxg_edit_value(e, shader, "base_color", "color3", "0.9, 0.6, 0.2");
-    mxg_edit_set(e, amount, "value", "0.75");
-    mxg_edit_numbers(e, split, "in", "vector2", pair, 2);
-    mxg_edit_connect(e, material, "surfaceshader", shader, NULL);
-    mxg_edit_connect(e, spots, "amplitude", amount, NULL);
-    mxg_edit_connect(e, wear, NULL, spots, NULL);
-    mxg_edit_connect(e, x, NULL, split, "outx");
-    mxg_edit_connect(e, shader, "metalness", graph, "wear");
+    mxg_edit_set_value(e, shader, "base_color", "color3", "0.9, 0.6, 0.2");
+    mxg_edit_set_attribute(e, amount, "value", "0.75");
+    mxg_edit_set_numbers(e, split, "in", "vector2", pair, 2);
+    mxg_edit_connect_input(e, material, "surfaceshader", shader, NULL);
+    mxg_edit_connect_input(e, spots, "amplitude", amount, NULL);
+    mxg_edit_connect_input(e, wear, NULL, spots, NULL);
+    mxg_edit_connect_input(e, x, NULL, split, "outx");
+    mxg_edit_connect_input(e, shader, "metalness", graph, "wear");
 }
 
 static const char *generate(struct fixture *f, const mxg_document *document, const char *element,
@@ -249,7 +253,7 @@ static void test_build(void)
     build_gold(edit);
     REQUIRE_STR(mxg_edit_error(edit), "");
     mxg_document *built = NULL, *parsed = parse(&f, gold);
-    REQUIRE_EQ(mxg_edit_end(edit, &built), MXG_OK);
+    REQUIRE_EQ(mxg_edit_commit(edit, &built), MXG_OK);
     REQUIRE_STR(xml_below(built), gold);
     REQUIRE_STR(xml_below(parsed), gold);
     REQUIRE_EQ(mxg_document_num_renderables(built), 1);
@@ -270,29 +274,31 @@ static void test_edit_of_a_document(void)
 {
     struct fixture f;
     open_fixture(&f);
-    mxg_element shader = mxg_document_find(f.document, "S"),
-                texture = mxg_document_find(f.document, "G/i");
+    mxg_element shader = mxg_document_find_element(f.document, "S"),
+                texture = mxg_document_find_element(f.document, "G/i");
     char before[4096];
     snprintf(before, sizeof before, "%s", xml_below(f.document));
     mxg_edit *edit = begin(&f, f.document);
     const float half[] = {0.5f}, quarter[] = {0.25f};
-    REQUIRE_EQ(mxg_edit_numbers(edit, shader, "metalness", "float", half, 1), MXG_OK);
-    REQUIRE_EQ(mxg_edit_value(edit, shader, "coat", NULL, "0.5"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_numbers(edit, shader, "coat", NULL, quarter, 1), MXG_OK);
-    REQUIRE_EQ(mxg_edit_set(edit, texture, "doc", "a \"quoted\" <text> & more"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_set(edit, texture, "doc", NULL), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_numbers(edit, shader, "metalness", "float", half, 1), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_value(edit, shader, "coat", NULL, "0.5"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_numbers(edit, shader, "coat", NULL, quarter, 1), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_attribute(edit, texture, "doc", "a \"quoted\" <text> & more"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_attribute(edit, texture, "doc", NULL), MXG_OK);
     mxg_document *next = NULL;
-    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    REQUIRE_EQ(mxg_edit_commit(edit, &next), MXG_OK);
     /* numbers of elements stay, the old document does, too, and places lead to the old file */
-    REQUIRE_EQ(mxg_document_find(next, "S"), shader);
-    REQUIRE_STR(mxg_document_attribute_value(next, mxg_document_find(next, "S/coat"), "value"),
-                "0.25");
+    REQUIRE_EQ(mxg_document_find_element(next, "S"), shader);
+    REQUIRE_STR(
+        mxg_document_find_attribute(next, mxg_document_find_element(next, "S/coat"), "value"),
+        "0.25");
     REQUIRE_STR(xml_below(f.document), before);
     REQUIRE_EQ(mxg_document_num_files(next), mxg_document_num_files(f.document));
     mxg_element_info info = MXG_INIT(mxg_element_info);
     REQUIRE_EQ(mxg_document_element(next, shader, &info), MXG_OK);
     REQUIRE_EQ(info.line, 11);
-    REQUIRE_EQ(mxg_document_element(next, mxg_document_find(next, "S/metalness"), &info), MXG_OK);
+    REQUIRE_EQ(mxg_document_element(next, mxg_document_find_element(next, "S/metalness"), &info),
+               MXG_OK);
     REQUIRE(info.line == 0 && !info.file);
     /* the edited document is what its text says */
     mxg_result *a = NULL, *b = NULL;
@@ -305,10 +311,10 @@ static void test_edit_of_a_document(void)
     mxg_document_destroy(f.document);
     f.document = NULL;
     edit = begin(&f, next);
-    REQUIRE_EQ(mxg_edit_remove(edit, mxg_edit_find(edit, "S/metalness")), MXG_OK);
-    REQUIRE_EQ(mxg_edit_value(edit, shader, "coat", "float", "0.5"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_remove_element(edit, mxg_edit_find_element(edit, "S/metalness")), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_value(edit, shader, "coat", "float", "0.5"), MXG_OK);
     mxg_document_destroy(next);
-    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    REQUIRE_EQ(mxg_edit_commit(edit, &next), MXG_OK);
     REQUIRE_STR(xml_below(next), before);
     mxg_document_destroy(again);
     mxg_document_destroy(next);
@@ -331,11 +337,12 @@ static void test_rename_in_scope(struct fixture *f)
                                "<sin name='t' type='float'><input name='in' type='float' "
                                "nodegraph='A' output='x2'/></sin></materialx>");
     mxg_edit *edit = begin(f, d);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "A/x"), "inner"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "A"), "G"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "G/x2"), "out"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "B/in"), "number"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "A/x"), "inner"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "A"), "G"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "G/x2"), "out"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "B/in"), "number"),
+               MXG_OK);
+    REQUIRE_EQ(mxg_edit_commit(edit, &next), MXG_OK);
     static const char *const expected[][3] = {{"G/in", "nodename", "x"},
                                               {"G/s/in", "nodename", "inner"},
                                               {"G/out", "nodename", "inner"},
@@ -344,23 +351,26 @@ static void test_rename_in_scope(struct fixture *f)
                                               {"t/in", "nodegraph", "G"},
                                               {"t/in", "output", "out"}};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; ++i)
-        REQUIRE_STR(mxg_document_attribute_value(next, mxg_document_find(next, expected[i][0]),
-                                                 expected[i][1]),
+        REQUIRE_STR(mxg_document_find_attribute(
+                        next, mxg_document_find_element(next, expected[i][0]), expected[i][1]),
                     expected[i][2]);
     mxg_document_destroy(d);
     /* a node that an edit moves has the names of its new place */
     edit = begin(f, next);
-    mxg_element moved = mxg_edit_find(edit, "G/s");
-    REQUIRE_EQ(mxg_edit_move(edit, moved, 0, 0), MXG_OK);
-    REQUIRE_EQ(mxg_edit_connect(edit, moved, "in", mxg_edit_find(edit, "x"), NULL), MXG_OK);
-    REQUIRE_EQ(mxg_edit_move(edit, moved, mxg_edit_find(edit, "B"), 0), MXG_OK);
-    REQUIRE_EQ(mxg_edit_move(edit, mxg_edit_find(edit, "x"), mxg_edit_find(edit, "B"), moved),
+    mxg_element moved = mxg_edit_find_element(edit, "G/s");
+    REQUIRE_EQ(mxg_edit_move_element(edit, moved, 0, 0), MXG_OK);
+    REQUIRE_EQ(mxg_edit_connect_input(edit, moved, "in", mxg_edit_find_element(edit, "x"), NULL),
                MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "B/x"), "y"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_move_element(edit, moved, mxg_edit_find_element(edit, "B"), 0), MXG_OK);
+    REQUIRE_EQ(mxg_edit_move_element(edit, mxg_edit_find_element(edit, "x"),
+                                     mxg_edit_find_element(edit, "B"), moved),
+               MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "B/x"), "y"), MXG_OK);
     mxg_document *last = NULL;
-    REQUIRE_EQ(mxg_edit_end(edit, &last), MXG_OK);
-    REQUIRE_STR(mxg_document_attribute_value(last, mxg_document_find(last, "B/s/in"), "nodename"),
-                "y");
+    REQUIRE_EQ(mxg_edit_commit(edit, &last), MXG_OK);
+    REQUIRE_STR(
+        mxg_document_find_attribute(last, mxg_document_find_element(last, "B/s/in"), "nodename"),
+        "y");
     mxg_document_destroy(next);
     mxg_document_destroy(last);
 }
@@ -371,12 +381,16 @@ static void test_rename(void)
     open_fixture(&f);
     mxg_document *d = parse(&f, gold), *next = NULL;
     mxg_edit *edit = begin(&f, d);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "SR"), "Shader"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_set(edit, mxg_edit_find(edit, "NG"), "name", "Graph"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "Graph/wear"), "worn"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "Graph/amount"), "much"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "Graph/spots"), "dots"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "SR"), "Shader"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_attribute(edit, mxg_edit_find_element(edit, "NG"), "name", "Graph"),
+               MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "Graph/wear"), "worn"),
+               MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "Graph/amount"), "much"),
+               MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "Graph/spots"), "dots"),
+               MXG_OK);
+    REQUIRE_EQ(mxg_edit_commit(edit, &next), MXG_OK);
     const char *xml = xml_below(next);
     REQUIRE(strstr(xml, "nodename=\"Shader\"") && !strstr(xml, "\"SR\""));
     REQUIRE(strstr(xml, "nodegraph=\"Graph\" output=\"worn\"") && !strstr(xml, "\"wear\""));
@@ -390,8 +404,8 @@ static void test_rename(void)
                   "<nodedef name='day2' node='x'><output name='out' type='float'/></nodedef>"
                   "</materialx>");
     edit = begin(&f, d);
-    REQUIRE_EQ(mxg_edit_rename(edit, mxg_edit_find(edit, "day"), "noon"), MXG_OK);
-    mxg_edit_end(edit, &next);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "day"), "noon"), MXG_OK);
+    mxg_edit_commit(edit, &next);
     xml = xml_below(next);
     REQUIRE(strstr(xml, "inherit=\"noon\"") && strstr(xml, "looks=\"noon, night\""));
     mxg_document_destroy(next);
@@ -405,24 +419,28 @@ static void test_move_and_copy(void)
     open_fixture(&f);
     mxg_document *d = parse(&f, gold), *next = NULL;
     mxg_edit *edit = begin(&f, d);
-    mxg_element graph = mxg_edit_find(edit, "NG"), shader = mxg_edit_find(edit, "SR");
-    REQUIRE_EQ(mxg_edit_move(edit, graph, 0, shader), MXG_OK);
-    mxg_element copy = mxg_edit_copy(edit, 0, d, shader, "SR2");
+    mxg_element graph = mxg_edit_find_element(edit, "NG"),
+                shader = mxg_edit_find_element(edit, "SR");
+    REQUIRE_EQ(mxg_edit_move_element(edit, graph, 0, shader), MXG_OK);
+    mxg_element copy = mxg_edit_copy_element(edit, 0, d, shader, "SR2");
     REQUIRE(copy != 0);
     /* from another document, and below itself */
-    REQUIRE(mxg_edit_copy(edit, graph, f.document, mxg_document_find(f.document, "G/i"), NULL));
-    REQUIRE(mxg_edit_copy(edit, 0, f.document, mxg_document_find(f.document, "G"), NULL));
-    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    REQUIRE(mxg_edit_copy_element(edit, graph, f.document,
+                                  mxg_document_find_element(f.document, "G/i"), NULL));
+    REQUIRE(mxg_edit_copy_element(edit, 0, f.document, mxg_document_find_element(f.document, "G"),
+                                  NULL));
+    REQUIRE_EQ(mxg_edit_commit(edit, &next), MXG_OK);
     mxg_element_info info = MXG_INIT(mxg_element_info);
     REQUIRE_EQ(mxg_document_element(next, mxg_document_root(next), &info), MXG_OK);
     REQUIRE_EQ(info.first_child, graph);
-    REQUIRE_EQ(mxg_document_find(next, "SR2"), copy);
+    REQUIRE_EQ(mxg_document_find_element(next, "SR2"), copy);
+    REQUIRE_STR(mxg_document_find_attribute(next, mxg_document_find_element(next, "SR2/base_color"),
+                                            "value"),
+                "0.9, 0.6, 0.2");
     REQUIRE_STR(
-        mxg_document_attribute_value(next, mxg_document_find(next, "SR2/base_color"), "value"),
-        "0.9, 0.6, 0.2");
-    REQUIRE_STR(mxg_document_attribute_value(next, mxg_document_find(next, "G/i/file"), "value"),
-                "wood.png");
-    REQUIRE(mxg_document_find(next, "NG/i/file") != 0);
+        mxg_document_find_attribute(next, mxg_document_find_element(next, "G/i/file"), "value"),
+        "wood.png");
+    REQUIRE(mxg_document_find_element(next, "NG/i/file") != 0);
     mxg_document_destroy(next);
     mxg_document_destroy(d);
     close_fixture(&f);
@@ -436,9 +454,10 @@ static void test_refused(void)
     open_fixture(&f);
     mxg_document *d = parse(&f, gold);
     mxg_edit *e = begin(&f, d);
-    mxg_element shader = mxg_edit_find(e, "SR"), graph = mxg_edit_find(e, "NG"),
-                spots = mxg_edit_find(e, "NG/spots"), wear = mxg_edit_find(e, "NG/wear"),
-                material = mxg_edit_find(e, "Gold");
+    mxg_element shader = mxg_edit_find_element(e, "SR"), graph = mxg_edit_find_element(e, "NG"),
+                spots = mxg_edit_find_element(e, "NG/spots"),
+                wear = mxg_edit_find_element(e, "NG/wear"),
+                material = mxg_edit_find_element(e, "Gold");
     const float numbers[] = {1, NAN, 3};
 #define REFUSED(call, text) \
     do { \
@@ -452,71 +471,73 @@ static void test_refused(void)
         if (!REQUIRE(strstr(mxg_edit_error(e), text) != NULL)) \
             printf("    %s\n", mxg_edit_error(e)); \
     } while (0)
-    NO_ELEMENT(mxg_edit_add(e, 0, "add", "SR", "float"), "'SR' already");
-    NO_ELEMENT(mxg_edit_add(e, 0, "add", "2x", "float"), "'2x' is no name");
-    NO_ELEMENT(mxg_edit_add(e, 0, "a d", "x", "float"), "'a d' is no name");
-    NO_ELEMENT(mxg_edit_add(e, 0, NULL, "x", "float"), "the category is missing");
-    NO_ELEMENT(mxg_edit_add(e, 0, "add", "\xff", "float"), "the name has bytes");
-    NO_ELEMENT(mxg_edit_add(e, 0, "add", "x", "\xff"), "the type has bytes");
-    NO_ELEMENT(mxg_edit_add(e, 1, "add", "x", "float"), "no such element");
-    NO_ELEMENT(mxg_edit_add(e, UINT32_MAX, "add", "x", "float"), "no such element");
-    REFUSED(mxg_edit_set(e, shader, "doc", "\xff"), "XML cannot hold");
-    REFUSED(mxg_edit_set(e, shader, "doc", "\x01"), "XML cannot hold");
-    REFUSED(mxg_edit_set(e, shader, "a=b", "c"), "is no name");
-    REFUSED(mxg_edit_set(e, shader, "name", NULL), "the name is missing");
-    REFUSED(mxg_edit_set(e, shader, "", "c"), "the attribute is missing");
-    REFUSED(mxg_edit_set(e, shader, NULL, "c"), "the attribute is missing");
-    REFUSED(mxg_edit_value(e, shader, NULL, "float", "1"), "the input is missing");
-    REFUSED(mxg_edit_value(e, shader, "coat", "float", NULL), "value of 'coat' is missing");
-    REFUSED(mxg_edit_rename(e, shader, "NG"), "'NG' already");
-    REFUSED(mxg_edit_value(e, shader, "coat", NULL, "1"), "give its type");
-    REFUSED(mxg_edit_value(e, shader, "coat", "float", "much"), "'much' is no value");
-    REFUSED(mxg_edit_value(e, 0, "coat", "float", "1"), "no such element");
-    REFUSED(mxg_edit_numbers(e, shader, "coat", "color3", numbers, 3), "not a number");
-    REFUSED(mxg_edit_numbers(e, shader, "coat", "color3", numbers, 2),
+    NO_ELEMENT(mxg_edit_add_element(e, 0, "add", "SR", "float"), "'SR' already");
+    NO_ELEMENT(mxg_edit_add_element(e, 0, "add", "2x", "float"), "'2x' is no name");
+    NO_ELEMENT(mxg_edit_add_element(e, 0, "a d", "x", "float"), "'a d' is no name");
+    NO_ELEMENT(mxg_edit_add_element(e, 0, NULL, "x", "float"), "the category is missing");
+    NO_ELEMENT(mxg_edit_add_element(e, 0, "add", "\xff", "float"), "the name has bytes");
+    NO_ELEMENT(mxg_edit_add_element(e, 0, "add", "x", "\xff"), "the type has bytes");
+    NO_ELEMENT(mxg_edit_add_element(e, 1, "add", "x", "float"), "no such element");
+    NO_ELEMENT(mxg_edit_add_element(e, UINT32_MAX, "add", "x", "float"), "no such element");
+    REFUSED(mxg_edit_set_attribute(e, shader, "doc", "\xff"), "XML cannot hold");
+    REFUSED(mxg_edit_set_attribute(e, shader, "doc", "\x01"), "XML cannot hold");
+    REFUSED(mxg_edit_set_attribute(e, shader, "a=b", "c"), "is no name");
+    REFUSED(mxg_edit_set_attribute(e, shader, "name", NULL), "the name is missing");
+    REFUSED(mxg_edit_set_attribute(e, shader, "", "c"), "the attribute is missing");
+    REFUSED(mxg_edit_set_attribute(e, shader, NULL, "c"), "the attribute is missing");
+    REFUSED(mxg_edit_set_value(e, shader, NULL, "float", "1"), "the input is missing");
+    REFUSED(mxg_edit_set_value(e, shader, "coat", "float", NULL), "value of 'coat' is missing");
+    REFUSED(mxg_edit_rename_element(e, shader, "NG"), "'NG' already");
+    REFUSED(mxg_edit_set_value(e, shader, "coat", NULL, "1"), "give its type");
+    REFUSED(mxg_edit_set_value(e, shader, "coat", "float", "much"), "'much' is no value");
+    REFUSED(mxg_edit_set_value(e, 0, "coat", "float", "1"), "no such element");
+    REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", numbers, 3), "not a number");
+    REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", numbers, 2),
             "'coat' does not have 2 components");
-    REFUSED(mxg_edit_numbers(e, shader, "coat", "surfaceshader", numbers, 1),
+    REFUSED(mxg_edit_set_numbers(e, shader, "coat", "surfaceshader", numbers, 1),
             "'coat' does not have 1 component");
-    REFUSED(mxg_edit_numbers(e, shader, "coat", NULL, numbers, 3), "give its type");
-    REFUSED(mxg_edit_numbers(e, shader, "coat", "color3", NULL, 3),
+    REFUSED(mxg_edit_set_numbers(e, shader, "coat", NULL, numbers, 3), "give its type");
+    REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", NULL, 3),
             "numbers of 'coat' are missing");
-    REFUSED(mxg_edit_connect(e, shader, "coat", spots, NULL), "beside the port");
-    REFUSED(mxg_edit_connect(e, spots, NULL, graph, NULL), "is an <output>");
-    REFUSED(mxg_edit_connect(e, shader, "coat", graph, "none"), "output 'none' of 'NG' is unknown");
-    REFUSED(mxg_edit_connect(e, wear, NULL, mxg_edit_find(e, "NG/split"), "outq"), "is unknown");
-    REFUSED(mxg_edit_connect(e, material, "surfaceshader", 0, NULL), "no such element");
-    REFUSED(mxg_edit_move(e, graph, spots, 0), "below or before itself");
-    REFUSED(mxg_edit_move(e, graph, 0, graph), "below or before itself");
-    REFUSED(mxg_edit_move(e, graph, 0, spots), "'spots' is not below the parent, so 'NG'");
-    mxg_element look = mxg_edit_add(e, 0, "look", NULL, NULL);
-    REFUSED(mxg_edit_connect(e, shader, "coat", look, NULL), "'look' is no node");
-    REFUSED(mxg_edit_move(e, look, look, 0), "'look' cannot move below");
-    NO_ELEMENT(mxg_edit_copy(e, 0, NULL, shader, NULL), "document to copy from is missing");
-    REQUIRE_EQ(mxg_edit_remove(e, look), MXG_OK);
-    REFUSED(mxg_edit_remove(e, mxg_document_root(d)), "no such element");
-    NO_ELEMENT(mxg_edit_copy(e, graph, d, mxg_document_root(d), NULL), "no such element");
-    NO_ELEMENT(mxg_edit_copy(e, 0, d, shader, NULL), "'SR' already");
-    REQUIRE_EQ(mxg_edit_remove(e, graph), MXG_OK);
-    REFUSED(mxg_edit_set(e, spots, "doc", "of a removed graph"), "no such element");
+    REFUSED(mxg_edit_connect_input(e, shader, "coat", spots, NULL), "beside the port");
+    REFUSED(mxg_edit_connect_input(e, spots, NULL, graph, NULL), "is an <output>");
+    REFUSED(mxg_edit_connect_input(e, shader, "coat", graph, "none"),
+            "output 'none' of 'NG' is unknown");
+    REFUSED(mxg_edit_connect_input(e, wear, NULL, mxg_edit_find_element(e, "NG/split"), "outq"),
+            "is unknown");
+    REFUSED(mxg_edit_connect_input(e, material, "surfaceshader", 0, NULL), "no such element");
+    REFUSED(mxg_edit_move_element(e, graph, spots, 0), "below or before itself");
+    REFUSED(mxg_edit_move_element(e, graph, 0, graph), "below or before itself");
+    REFUSED(mxg_edit_move_element(e, graph, 0, spots), "'spots' is not below the parent, so 'NG'");
+    mxg_element look = mxg_edit_add_element(e, 0, "look", NULL, NULL);
+    REFUSED(mxg_edit_connect_input(e, shader, "coat", look, NULL), "'look' is no node");
+    REFUSED(mxg_edit_move_element(e, look, look, 0), "'look' cannot move below");
+    NO_ELEMENT(mxg_edit_copy_element(e, 0, NULL, shader, NULL), "document to copy from is missing");
+    REQUIRE_EQ(mxg_edit_remove_element(e, look), MXG_OK);
+    REFUSED(mxg_edit_remove_element(e, mxg_document_root(d)), "no such element");
+    NO_ELEMENT(mxg_edit_copy_element(e, graph, d, mxg_document_root(d), NULL), "no such element");
+    NO_ELEMENT(mxg_edit_copy_element(e, 0, d, shader, NULL), "'SR' already");
+    REQUIRE_EQ(mxg_edit_remove_element(e, graph), MXG_OK);
+    REFUSED(mxg_edit_set_attribute(e, spots, "doc", "of a removed graph"), "no such element");
     /* nothing else has changed */
     mxg_document *next = NULL;
-    REQUIRE_EQ(mxg_edit_end(e, &next), MXG_OK);
-    REQUIRE_STR(
-        mxg_document_attribute_value(next, mxg_document_find(next, "SR/base_color"), "value"),
-        "0.9, 0.6, 0.2");
-    REQUIRE_EQ(mxg_document_find(next, "SR/coat"), 0);
+    REQUIRE_EQ(mxg_edit_commit(e, &next), MXG_OK);
+    REQUIRE_STR(mxg_document_find_attribute(next, mxg_document_find_element(next, "SR/base_color"),
+                                            "value"),
+                "0.9, 0.6, 0.2");
+    REQUIRE_EQ(mxg_document_find_element(next, "SR/coat"), 0);
     mxg_document_destroy(next);
     /* handles */
     mxg_library *other = NULL;
     const char *paths[] = {"model.mtlx"};
     REQUIRE_EQ(mxg_library_load(f.context, f.library, paths, 1, &other), MXG_OK);
-    REQUIRE_EQ(mxg_edit_begin(f.context, other, d, NULL, &e), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_edit_create(f.context, other, d, NULL, &e), MXG_ERROR_ARGUMENT);
     REQUIRE(!e);
-    REQUIRE_EQ(mxg_edit_begin(NULL, f.library, d, NULL, &e), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_edit_end(NULL, &next), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_edit_end(begin(&f, d), NULL), MXG_ERROR_ARGUMENT);
-    mxg_edit_cancel(NULL);
-    mxg_edit_cancel(begin(&f, d));
+    REQUIRE_EQ(mxg_edit_create(NULL, f.library, d, NULL, &e), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_edit_commit(NULL, &next), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_edit_commit(begin(&f, d), NULL), MXG_ERROR_ARGUMENT);
+    mxg_edit_destroy(NULL);
+    mxg_edit_destroy(begin(&f, d));
     mxg_library_unref(other);
     mxg_document_destroy(d);
     close_fixture(&f);
@@ -528,12 +549,12 @@ static void test_completed(void)
     struct fixture f;
     open_fixture(&f);
     mxg_edit *edit = begin(&f, NULL);
-    mxg_element image = mxg_edit_add(edit, 0, "image", "I", "color3");
-    mxg_edit_value(edit, image, "file", "filename", "maps\\oak.png");
+    mxg_element image = mxg_edit_add_element(edit, 0, "image", "I", "color3");
+    mxg_edit_set_value(edit, image, "file", "filename", "maps\\oak.png");
     mxg_document *d = NULL;
-    REQUIRE_EQ(mxg_edit_end(edit, &d), MXG_OK);
+    REQUIRE_EQ(mxg_edit_commit(edit, &d), MXG_OK);
     REQUIRE(has_diagnostic(mxg_document_diagnostics(d), "backslash"));
-    REQUIRE_STR(mxg_document_attribute_value(d, mxg_document_find(d, "I/file"), "value"),
+    REQUIRE_STR(mxg_document_find_attribute(d, mxg_document_find_element(d, "I/file"), "value"),
                 "maps/oak.png");
     mxg_document_destroy(d);
     close_fixture(&f);
@@ -545,15 +566,15 @@ static void test_diagnostics(void)
     struct fixture f;
     open_fixture(&f);
     mxg_edit *edit = begin(&f, NULL);
-    mxg_element shader = mxg_edit_add(edit, 0, "standard_surface", "SR", "surfaceshader");
-    mxg_edit_value(edit, shader, "coat", "color3", "1, 1, 1");
+    mxg_element shader = mxg_edit_add_element(edit, 0, "standard_surface", "SR", "surfaceshader");
+    mxg_edit_set_value(edit, shader, "coat", "color3", "1, 1, 1");
     mxg_document *d = NULL;
-    mxg_edit_end(edit, &d);
+    mxg_edit_commit(edit, &d);
     mxg_result *result = NULL;
-    REQUIRE_EQ(mxg_document_validate(f.context, d, &result), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_validate(f.context, d, &result), MXG_ERROR_DOCUMENT);
     const mxg_diagnostics *list = mxg_result_diagnostics(result);
     mxg_diagnostic first = MXG_INIT(mxg_diagnostic);
-    REQUIRE_EQ(mxg_diagnostics_get(list, 0, &first), MXG_OK);
+    REQUIRE_EQ(mxg_diagnostics_item(list, 0, &first), MXG_OK);
     REQUIRE(strncmp(first.path, "SR", 2) == 0 && first.line == 0);
     char text[512];
     mxg_diagnostics_format(list, 0, NULL, 0, false, text, sizeof text);
@@ -575,12 +596,12 @@ static void test_memory_of(bool leaves_origin)
         unsigned before = f.heap.calls;
         mxg_edit *edit = NULL;
         mxg_document *next = NULL;
-        mxg_status status = mxg_edit_begin(f.context, f.library, f.document, NULL, &edit);
+        mxg_status status = mxg_edit_create(f.context, f.library, f.document, NULL, &edit);
         if (status == MXG_OK) {
             build_gold(edit);
             if (leaves_origin)
-                mxg_edit_add(edit, 0, "nodedef", "ND_new", NULL);
-            status = mxg_edit_end(edit, &next);
+                mxg_edit_add_element(edit, 0, "nodedef", "ND_new", NULL);
+            status = mxg_edit_commit(edit, &next);
         }
         bool reached = f.heap.calls - before >= at;
         failures += status == MXG_ERROR_MEMORY;

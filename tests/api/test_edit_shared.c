@@ -106,25 +106,30 @@ enum edit_kind {
 static void make_edit(mxg_edit *edit, const mxg_document *from, enum edit_kind kind)
 {
     const float value = 0.25f;
-    mxg_element shader = mxg_edit_find(edit, "S1"), material = mxg_edit_find(edit, "M1"), node;
+    mxg_element shader = mxg_edit_find_element(edit, "S1"),
+                material = mxg_edit_find_element(edit, "M1"), node;
     switch (kind) {
-    case VALUE: mxg_edit_numbers(edit, shader, "base", NULL, &value, 1); break;
-    case NEW_INPUT: mxg_edit_numbers(edit, shader, "coat", "float", &value, 1); break;
-    case NEW_NODE: mxg_edit_add(edit, 0, "constant", "Grey", "float"); break;
+    case VALUE: mxg_edit_set_numbers(edit, shader, "base", NULL, &value, 1); break;
+    case NEW_INPUT: mxg_edit_set_numbers(edit, shader, "coat", "float", &value, 1); break;
+    case NEW_NODE: mxg_edit_add_element(edit, 0, "constant", "Grey", "float"); break;
     case NEW_MATERIAL:
-        node = mxg_edit_add(edit, 0, "surfacematerial", "Grey", "material");
-        mxg_edit_connect(edit, node, "surfaceshader", shader, NULL);
+        node = mxg_edit_add_element(edit, 0, "surfacematerial", "Grey", "material");
+        mxg_edit_connect_input(edit, node, "surfaceshader", shader, NULL);
         break;
-    case NAME_OF_NODE: mxg_edit_rename(edit, shader, "Shader"); break;
-    case NAME_OF_MATERIAL: mxg_edit_rename(edit, material, "Material"); break;
-    case NAME_OF_GRAPH: mxg_edit_rename(edit, mxg_edit_find(edit, "G1"), "Graph"); break;
-    case REMOVAL: mxg_edit_remove(edit, mxg_edit_find(edit, "S1/base")); break;
-    case REMOVED_MATERIAL: mxg_edit_remove(edit, material); break;
-    case MOVE: mxg_edit_move(edit, material, 0, shader); break;
-    case COPY: mxg_edit_copy(edit, 0, from, mxg_document_find(from, "S2"), "Copy"); break;
+    case NAME_OF_NODE: mxg_edit_rename_element(edit, shader, "Shader"); break;
+    case NAME_OF_MATERIAL: mxg_edit_rename_element(edit, material, "Material"); break;
+    case NAME_OF_GRAPH:
+        mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "G1"), "Graph");
+        break;
+    case REMOVAL: mxg_edit_remove_element(edit, mxg_edit_find_element(edit, "S1/base")); break;
+    case REMOVED_MATERIAL: mxg_edit_remove_element(edit, material); break;
+    case MOVE: mxg_edit_move_element(edit, material, 0, shader); break;
+    case COPY:
+        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, "S2"), "Copy");
+        break;
     default:
-        node = mxg_edit_add(edit, 0, "constant", "Grey", "float");
-        mxg_edit_connect(edit, shader, "base", node, NULL);
+        node = mxg_edit_add_element(edit, 0, "constant", "Grey", "float");
+        mxg_edit_connect_input(edit, shader, "base", node, NULL);
     }
     REQUIRE_STR(mxg_edit_error(edit), "");
 }
@@ -135,9 +140,9 @@ static size_t bytes_of_edit(struct world *w, const mxg_document *from, enum edit
     mxg_edit *edit;
     mxg_document *next;
     size_t before = used;
-    REQUIRE(mxg_edit_begin(w->context, w->library, from, NULL, &edit) == MXG_OK);
+    REQUIRE(mxg_edit_create(w->context, w->library, from, NULL, &edit) == MXG_OK);
     make_edit(edit, from, kind);
-    REQUIRE(mxg_edit_end(edit, &next) == MXG_OK);
+    REQUIRE(mxg_edit_commit(edit, &next) == MXG_OK);
     size_t bytes = used - before;
     mxg_document_destroy(next);
     REQUIRE_EQ(used, before);
@@ -181,9 +186,9 @@ static void test_series(void)
         mxg_document *next;
         const float value = 0.001f * (float)i;
         snprintf(name, sizeof name, "S%u", i);
-        mxg_edit_begin(w.context, w.library, document, NULL, &edit);
-        mxg_edit_numbers(edit, mxg_edit_find(edit, name), "base", NULL, &value, 1);
-        REQUIRE(mxg_edit_end(edit, &next) == MXG_OK);
+        mxg_edit_create(w.context, w.library, document, NULL, &edit);
+        mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, name), "base", NULL, &value, 1);
+        REQUIRE(mxg_edit_commit(edit, &next) == MXG_OK);
         if (document != first)
             mxg_document_destroy(document);
         document = next;
@@ -206,9 +211,9 @@ static void test_slider(void)
         mxg_edit *edit;
         mxg_document *next;
         const float value = 0.001f * (float)(i % 100);
-        mxg_edit_begin(w.context, w.library, document, NULL, &edit);
-        mxg_edit_numbers(edit, mxg_edit_find(edit, "S7"), "base", NULL, &value, 1);
-        REQUIRE(mxg_edit_end(edit, &next) == MXG_OK);
+        mxg_edit_create(w.context, w.library, document, NULL, &edit);
+        mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, "S7"), "base", NULL, &value, 1);
+        REQUIRE(mxg_edit_commit(edit, &next) == MXG_OK);
         mxg_document_destroy(document); /* its elements live on */
         document = next;
         first = i == 0 ? used - before : first;
@@ -233,46 +238,49 @@ static void make_change(mxg_edit *edit, const mxg_document *from, unsigned *rand
     const float value = 0.001f * (float)(next_random(random) % 1000);
     snprintf(name, sizeof name, "S%u", next_random(random) % 20);
     snprintf(other, sizeof other, "N%u", next_random(random) % 30);
-    mxg_element shader = mxg_edit_find(edit, name), node = mxg_edit_find(edit, other), graph, two;
+    mxg_element shader = mxg_edit_find_element(edit, name),
+                node = mxg_edit_find_element(edit, other), graph, two;
     snprintf(name, sizeof name, "G%u", next_random(random) % 20);
-    graph = mxg_edit_find(edit, name);
+    graph = mxg_edit_find_element(edit, name);
     snprintf(name, sizeof name, "S%u", next_random(random) % 20);
     switch (next_random(random) % 22) {
     case 0:
     case 1:
-    case 2: mxg_edit_numbers(edit, shader, "base", "float", &value, 1); break;
-    case 3: mxg_edit_numbers(edit, shader, "coat", "float", &value, 1); break;
-    case 4: mxg_edit_add(edit, 0, "constant", other, "float"); break;
-    case 5: mxg_edit_connect(edit, shader, "specular", node, NULL); break;
-    case 6: mxg_edit_remove(edit, mxg_edit_child(edit, shader, "coat")); break;
-    case 7: mxg_edit_set(edit, shader, "doc", "changed"); break;
-    case 8: mxg_edit_set(edit, shader, "doc", NULL); break;
-    case 9: mxg_edit_move(edit, node, 0, shader); break;
-    case 10: mxg_edit_rename(edit, node, "N99"); break;
-    case 11: mxg_edit_copy(edit, 0, from, mxg_document_find(from, name), other); break;
-    case 12: mxg_edit_remove(edit, shader); break;
-    case 13: mxg_edit_rename(edit, graph, other); break;
-    case 14: mxg_edit_rename(edit, shader, other); break;
+    case 2: mxg_edit_set_numbers(edit, shader, "base", "float", &value, 1); break;
+    case 3: mxg_edit_set_numbers(edit, shader, "coat", "float", &value, 1); break;
+    case 4: mxg_edit_add_element(edit, 0, "constant", other, "float"); break;
+    case 5: mxg_edit_connect_input(edit, shader, "specular", node, NULL); break;
+    case 6: mxg_edit_remove_element(edit, mxg_edit_find_child(edit, shader, "coat")); break;
+    case 7: mxg_edit_set_attribute(edit, shader, "doc", "changed"); break;
+    case 8: mxg_edit_set_attribute(edit, shader, "doc", NULL); break;
+    case 9: mxg_edit_move_element(edit, node, 0, shader); break;
+    case 10: mxg_edit_rename_element(edit, node, "N99"); break;
+    case 11:
+        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, name), other);
+        break;
+    case 12: mxg_edit_remove_element(edit, shader); break;
+    case 13: mxg_edit_rename_element(edit, graph, other); break;
+    case 14: mxg_edit_rename_element(edit, shader, other); break;
     case 15:
-        two = mxg_edit_child(edit, graph, "two");
-        mxg_edit_rename(edit, two ? two : mxg_edit_child(edit, graph, "second"),
-                        two ? "second" : "two");
+        two = mxg_edit_find_child(edit, graph, "two");
+        mxg_edit_rename_element(edit, two ? two : mxg_edit_find_child(edit, graph, "second"),
+                                two ? "second" : "two");
         break;
     case 16:
-        two = mxg_edit_child(edit, graph, "out");
-        mxg_edit_rename(edit, two ? two : mxg_edit_child(edit, graph, "result"),
-                        two ? "result" : "out");
+        two = mxg_edit_find_child(edit, graph, "out");
+        mxg_edit_rename_element(edit, two ? two : mxg_edit_find_child(edit, graph, "result"),
+                                two ? "result" : "out");
         break;
-    case 17: mxg_edit_move(edit, graph, 0, shader); break;
+    case 17: mxg_edit_move_element(edit, graph, 0, shader); break;
     case 18:
-        node = mxg_edit_add(edit, 0, "surfacematerial", other, "material");
-        mxg_edit_connect(edit, node, "surfaceshader", shader, NULL);
+        node = mxg_edit_add_element(edit, 0, "surfacematerial", other, "material");
+        mxg_edit_connect_input(edit, node, "surfaceshader", shader, NULL);
         break;
-    case 19: mxg_edit_connect(edit, shader, "base", graph, NULL); break;
-    case 20: mxg_edit_remove(edit, graph); break;
+    case 19: mxg_edit_connect_input(edit, shader, "base", graph, NULL); break;
+    case 20: mxg_edit_remove_element(edit, graph); break;
     default:
-        node = mxg_edit_add(edit, 0, "nodegraph", other, NULL);
-        mxg_edit_set(edit, node, "nodedef", next_random(random) % 2 ? "ND_own" : NULL);
+        node = mxg_edit_add_element(edit, 0, "nodegraph", other, NULL);
+        mxg_edit_set_attribute(edit, node, "nodedef", next_random(random) % 2 ? "ND_own" : NULL);
     }
 }
 
@@ -298,7 +306,7 @@ static void compare_elements(const mxg_document *a, const mxg_document *b)
         mxg_document_element(b, y, &q);
         REQUIRE_STR(p.name, q.name);
         REQUIRE_EQ(p.num_attributes, q.num_attributes);
-        REQUIRE_EQ(mxg_document_find(a, p.name), x);
+        REQUIRE_EQ(mxg_document_find_element(a, p.name), x);
     }
     REQUIRE(!x && !y);
 }
@@ -335,10 +343,10 @@ static void test_sequences(void)
         for (int i = 0; i < 40; ++i) {
             mxg_edit *edit;
             mxg_document *next = NULL;
-            mxg_edit_begin(w.context, w.library, document, NULL, &edit);
+            mxg_edit_create(w.context, w.library, document, NULL, &edit);
             for (unsigned k = next_random(&random) % 4; k > 0; --k)
                 make_change(edit, document, &random);
-            mxg_edit_end(edit, &next);
+            mxg_edit_commit(edit, &next);
             if (!REQUIRE(next))
                 break;
             if (i % 5 == 0)
@@ -364,14 +372,14 @@ static mxg_document *edited(struct world *w, const mxg_document *from, const cha
 {
     mxg_edit *edit;
     mxg_document *next = NULL;
-    mxg_edit_begin(w->context, w->library, from, NULL, &edit);
+    mxg_edit_create(w->context, w->library, from, NULL, &edit);
     if (value)
-        mxg_edit_value(edit, mxg_edit_find(edit, "S1"), input, type, value);
+        mxg_edit_set_value(edit, mxg_edit_find_element(edit, "S1"), input, type, value);
     else
-        mxg_edit_connect(edit, mxg_edit_find(edit, "S1"), input,
-                         mxg_edit_add(edit, 0, "constant", "Grey", type), NULL);
+        mxg_edit_connect_input(edit, mxg_edit_find_element(edit, "S1"), input,
+                               mxg_edit_add_element(edit, 0, "constant", "Grey", type), NULL);
     REQUIRE_STR(mxg_edit_error(edit), "");
-    mxg_edit_end(edit, &next);
+    mxg_edit_commit(edit, &next);
     return next;
 }
 
@@ -395,37 +403,39 @@ static void test_values(void)
     mxg_document *document = many_materials(&w, 20, true);
     mxg_result *program = generate(&w, document);
     unsigned char now[2048], expected[2048];
-    size_t size = mxg_result_pack(program, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0);
+    size_t size = mxg_result_pack_block(program, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0);
     REQUIRE(size > 0 && size <= sizeof now);
     for (size_t i = 0; i < sizeof edits / sizeof *edits; ++i) {
         mxg_document *next = edited(&w, document, edits[i][0], edits[i][1], edits[i][2]);
         mxg_result *after = generate(&w, next);
         REQUIRE_EQ(mxg_result_change(program, after, NULL, 0, NULL), MXG_CHANGE_VALUES);
-        mxg_result_pack(after, MXG_BLOCK_PUBLIC_UNIFORMS, expected, sizeof expected);
-        mxg_result_pack(program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now);
+        mxg_result_pack_block(after, MXG_BLOCK_PUBLIC_UNIFORMS, expected, sizeof expected);
+        mxg_result_pack_block(program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now);
         REQUIRE(memcmp(now, expected, size) != 0);
-        REQUIRE_EQ(mxg_document_values(next, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
-                   MXG_OK);
+        REQUIRE_EQ(
+            mxg_document_pack_block(next, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+            MXG_OK);
         REQUIRE(memcmp(now, expected, size) == 0);
         mxg_result_destroy(after);
         mxg_document_destroy(next);
     }
     mxg_document *connected = edited(&w, document, "base", "float", NULL);
     memset(now, 7, sizeof now);
-    REQUIRE_EQ(mxg_document_values(connected, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
-               MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(
+        mxg_document_pack_block(connected, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+        MXG_ERROR_DOCUMENT);
     REQUIRE_EQ(now[0], 7);
-    REQUIRE_EQ(mxg_document_values(document, program, MXG_BLOCK_TEXTURES, now, sizeof now),
+    REQUIRE_EQ(mxg_document_pack_block(document, program, MXG_BLOCK_TEXTURES, now, sizeof now),
                MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_document_values(document, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, size - 1),
+    REQUIRE_EQ(mxg_document_pack_block(document, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, size - 1),
                MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_document_values(NULL, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, size),
+    REQUIRE_EQ(mxg_document_pack_block(NULL, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, size),
                MXG_ERROR_ARGUMENT);
     static const char other[] = "<materialx version='1.39'/>";
     mxg_document *empty = parse(&w, other, sizeof other - 1);
-    REQUIRE_EQ(mxg_document_values(empty, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+    REQUIRE_EQ(mxg_document_pack_block(empty, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
                MXG_ERROR_DOCUMENT);
-    REQUIRE_EQ(mxg_document_values(empty, program, MXG_BLOCK_PRIVATE_UNIFORMS, now, sizeof now),
+    REQUIRE_EQ(mxg_document_pack_block(empty, program, MXG_BLOCK_PRIVATE_UNIFORMS, now, sizeof now),
                MXG_OK);
     mxg_document_destroy(empty);
     mxg_document_destroy(connected);

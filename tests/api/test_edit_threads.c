@@ -83,10 +83,11 @@ static void *work(void *arg)
         mxg_document *next = NULL;
         const mxg_document *from = last ? last : worker->base;
         float value = (float)(worker->number * worker->num_edits + i);
-        bool is_good = mxg_edit_begin(context, worker->library, from, NULL, &edit) == MXG_OK;
+        bool is_good = mxg_edit_create(context, worker->library, from, NULL, &edit) == MXG_OK;
         is_good &=
-            mxg_edit_numbers(edit, mxg_edit_find(edit, "S"), "base", NULL, &value, 1) == MXG_OK;
-        is_good &= mxg_edit_end(edit, &next) == MXG_OK;
+            mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, "S"), "base", NULL, &value, 1)
+            == MXG_OK;
+        is_good &= mxg_edit_commit(edit, &next) == MXG_OK;
         is_good &= base_of(context, next) == value;
         worker->num_wrong += !is_good;
         mxg_document_destroy(last);

@@ -211,9 +211,10 @@ static mxg_change change_of(struct host *h, const char *node, const char *input,
 {
     mxg_edit *edit = NULL;
     mxg_document *next = NULL;
-    REQUIRE_EQ(mxg_edit_begin(h->context, h->library, h->document, NULL, &edit), MXG_OK);
-    REQUIRE_EQ(mxg_edit_value(edit, mxg_edit_find(edit, node), input, type, value), MXG_OK);
-    REQUIRE_EQ(mxg_edit_end(edit, &next), MXG_OK);
+    REQUIRE_EQ(mxg_edit_create(h->context, h->library, h->document, NULL, &edit), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_value(edit, mxg_edit_find_element(edit, node), input, type, value),
+               MXG_OK);
+    REQUIRE_EQ(mxg_edit_commit(edit, &next), MXG_OK);
     mxg_result *before = generate(h, h->document, "glsl", false),
                *after = generate(h, next, "glsl", true);
     mxg_change change = mxg_result_change(before, after, out_variable, 1, out_num);
@@ -309,15 +310,16 @@ static void test_pack(const char *target)
         REQUIRE_EQ(block.binding, b == MXG_BLOCK_PUBLIC_UNIFORMS ? 1 : 0);
         unsigned char *bytes = malloc(block.byte_size);
         memset(bytes, 0xAB, block.byte_size);
-        REQUIRE_EQ(mxg_result_pack(result, (mxg_block)b, bytes, block.byte_size - 1),
+        REQUIRE_EQ(mxg_result_pack_block(result, (mxg_block)b, bytes, block.byte_size - 1),
                    block.byte_size);
         REQUIRE_EQ(bytes[0], 0xAB);
-        REQUIRE_EQ(mxg_result_pack(result, (mxg_block)b, NULL, 0), block.byte_size);
-        REQUIRE_EQ(mxg_result_pack(result, (mxg_block)b, bytes, block.byte_size), block.byte_size);
+        REQUIRE_EQ(mxg_result_pack_block(result, (mxg_block)b, NULL, 0), block.byte_size);
+        REQUIRE_EQ(mxg_result_pack_block(result, (mxg_block)b, bytes, block.byte_size),
+                   block.byte_size);
         check_bytes(result, &block, bytes);
         free(bytes);
     }
-    REQUIRE_EQ(mxg_result_pack(result, MXG_BLOCK_TEXTURES, NULL, 0), 0);
+    REQUIRE_EQ(mxg_result_pack_block(result, MXG_BLOCK_TEXTURES, NULL, 0), 0);
     mxg_result_destroy(result);
     close_host(&h);
 }
@@ -331,7 +333,7 @@ static void test_pack_values(void)
     unsigned char bytes[4096];
     uint32_t index;
     const float one = 0.75f, matrix[16] = {[4] = 5, [15] = 7};
-    size_t size = mxg_result_pack(result, MXG_BLOCK_PUBLIC_UNIFORMS, bytes, sizeof bytes);
+    size_t size = mxg_result_pack_block(result, MXG_BLOCK_PUBLIC_UNIFORMS, bytes, sizeof bytes);
     REQUIRE(size > 0 && size <= sizeof bytes);
     REQUIRE(mxg_result_find_variable(result, "S/metalness", &index));
     REQUIRE_EQ(mxg_result_pack_value(result, index, 0, &one, 1, bytes, size), MXG_OK);
@@ -381,7 +383,7 @@ static void test_lights(void)
     static const char *const members[] = {"direction", "color", "intensity"};
     REQUIRE_EQ(light.num_members, 3);
     unsigned char *bytes = malloc(block.byte_size);
-    REQUIRE_EQ(mxg_result_pack(result, MXG_BLOCK_LIGHT_DATA, bytes, block.byte_size),
+    REQUIRE_EQ(mxg_result_pack_block(result, MXG_BLOCK_LIGHT_DATA, bytes, block.byte_size),
                block.byte_size);
     for (uint32_t m = 0; m < light.num_members; m++) {
         mxg_variable v = MXG_INIT(mxg_variable);
@@ -406,7 +408,7 @@ static void test_lights(void)
     result = generate(&h, h.document, "glsl", true);
     REQUIRE_EQ(mxg_result_block(result, MXG_BLOCK_PUBLIC_UNIFORMS, &block), MXG_OK);
     REQUIRE(block.byte_size == 0 && block.num_variables > 10);
-    REQUIRE_EQ(mxg_result_pack(result, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0), 0);
+    REQUIRE_EQ(mxg_result_pack_block(result, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0), 0);
     REQUIRE_EQ(mxg_result_block(result, MXG_NUM_BLOCKS, &block), MXG_ERROR_ARGUMENT);
     mxg_result_destroy(result);
     close_host(&h);
@@ -435,9 +437,9 @@ static void check_semantics(const mxg_result *result)
             continue;
         const char *name = v.block == MXG_BLOCK_LIGHT_DATA ? v.name : v.semantic;
         bool found = false;
-        for (uint32_t s = 0; s < mxg_num_semantics(); s++) {
+        for (uint32_t s = 0; s < mxg_catalogue_num_semantics(); s++) {
             mxg_semantic semantic = MXG_INIT(mxg_semantic);
-            REQUIRE_EQ(mxg_get_semantic(s, &semantic), MXG_OK);
+            REQUIRE_EQ(mxg_catalogue_semantic(s, &semantic), MXG_OK);
             bool is_stream = v.block == MXG_BLOCK_VERTEX_DATA;
             found |= fits(semantic.semantic, name) && (semantic.block == v.block || is_stream)
                      && (!*semantic.type || strcmp(semantic.type, v.type) == 0);
@@ -459,7 +461,8 @@ static void test_semantics(void)
     check_semantics(result);
     mxg_result_destroy(result);
     mxg_semantic semantic = MXG_INIT(mxg_semantic);
-    REQUIRE_EQ(mxg_get_semantic(mxg_num_semantics(), &semantic), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_catalogue_semantic(mxg_catalogue_num_semantics(), &semantic),
+               MXG_ERROR_ARGUMENT);
     close_host(&h);
 }
 

@@ -49,10 +49,10 @@ static mxg_result *generate(const struct bench *b, const char *target, const cha
 
 static void test_targets(const struct bench *b)
 {
-    REQUIRE(mxg_num_targets() >= 3);
-    for (uint32_t i = 0; i < mxg_num_targets(); i++) {
+    REQUIRE(mxg_catalogue_num_targets() >= 3);
+    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); i++) {
         mxg_target target = {sizeof target};
-        REQUIRE_EQ(mxg_get_target(i, &target), MXG_OK);
+        REQUIRE_EQ(mxg_catalogue_target(i, &target), MXG_OK);
         const char *const names[] = {target.name, target.materialx_name};
         for (int n = 0; n < 2; n++) {
             mxg_result *result = generate(b, names[n], NULL, MXG_OK);
@@ -240,8 +240,8 @@ static void test_without_source(struct bench *b)
     REQUIRE(mxg_result_source(whole, MXG_STAGE_PIXEL, NULL)
             && !mxg_result_source(facts, MXG_STAGE_PIXEL, NULL));
     REQUIRE_STR(mxg_result_reflection_json(facts, NULL), mxg_result_reflection_json(whole, NULL));
-    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(facts)),
-               mxg_diagnostics_count(mxg_result_diagnostics(whole)));
+    REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(facts)),
+               mxg_diagnostics_num_items(mxg_result_diagnostics(whole)));
     REQUIRE_EQ(mxg_result_source_path(facts, MXG_STAGE_PIXEL, 1, NULL, 0), 0);
     REQUIRE(!mxg_result_source_place(facts, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL));
     mxg_result_destroy(whole);
@@ -261,8 +261,8 @@ static void test_only_diagnostics(struct bench *b)
         desc.only_diagnostics = true;
         REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &told), status);
         REQUIRE_EQ(status, i ? MXG_ERROR_DOCUMENT : MXG_OK);
-        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(told)),
-                   mxg_diagnostics_count(mxg_result_diagnostics(whole)));
+        REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(told)),
+                   mxg_diagnostics_num_items(mxg_result_diagnostics(whole)));
         REQUIRE_EQ(mxg_result_num_files(told), mxg_result_num_files(whole));
         REQUIRE(!mxg_result_source(told, MXG_STAGE_PIXEL, NULL)
                 && !mxg_result_reflection_json(told, NULL));
@@ -292,7 +292,7 @@ static void test_interfaces(struct bench *b)
     result = generate(b, "glsl", NULL, MXG_OK);
     REQUIRE(mxg_result_find_variable(result, "S/coat", NULL)
             && !mxg_result_find_variable(result, "S/base", NULL));
-    REQUIRE_EQ(mxg_diagnostics_warnings(mxg_result_diagnostics(result)), 0);
+    REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(result)), 0);
     mxg_result_destroy(result);
 }
 
@@ -498,7 +498,7 @@ static void test_tokens(void)
     struct bench b;
     bench_open(&b, tokens);
     mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
-    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(result)), 0);
+    REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(result)), 0);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         REQUIRE(has_file(result, names[i]));
     mxg_result_destroy(result);
@@ -586,9 +586,9 @@ static void test_network(void)
 static bool applies(const char *key, const char *target)
 {
     mxg_option option = {sizeof option};
-    for (uint32_t i = 0; mxg_get_option(i, &option) == MXG_OK; i++)
+    for (uint32_t i = 0; mxg_catalogue_option(i, &option) == MXG_OK; i++)
         if (strcmp(option.key, key) == 0)
-            return mxg_option_applies(i, target);
+            return mxg_catalogue_has_option(i, target);
     return false;
 }
 
@@ -602,7 +602,8 @@ static void test_options_of_targets(void)
     REQUIRE(applies("hlsl-vulkan-bindings", "hlsl") && !applies("hlsl-vulkan-bindings", "glsl"));
     REQUIRE(applies("texture-modes", "essl310") && !applies("texture-modes", "osl"));
     REQUIRE(!applies("interface", "cobol"));
-    REQUIRE(!mxg_option_applies(mxg_num_options(), "glsl") && !mxg_option_applies(0, NULL));
+    REQUIRE(!mxg_catalogue_has_option(mxg_catalogue_num_options(), "glsl")
+            && !mxg_catalogue_has_option(0, NULL));
 }
 
 /* A pass that the options do not ask for has no source. A surface is no pass. */
@@ -610,7 +611,7 @@ static void test_passes(const struct bench *b)
 {
     mxg_generate_desc desc = {.size = sizeof desc, .target = "vulkan"};
     unsigned num_left_out = 0;
-    for (uint32_t i = 0; i < mxg_num_passes(); i++) {
+    for (uint32_t i = 0; i < mxg_catalogue_num_passes(); i++) {
         mxg_result *result;
         mxg_pass pass = {sizeof pass};
         REQUIRE_EQ(mxg_generate_pass(b->context, i, &desc, &result), MXG_OK);
@@ -623,8 +624,9 @@ static void test_passes(const struct bench *b)
     }
     REQUIRE_EQ(num_left_out, 2);
     mxg_pass_member member = {sizeof member};
-    REQUIRE_EQ(mxg_get_pass_member(0, 0, &member), MXG_ERROR_ARGUMENT); /* an image */
-    REQUIRE_EQ(mxg_get_pass_member(mxg_num_pass_resources(), 0, &member), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_catalogue_pass_member(0, 0, &member), MXG_ERROR_ARGUMENT); /* an image */
+    REQUIRE_EQ(mxg_catalogue_pass_member(mxg_catalogue_num_pass_resources(), 0, &member),
+               MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_result_pass(NULL, NULL), MXG_ERROR_ARGUMENT);
     desc.without_source = true;
     REQUIRE_EQ(mxg_generate_pass(b->context, 0, &desc, NULL), MXG_ERROR_ARGUMENT);

@@ -178,10 +178,10 @@ static void test_max_errors(void)
         mxg_context_create(&desc, &context);
         mxg_document *document = parse(context, text, MXG_OK);
         mxg_result *result = NULL;
-        REQUIRE_EQ(mxg_document_validate(context, document, &result), MXG_ERROR_DOCUMENT);
+        REQUIRE_EQ(mxg_validate(context, document, &result), MXG_ERROR_DOCUMENT);
         const mxg_diagnostics *list = mxg_result_diagnostics(result);
-        REQUIRE_EQ(mxg_diagnostics_errors(list), 10);
-        REQUIRE_EQ(mxg_diagnostics_count(list), 10); /* nine and a note, or ten */
+        REQUIRE_EQ(mxg_diagnostics_num_errors(list), 10);
+        REQUIRE_EQ(mxg_diagnostics_num_items(list), 10); /* nine and a note, or ten */
         REQUIRE_EQ(has_diagnostic(list, "too-many-errors"), limit < 10);
         mxg_result_destroy(result);
         mxg_document_destroy(document);
@@ -246,7 +246,7 @@ static void load(struct memory_files *files, const char *name, const char *fault
     mxg_library *library = mxg_library_builtin(context);
     mxg_status status = mxg_document_load(context, library, name, &document);
     if (status == MXG_OK)
-        status = mxg_document_validate(context, document, &result);
+        status = mxg_validate(context, document, &result);
     REQUIRE_EQ(status, fault ? MXG_ERROR_DOCUMENT : MXG_OK);
     REQUIRE(!fault || has_diagnostic(mxg_document_diagnostics(document), fault)
             || has_diagnostic(mxg_result_diagnostics(result), fault));
@@ -320,7 +320,7 @@ static void test_endless_files(void)
                                        : mxg_document_load(context, base, *names, &document);
         mxg_result *result = NULL;
         if (document && status == MXG_OK)
-            status = mxg_document_validate(context, document, &result);
+            status = mxg_validate(context, document, &result);
         REQUIRE_EQ(status, is_source && is_library ? MXG_OK : MXG_ERROR_DOCUMENT);
         REQUIRE(has_diagnostic(is_library ? mxg_library_diagnostics(library)
                                           : mxg_document_diagnostics(document),

@@ -9,7 +9,7 @@ static mxg_status use_result(const mxg_result *result)
 {
     size_t size = 0;
     char line[256];
-    for (uint32_t i = 0; i < mxg_diagnostics_count(mxg_result_diagnostics(result)); i++)
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(mxg_result_diagnostics(result)); i++)
         mxg_diagnostics_format(mxg_result_diagnostics(result), i, NULL, 0, false, line,
                                sizeof line);
     return mxg_result_reflection_json(result, &size) ? MXG_OK : MXG_ERROR_MEMORY;
@@ -47,7 +47,7 @@ static mxg_status cycle(const mxg_context_desc *desc)
         status =
             mxg_library_load(context, builtin = mxg_library_builtin(context), paths, 1, &library);
     if (status == MXG_OK)
-        status = mxg_library_expand(library, &text, &size);
+        status = mxg_library_xml(library, &text, &size);
     if (status == MXG_OK && !mxg_library_losses(library))
         status = MXG_ERROR_MEMORY;
     if (status == MXG_OK)
@@ -205,7 +205,7 @@ static void test_builtin_text(void)
     size_t size;
     REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_OK);
     mxg_library *builtin = mxg_library_builtin(context);
-    REQUIRE_EQ(mxg_library_expand(builtin, &text, &size), MXG_OK);
+    REQUIRE_EQ(mxg_library_xml(builtin, &text, &size), MXG_OK);
     mxg_library_unref(builtin);
     mxg_context_destroy(context);
     require_clean(&heap);
@@ -263,7 +263,7 @@ static void test_count_of_messages(void)
     mxg_library *library = mxg_library_builtin(context);
     REQUIRE_EQ(mxg_document_load(context, library, "main.mtlx", &document), MXG_OK);
     const mxg_diagnostics *list = mxg_document_diagnostics(document);
-    REQUIRE(mxg_diagnostics_warnings(list) > 0);
+    REQUIRE(mxg_diagnostics_num_items(list) > 0);
     for (int i = 0; i < 10000; i++) /* a few bytes that stay counted fill the limit */
         REQUIRE(mxg_diagnostics_format(list, 0, NULL, 0, false, line, sizeof line) > 0);
     mxg_document_destroy(document);

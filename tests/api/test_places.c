@@ -40,7 +40,8 @@ static void generate_all(mxg_context *context, const mxg_document *document)
         desc.target = "glsl";
         desc.element = renderable.path;
         mxg_status status = mxg_generate(context, document, &desc, &result);
-        silent += status != MXG_OK && mxg_diagnostics_count(mxg_result_diagnostics(result)) == 0;
+        silent +=
+            status != MXG_OK && mxg_diagnostics_num_items(mxg_result_diagnostics(result)) == 0;
         mxg_result_destroy(result);
     }
 }
@@ -51,10 +52,10 @@ static void try_document(mxg_context *context, mxg_library *library, const char 
     mxg_result *result = NULL;
     mxg_status status =
         mxg_document_parse(context, library, "places.mtlx", text, strlen(text), &document);
-    bool told = mxg_diagnostics_count(mxg_document_diagnostics(document)) > 0;
+    bool told = mxg_diagnostics_num_items(mxg_document_diagnostics(document)) > 0;
     if (document) {
-        told |= mxg_document_validate(context, document, &result) == MXG_OK;
-        told |= mxg_diagnostics_count(mxg_result_diagnostics(result)) > 0;
+        told |= mxg_validate(context, document, &result) == MXG_OK;
+        told |= mxg_diagnostics_num_items(mxg_result_diagnostics(result)) > 0;
         mxg_result_destroy(result);
         generate_all(context, document);
     }

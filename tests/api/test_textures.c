@@ -115,9 +115,9 @@ static unsigned count_diagnostics(const struct shot *shot, const char *id)
 {
     const mxg_diagnostics *list = mxg_result_diagnostics(shot->result);
     unsigned count = 0;
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); i++) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); i++) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_get(list, i, &diagnostic);
+        mxg_diagnostics_item(list, i, &diagnostic);
         count += strcmp(diagnostic.id, id) == 0;
     }
     return count;
@@ -204,7 +204,7 @@ static void test_no_tiles(void)
         find(&shot, "i/file", &file);
         REQUIRE_STR(file.type, "sampler2D");
         REQUIRE_EQ(file.num_tiles, 0);
-        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)),
+        REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(shot.result)),
                    cases[i].warning ? 1 : 0);
         REQUIRE(!cases[i].warning || count_diagnostics(&shot, cases[i].warning) == 1);
         finish(&shot);
@@ -383,7 +383,7 @@ static void test_profile(void)
     mxg_compiled_input file = {sizeof file};
     uint32_t last;
     shoot(&shot, LAMP("lamp.ies"), false, NULL, NULL, MXG_OK);
-    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)), 0);
+    REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(shot.result)), 0);
     const char *table =
         strstr(mxg_result_source(shot.result, MXG_STAGE_PIXEL, NULL), "float[47](1.0, 0.9777");
     /* 90 degrees, and behind */
@@ -398,7 +398,7 @@ static void test_profile(void)
     REQUIRE_STR(file.path, "light/file");
     finish(&shot);
     shoot(&shot, LAMP("tilted.ies"), false, NULL, NULL, MXG_OK);
-    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)), 0);
+    REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(shot.result)), 0);
     finish(&shot);
 }
 

@@ -29,9 +29,9 @@ struct run {
 
 static void note_error(struct run *run, const mxg_diagnostics *list)
 {
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic d = {sizeof d};
-        mxg_diagnostics_get(list, i, &d);
+        mxg_diagnostics_item(list, i, &d);
         if (d.severity == MXG_SEVERITY_ERROR) {
             mxg_diagnostics_format(list, i, NULL, 0, false, run->problem, sizeof run->problem);
             return;

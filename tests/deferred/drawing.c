@@ -84,7 +84,7 @@ bool drawing_generate(struct bench *b, const char *element, const char *pipeline
     mxg_options_set(b->options, "storage", storage);
     mxg_status status = mxg_generate(b->context, b->document, &desc, out);
     mxg_diagnostic first = {sizeof first};
-    if (*out && mxg_diagnostics_get(mxg_result_diagnostics(*out), 0, &first) == MXG_OK
+    if (*out && mxg_diagnostics_item(mxg_result_diagnostics(*out), 0, &first) == MXG_OK
         && first.severity <= MXG_SEVERITY_WARNING)
         printf("%s: %s\n", element, first.message);
     return REQUIRE_EQ(status, MXG_OK);

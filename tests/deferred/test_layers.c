@@ -73,8 +73,10 @@ static bool bind_layers(struct bench *b, mxg_scene *scene)
     static const char *const path = "/ball";
     static char text[1 << 14];
     write_layers(text, sizeof text);
-    return bench_parse(b, "layers.mtlx", text) && REQUIRE_EQ(mxg_scene_add(scene, &path, 1), MXG_OK)
-           && REQUIRE_EQ(mxg_bind(b->context, b->document, scene, NULL, &b->bindings), MXG_OK)
+    return bench_parse(b, "layers.mtlx", text)
+           && REQUIRE_EQ(mxg_scene_add_paths(scene, &path, 1), MXG_OK)
+           && REQUIRE_EQ(mxg_bindings_create(b->context, b->document, scene, NULL, &b->bindings),
+                         MXG_OK)
            && REQUIRE_EQ(mxg_bindings_num_stacks(b->bindings), 1);
 }
 

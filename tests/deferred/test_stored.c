@@ -120,7 +120,7 @@ static void test_words_of_views(void)
         strcat(words, i ? "|" : "");
         strcat(words, pass_views[i]);
     }
-    REQUIRE(mxg_get_pass_member(FRAME, SHOW, &member) == MXG_OK);
+    REQUIRE(mxg_catalogue_pass_member(FRAME, SHOW, &member) == MXG_OK);
     REQUIRE(strcmp(member.name, "mx_show") == 0 && strcmp(member.values, words) == 0);
 }
 

@@ -74,9 +74,9 @@ static void read_expectations(struct case_ *c, const char *path)
 /* Loading, validating and generating may say the same; once is enough. */
 static void collect(struct case_ *c, const mxg_diagnostics *list)
 {
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic d = {sizeof d};
-        mxg_diagnostics_get(list, i, &d);
+        mxg_diagnostics_item(list, i, &d);
         struct message m = {.severity = (int)d.severity, .line = d.line, .column = d.column};
         snprintf(m.file, sizeof m.file, "%s", d.file ? base_name(d.file) : c->name);
         snprintf(m.id, sizeof m.id, "%s", d.id);
@@ -115,7 +115,7 @@ static void check_document(struct case_ *c)
     }
     collect(c, mxg_document_diagnostics(c->document));
     mxg_result *result = NULL;
-    status_is_good(c, mxg_document_validate(c->context, c->document, &result));
+    status_is_good(c, mxg_validate(c->context, c->document, &result));
     collect(c, mxg_result_diagnostics(result));
     mxg_result_destroy(result);
     uint32_t count = mxg_document_num_renderables(c->document);

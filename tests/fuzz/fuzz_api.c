@@ -101,7 +101,7 @@ static void make_options(struct machine *m, unsigned slot, unsigned argument)
 static void set_option(struct machine *m, unsigned slot, unsigned argument)
 {
     mxg_option option = {sizeof option};
-    mxg_get_option(argument, &option);
+    mxg_catalogue_option(argument, &option);
     mxg_options_set(m->options[slot], argument & 128 ? name_of(argument) : option.key,
                     name_of(argument / 2));
     if (m->options[slot])
@@ -120,7 +120,7 @@ static void generate(struct machine *m, unsigned slot, unsigned argument)
 static void validate(struct machine *m, unsigned slot, unsigned argument)
 {
     mxg_result_destroy(m->results[slot]);
-    mxg_document_validate(m->context, m->documents[argument % NUM_SLOTS], &m->results[slot]);
+    mxg_validate(m->context, m->documents[argument % NUM_SLOTS], &m->results[slot]);
 }
 
 static void inspect(struct machine *m, unsigned slot, unsigned argument)
@@ -151,7 +151,7 @@ static void read_result(struct machine *m, unsigned slot, unsigned argument)
     mxg_result_compiled_input(result, argument, &input);
     mxg_result_info(result, &info);
     mxg_result_reflection_json(result, NULL);
-    mxg_diagnostics_get(mxg_result_diagnostics(result), argument, &diagnostic);
+    mxg_diagnostics_item(mxg_result_diagnostics(result), argument, &diagnostic);
     mxg_diagnostics_format(mxg_result_diagnostics(result), argument, parts, argument, true, text,
                            argument % sizeof text);
 }
@@ -163,7 +163,7 @@ static void read_document(struct machine *m, unsigned slot, unsigned argument)
     mxg_document_file(document, argument);
     mxg_document_renderable(document, argument, &renderable);
     mxg_document_look_material(document, name_of(argument), argument / 32, &renderable);
-    mxg_diagnostics_errors(mxg_document_diagnostics(document));
+    mxg_diagnostics_num_errors(mxg_document_diagnostics(document));
 }
 
 static void read_library(struct machine *m, unsigned slot, unsigned argument)
@@ -177,32 +177,32 @@ static void read_library(struct machine *m, unsigned slot, unsigned argument)
     mxg_library_nodedef(library, argument * 7, &def);
     mxg_library_file(library, argument);
     mxg_library_port(library, argument * 7, argument % 32, &port);
-    mxg_library_supports(library, argument * 7, name_of(argument));
+    mxg_library_has_implementation(library, argument * 7, name_of(argument));
     mxg_library_image(library, &data, &size);
     if (argument > 250)
-        mxg_library_expand(library, &text, &size);
+        mxg_library_xml(library, &text, &size);
 }
 
 static void begin_edit(struct machine *m, unsigned slot, unsigned argument)
 {
-    mxg_edit_cancel(m->edits[slot]);
+    mxg_edit_destroy(m->edits[slot]);
     m->edits[slot] = NULL;
-    mxg_edit_begin(m->context, m->libraries[argument % NUM_SLOTS],
-                   argument & 128 ? NULL : m->documents[argument / 4 % NUM_SLOTS],
-                   name_of(argument), &m->edits[slot]);
+    mxg_edit_create(m->context, m->libraries[argument % NUM_SLOTS],
+                    argument & 128 ? NULL : m->documents[argument / 4 % NUM_SLOTS],
+                    name_of(argument), &m->edits[slot]);
 }
 
 static void change_names(mxg_edit *edit, mxg_element element, mxg_element other, unsigned argument)
 {
     switch (argument % 6) {
-    case 0: mxg_edit_rename(edit, element, name_of(argument / 3)); break;
-    case 1: mxg_edit_set(edit, element, "name", name_of(argument / 3)); break;
-    case 2: mxg_edit_set(edit, element, "nodedef", name_of(argument / 3)); break;
-    case 3: mxg_edit_remove(edit, element); break;
-    case 4: mxg_edit_move(edit, element, other, argument / 8 % 40); break;
+    case 0: mxg_edit_rename_element(edit, element, name_of(argument / 3)); break;
+    case 1: mxg_edit_set_attribute(edit, element, "name", name_of(argument / 3)); break;
+    case 2: mxg_edit_set_attribute(edit, element, "nodedef", name_of(argument / 3)); break;
+    case 3: mxg_edit_remove_element(edit, element); break;
+    case 4: mxg_edit_move_element(edit, element, other, argument / 8 % 40); break;
     default:
-        mxg_edit_set(edit, element, argument & 64 ? "namespace" : "doc",
-                     argument & 32 ? NULL : "x");
+        mxg_edit_set_attribute(edit, element, argument & 64 ? "namespace" : "doc",
+                               argument & 32 ? NULL : "x");
     }
 }
 
@@ -211,20 +211,20 @@ static void change_edit(struct machine *m, unsigned slot, unsigned argument)
     static const char *const paths[] = {"S", "M", "G", "G/m", "G/i", "new", "L", ""};
     mxg_edit *edit = m->edits[slot];
     const float values[] = {0.5f, 0.25f, 1.0f};
-    mxg_element element = mxg_edit_find(edit, paths[argument % 8]),
-                other = mxg_edit_find(edit, paths[argument / 8 % 8]);
+    mxg_element element = mxg_edit_find_element(edit, paths[argument % 8]),
+                other = mxg_edit_find_element(edit, paths[argument / 8 % 8]);
     switch (argument / 16 % 8) {
-    case 0: mxg_edit_numbers(edit, element, "base", "float", values, 1 + argument % 2); break;
+    case 0: mxg_edit_set_numbers(edit, element, "base", "float", values, 1 + argument % 2); break;
     case 1:
-        mxg_edit_value(edit, element, "base_color", "color3", argument & 1 ? "1, 0, 0" : "x");
+        mxg_edit_set_value(edit, element, "base_color", "color3", argument & 1 ? "1, 0, 0" : "x");
         break;
-    case 2: mxg_edit_connect(edit, element, argument & 1 ? "coat" : NULL, other, NULL); break;
+    case 2: mxg_edit_connect_input(edit, element, argument & 1 ? "coat" : NULL, other, NULL); break;
     case 3:
-        mxg_edit_add(edit, other, argument & 1 ? "constant" : "nodegraph", "new", "float");
+        mxg_edit_add_element(edit, other, argument & 1 ? "constant" : "nodegraph", "new", "float");
         break;
     case 4:
-        mxg_edit_copy(edit, other, m->documents[argument % NUM_SLOTS], argument % 64,
-                      argument & 2 ? "copy" : NULL);
+        mxg_edit_copy_element(edit, other, m->documents[argument % NUM_SLOTS], argument % 64,
+                              argument & 2 ? "copy" : NULL);
         break;
     default: change_names(edit, element, other, argument);
     }
@@ -236,7 +236,7 @@ static void end_edit(struct machine *m, unsigned slot, unsigned argument)
 {
     mxg_document_destroy(m->documents[slot]);
     m->documents[slot] = NULL;
-    mxg_edit_end(m->edits[argument % NUM_SLOTS], argument & 128 ? NULL : &m->documents[slot]);
+    mxg_edit_commit(m->edits[argument % NUM_SLOTS], argument & 128 ? NULL : &m->documents[slot]);
     m->edits[argument % NUM_SLOTS] = NULL;
 }
 
@@ -253,8 +253,8 @@ static void read_elements(struct machine *m, unsigned slot, unsigned argument)
     mxg_document_element(document, element, &info);
     mxg_document_value(document, element, &value);
     mxg_document_connection(document, element, &connection);
-    mxg_document_definition(document, element, &nodedef);
-    mxg_document_path(document, element, path, argument % sizeof path);
+    mxg_document_find_nodedef(document, element, &nodedef);
+    mxg_document_element_path(document, element, path, argument % sizeof path);
     mxg_document_xml(document, NULL);
 }
 
@@ -265,9 +265,9 @@ static void pack_values(struct machine *m, unsigned slot, unsigned argument)
     mxg_block block = (mxg_block)(argument / 4 % 8);
     mxg_block_info info = {sizeof info};
     mxg_result_block(result, block, &info);
-    mxg_result_pack(result, block, bytes, sizeof bytes - argument);
-    mxg_document_values(m->documents[argument / 32 % NUM_SLOTS], result, block, bytes,
-                        sizeof bytes - argument % 2 * 1000);
+    mxg_result_pack_block(result, block, bytes, sizeof bytes - argument);
+    mxg_document_pack_block(m->documents[argument / 32 % NUM_SLOTS], result, block, bytes,
+                            sizeof bytes - argument % 2 * 1000);
     mxg_result_change(result, other, NULL, 0, NULL);
     mxg_result_input_state(result, name_of(argument));
 }
@@ -317,7 +317,7 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     for (int i = 0; i < NUM_SLOTS; i++) {
         mxg_library_unref(m.libraries[i]);
         mxg_document_destroy(m.documents[i]);
-        mxg_edit_cancel(m.edits[i]);
+        mxg_edit_destroy(m.edits[i]);
         mxg_options_destroy(m.options[i]);
         mxg_result_destroy(m.results[i]);
     }

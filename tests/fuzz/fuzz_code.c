@@ -107,9 +107,9 @@ static mxg_ref call_shader(mxg_build *build, const struct values *values, unsign
     case 0: return mxg_build_expression(build, word_of(a), word_of(b), names, args, a % 3);
     case 1: mxg_build_node(build, word_of(a), names, args, b % 3, results, 1); return results[0];
     case 2: return mxg_build_stream(build, word_of(a), word_of(b));
-    case 3: return mxg_build_interpolated(build, word_of(a), args[1]);
+    case 3: return mxg_build_interpolation(build, word_of(a), args[1]);
     case 4: return mxg_build_add_uniform(build, &uniform);
-    default: mxg_build_error(build, word_of(a), word_of(b)); return 0;
+    default: mxg_build_report_error(build, word_of(a), word_of(b)); return 0;
     }
 }
 
@@ -125,8 +125,8 @@ static mxg_ref call_any(mxg_build *build, const struct values *values, unsigned 
     case 2: return mxg_build_string(build, word_of(a));
     case 3: return mxg_build_op(build, word_of(a), b & 1 ? word_of(b) : NULL, args, b % 4);
     case 4: return mxg_build_swizzle(build, args[0], word_of(b));
-    case 5: mxg_build_known(build, args[0], &value); return args[0];
-    case 6: mxg_build_constant(build, word_of(a), b & 1 ? &value : NULL); return 0;
+    case 5: mxg_build_value(build, args[0], &value); return args[0];
+    case 6: mxg_build_require_constant(build, word_of(a), b & 1 ? &value : NULL); return 0;
     case 7: mxg_build_type(build, args[0]); return 0;
     default: return call_shader(build, values, call - 8, a, b);
     }

@@ -20,7 +20,7 @@ static bool is_expected(mxg_status status)
 static void format_all(const mxg_diagnostics *list, const struct fuzz_files *files)
 {
     char text[512];
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); i++)
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); i++)
         mxg_diagnostics_format(list, i, files->items[0].data, files->items[0].size, i % 2, text,
                                sizeof text);
 }
@@ -46,7 +46,7 @@ static void use(mxg_context *context, const mxg_document *document, const struct
         mxg_options_set(options, "interface", interfaces[choice / 8 % 3]);
     if (options && choice / 64 % 6 == 4 && choice % 4 == 0)
         mxg_options_set(options, "osl-network", "true");
-    FUZZ_REQUIRE(is_expected(mxg_document_validate(context, document, &result)));
+    FUZZ_REQUIRE(is_expected(mxg_validate(context, document, &result)));
     format_all(mxg_result_diagnostics(result), files);
     mxg_result_destroy(result);
     mxg_generate_desc desc = {sizeof desc, targets[choice / 64 % 6], NULL, options};

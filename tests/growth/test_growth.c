@@ -119,9 +119,9 @@ static struct text nested(unsigned depth)
 
 static bool has_id(const mxg_diagnostics *list, const char *id)
 {
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic d = {sizeof d};
-        mxg_diagnostics_get(list, i, &d);
+        mxg_diagnostics_item(list, i, &d);
         if (strcmp(d.id, id) == 0)
             return true;
     }
@@ -131,7 +131,7 @@ static bool has_id(const mxg_diagnostics *list, const char *id)
 static void print_first(const mxg_diagnostics *list)
 {
     char line[1024] = "";
-    if (mxg_diagnostics_count(list))
+    if (mxg_diagnostics_num_items(list))
         mxg_diagnostics_format(list, 0, NULL, 0, false, line, sizeof line);
     printf("    %.1000s\n", line);
 }
@@ -234,9 +234,9 @@ static unsigned count_messages(const struct text *text, const char *id)
     mxg_library *library = mxg_library_builtin(context);
     mxg_document_parse(context, library, "growth.mtlx", text->data, text->len, &document);
     const mxg_diagnostics *list = mxg_document_diagnostics(document);
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_get(list, i, &diagnostic);
+        mxg_diagnostics_item(list, i, &diagnostic);
         count += strcmp(diagnostic.id, id) == 0;
     }
     mxg_document_destroy(document);

@@ -144,7 +144,7 @@ static void make_document(struct run *run)
 static void print_errors(const mxg_diagnostics *list)
 {
     char text[1024];
-    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostics_format(list, i, NULL, 0, false, text, sizeof text);
         puts(text);
     }

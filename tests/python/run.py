@@ -25,8 +25,8 @@ ROOT = pathlib.Path(sys.argv[1])
 common.EXAMPLES = ROOT / "examples"
 common.PROGRAM = sys.argv[3]
 CALLED = set()
-# A package gets along without these: Python frees objects, and version numbers are in the text.
-NOT_USED = {"mxg_version", "mxg_library_ref"}
+# A package gets along without it: Python frees objects.
+NOT_USED = {"mxg_library_ref"}
 
 
 def remember(frame, event, _argument):

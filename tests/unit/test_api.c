@@ -279,10 +279,10 @@ static void test_option_table(void)
     mxg_context *context = make_context(&heap, 0);
     mxg_options *options = NULL;
     REQUIRE_EQ(mxg_options_create(context, &options), MXG_OK);
-    REQUIRE_EQ(mxg_num_options(), NUM_OPTIONS);
-    for (uint32_t i = 0; i < mxg_num_options(); i++) {
+    REQUIRE_EQ(mxg_catalogue_num_options(), NUM_OPTIONS);
+    for (uint32_t i = 0; i < mxg_catalogue_num_options(); i++) {
         mxg_option option = MXG_INIT(mxg_option);
-        REQUIRE_EQ(mxg_get_option(i, &option), MXG_OK);
+        REQUIRE_EQ(mxg_catalogue_option(i, &option), MXG_OK);
         if (!REQUIRE_EQ(mxg_options_set(options, option.key, option.initial), MXG_OK))
             printf("    %s\n", option.key);
         REQUIRE(*option.doc);

@@ -97,8 +97,8 @@ static void check_message(const mxg_result *result, const struct row *row)
     snprintf(one, sizeof one, "'%s=%s'", key_of(row->option), row->value);
     snprintf(two, sizeof two, row->other_value ? "'%s=%s'" : "'%s'", key_of(row->other),
              row->other_value ? row->other_value : "");
-    if (REQUIRE_EQ(mxg_diagnostics_count(list), 1)
-        && REQUIRE(mxg_diagnostics_get(list, 0, &diagnostic) == MXG_OK))
+    if (REQUIRE_EQ(mxg_diagnostics_num_items(list), 1)
+        && REQUIRE(mxg_diagnostics_item(list, 0, &diagnostic) == MXG_OK))
         REQUIRE(strstr(diagnostic.message, one) && strstr(diagnostic.message, two));
 }
 
@@ -140,7 +140,7 @@ static void test_choices(struct run *run, const struct choice *choices, size_t c
         check_message(result, &rows[row]);
         run->is_found[row] = true;
     } else
-        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(result)), num_rows);
+        REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(result)), num_rows);
     run->good += num_rows == 0;
     run->bad += num_rows != 0;
     mxg_result_destroy(result);
