@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Materials with options of generation: the mean CIEDE2000 of a ball drawn as slabs, and with one closure, from the ball as it is.
+"""Materials with options of generation: the mean CIEDE2000 of a ball drawn as slabs, and with one slab, from the ball as it is.
 
     bench/slabs.py build/mxgen FOLDER... [--size 64] [--jobs 2] [--variant "NAME=OPTIONS"]...
 
 Draws the first renderable of each document where the options change its shader. Prints each document as soon as it is drawn, then a
-row for each model of shading, the worst documents, and the parts of materials that no slab stands for. --variant takes the place of slabs and one closure: --variant "occluding=--layering occluding"."""
+row for each model of shading, the worst documents, and the parts of materials that no slab stands for. --variant takes the place of slabs and one slab: --variant "occluding=--layering occluding"."""
 
 import argparse
 import collections
@@ -20,7 +20,7 @@ import tempfile
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "tests"))
 import balls  # pylint: disable=wrong-import-position
 
-VARIANTS = {"slabs": ["--slabs"], "one closure": ["--max-closures", "1"]}
+VARIANTS = {"slabs": ["--slabs"], "one slab": ["--max-slabs", "1"]}
 
 
 def run(*command):

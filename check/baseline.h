@@ -6,7 +6,7 @@
 #ifndef MXG_CHECK_BASELINE_H
 #define MXG_CHECK_BASELINE_H
 
-#include "program/names.h"
+#include "program/name_table.h"
 #include "check/record.h"
 #include "check/report_reader.h"
 #include "check/root.h"

@@ -4,7 +4,7 @@
 
 #include "program/cli.h"
 #include "program/files.h"
-#include "program/names.h"
+#include "program/name_table.h"
 
 #include <errno.h>
 #include <inttypes.h>

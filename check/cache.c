@@ -7,7 +7,7 @@
 #include "check/record_json.h"
 #include "program/cli.h"
 #include "program/files.h"
-#include "program/names.h"
+#include "program/name_table.h"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -8,7 +8,7 @@
 #include "check/cache.h"
 #include "check/check.h"
 #include "check/gate.h"
-#include "check/inputs.h"
+#include "check/documents.h"
 #include "program/json.h"
 #include "check/pool.h"
 #include "check/progress.h"

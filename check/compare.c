@@ -2,10 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/compare.h"
 
-#include "check/picture.h"
-#include "check/place.h"
+#include "check/signature.h"
+#include "check/below_root.h"
 #include "program/cli.h"
-#include "program/names.h"
+#include "program/name_table.h"
 
 #include <assert.h>
 #include <inttypes.h>

@@ -3,7 +3,7 @@
 #include "check/examine.h"
 
 #include "compile/compile.h"
-#include "program/groups.h"
+#include "program/warning_groups.h"
 #include "program/memory.h"
 
 #include <stdlib.h>

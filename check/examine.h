@@ -5,7 +5,7 @@
 
 #include "check/protocol.h"
 #include "program/cli.h"
-#include "program/names.h"
+#include "program/name_table.h"
 
 struct examiner {
     struct cli *cli;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* --render: a picture of an element, which the program mxgen-render draws. */
 #define _POSIX_C_SOURCE 200809L
-#include "check/picture.h"
+#include "check/signature.h"
 #include "program/drawn.h"
 #include "program/folder.h"
 #include "check/examine.h"

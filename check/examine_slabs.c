@@ -2,7 +2,7 @@
 /* The slabs of an element, and the steps of their budget, as `mxgen inspect --slabs` has them. */
 #include "check/examine.h"
 #include "program/json.h"
-#include "check/picture.h"
+#include "check/signature.h"
 #include "program/slab_view.h"
 
 #include <stdio.h>

@@ -7,7 +7,7 @@
 #include "check/sink.h"
 #include "check/spool.h"
 #include "program/cli.h"
-#include "program/groups.h"
+#include "program/warning_groups.h"
 #include "program/markup.h"
 
 #include <errno.h>

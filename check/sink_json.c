@@ -4,7 +4,7 @@
  * is one object, and the sink writes its members as they arrive.
  */
 #include "program/json.h"
-#include "check/place.h"
+#include "check/below_root.h"
 #include "check/record_json.h"
 #include "check/sink.h"
 

@@ -4,9 +4,9 @@
  * it.
  */
 #include "program/json.h"
-#include "check/place.h"
+#include "check/below_root.h"
 #include "check/sink.h"
-#include "program/names.h"
+#include "program/name_table.h"
 
 #include <ctype.h>
 #include <inttypes.h>

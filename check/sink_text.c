@@ -6,7 +6,7 @@
  */
 #include "check/sink.h"
 #include "check/spool.h"
-#include "program/groups.h"
+#include "program/warning_groups.h"
 #include "program/memory.h"
 
 #include <inttypes.h>
@@ -162,7 +162,7 @@ static void print_messages(FILE *out, const struct check_run *run,
     free(targets);
 }
 
-/* "'Coated': the layer 'coat': closures 2 to 1, bytes 28 to 16, error estimated 1.71, drawn 1.46"
+/* "'Coated': the layer 'coat': slabs 2 to 1, bytes 28 to 16, error estimated 1.71, drawn 1.46"
  */
 static void print_steps(FILE *out, const struct check_document *document)
 {
@@ -171,7 +171,7 @@ static void print_steps(FILE *out, const struct check_document *document)
         for (size_t k = 0; k < element->num_steps; ++k) {
             const struct check_step *step = &element->steps[k];
             fprintf(out,
-                    "  '%s': %s: closures %" PRIu32 " to %" PRIu32 ", bytes %" PRIu32 " to %" PRIu32
+                    "  '%s': %s: slabs %" PRIu32 " to %" PRIu32 ", bytes %" PRIu32 " to %" PRIu32
                     ", error estimated %s, drawn %s\n",
                     element->path, step->text, step->closures_before, step->closures_after,
                     step->bytes_before, step->bytes_after,

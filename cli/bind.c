@@ -5,7 +5,7 @@
 #include "program/cli.h"
 #include "program/files.h"
 #include "program/memory.h"
-#include "program/stage.h"
+#include "program/scene_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -47,7 +47,7 @@ static void explain(struct bind *bind, const mxg_scene *scene, const mxg_binding
 {
     uint32_t primitive = mxg_scene_find_primitive(scene, bind->geom);
     if (primitive == UINT32_MAX)
-        stage_report_unknown(&bind->cli.report, scene, bind->geom);
+        scene_file_report_unknown(&bind->cli.report, scene, bind->geom);
     else
         report_status(&bind->cli.report,
                       mxg_bindings_write_reasons(bindings, primitive, put, stdout));
@@ -103,7 +103,7 @@ static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *
     if (path && !own)
         return NULL;
     mxg_document *whole =
-        stage_document(bind->cli.context, bind->cli.library, &bind->cli.report, own, scene);
+        scene_file_document(bind->cli.context, bind->cli.library, &bind->cli.report, own, scene);
     mxg_document_destroy(own);
     return whole;
 }
@@ -111,7 +111,8 @@ static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *
 static void bind_file(struct bind *bind, const char *path)
 {
     mxg_document *document = NULL;
-    mxg_scene *scene = stage_load(bind->cli.context, &bind->cli.report, bind->stage, bind->purpose);
+    mxg_scene *scene =
+        scene_file_load(bind->cli.context, &bind->cli.report, bind->stage, bind->purpose);
     if (scene && (document = load(bind, path, scene)) != NULL)
         bind_document(bind, document, scene);
     mxg_scene_destroy(scene);

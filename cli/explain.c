@@ -2,7 +2,7 @@
 /* mxgen explain: prints cause, cure and example of messages, and the interface of nodes. */
 #include "cli/commands.h"
 #include "cli/nodes.h"
-#include "doc/explain.h"
+#include "doc/messages.h"
 
 #include <stdlib.h>
 #include <string.h>

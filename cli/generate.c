@@ -270,7 +270,7 @@ static void generate_file(struct generate *gen, const char *input, const char *f
     mxg_document *document = cli_load(&gen->cli, input);
     if (!document)
         return;
-    if (gen->stage_file) {
+    if (gen->scene_file) {
         generate_stacks(gen, document, folder);
         mxg_document_destroy(document);
         return;
@@ -414,7 +414,7 @@ static const char *find_file_misuse(const struct generate *gen)
 /* The reason why --stage cannot stand with the other arguments; NULL if it can. */
 static const char *find_stage_misuse(const struct generate *gen)
 {
-    if (!gen->stage_file)
+    if (!gen->scene_file)
         return gen->look || gen->purpose ? "--look and --purpose need --stage" : NULL;
     if (gen->elements.len)
         return "--stage takes its materials from a look, so --element does not apply";
@@ -477,7 +477,7 @@ int command_generate(const struct command *command, int argc, char **argv)
         {"stage", 0, ARG_TEXT, "FILE",
          "a scene; writes a shader for each distinct stack of its primitives, and bindings.json "
          "(docs/slots.md)",
-         &gen.stage_file},
+         &gen.scene_file},
         {"look", 0, ARG_TEXT, "LOOK", "the look for --stage, or a look group with a default",
          &gen.look},
         {"purpose", 0, ARG_TEXT, "full|preview",

@@ -9,7 +9,7 @@
 struct generate {
     struct cli cli;
     const char *target, *output, *depfile;
-    const char *stage_file, *look, *purpose; /* of a scene */
+    const char *scene_file, *look, *purpose; /* of a scene */
     struct arg_list elements;                /* empty: every renderable */
     bool to_stdout, reflect;
 

@@ -6,7 +6,7 @@
 #include "program/drawn.h"
 #include "program/folder.h"
 #include "program/slab_view.h"
-#include "program/stage.h"
+#include "program/scene_file.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@ struct inspect {
     bool views[MXG_VIEW_SLABS_SVG + 1];
     const char *target, *element, *format;
     bool is_drawn;
-    struct stage_place place; /* file NULL: an element of the document */
+    struct scene_place place; /* file NULL: an element of the document */
     const mxg_bindings *bindings;
     uint32_t stack;
     struct drawn_comparison drawn; /* of the current document; without steps: nothing was drawn */
@@ -108,8 +108,8 @@ static void print_views(struct cli *cli, const mxg_document *document,
 /* The stack of a primitive of a stage. */
 static void print_stack(struct cli *cli, const mxg_document *own, struct inspect *inspect)
 {
-    struct bound_stage stage;
-    if (stage_bind(cli->context, cli->library, &cli->report, &inspect->place, own, &stage)) {
+    struct bound_scene stage;
+    if (scene_file_bind(cli->context, cli->library, &cli->report, &inspect->place, own, &stage)) {
         const char *path = inspect->element;
         uint32_t primitive = path ? mxg_scene_find_primitive(stage.scene, path) : 0;
         inspect->bindings = stage.bindings;
@@ -117,10 +117,10 @@ static void print_stack(struct cli *cli, const mxg_document *own, struct inspect
             inspect->stack = mxg_bindings_stack(stage.bindings, primitive);
             print_views(cli, stage.document, inspect);
         } else {
-            stage_report_unknown(&cli->report, stage.scene, path ? path : "/");
+            scene_file_report_unknown(&cli->report, stage.scene, path ? path : "/");
         }
     }
-    stage_unbind(&stage);
+    scene_file_unbind(&stage);
     inspect->bindings = NULL;
 }
 
@@ -141,7 +141,7 @@ static void add_drawn(struct cli *cli, const mxg_document *document, const char 
                                               .element = inspect->element,
                                               .look = look,
                                               .folder = folder,
-                                              .is_to_one_closure = !is_asked};
+                                              .is_to_one_slab = !is_asked};
         if (drawn_begin(&subject, &inspect->drawn))
             drawn_compare(&subject, num_steps, &inspect->drawn);
         fault = inspect->drawn.fault;

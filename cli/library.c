@@ -8,7 +8,7 @@
 #include "program/files.h"
 #include "cli/nodes.h"
 #include "program/outputs.h"
-#include "doc/library.h"
+#include "doc/reference.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -8,7 +8,7 @@
 #include "program/files.h"
 #include "cli/generate.h"
 #include "program/memory.h"
-#include "program/stage.h"
+#include "program/scene_file.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ enum { NUM_BUCKETS = 4096 };
 struct stacks {
     struct generate *gen;
     const char *folder;
-    struct bound_stage stage;
+    struct bound_scene stage;
     struct program *programs;
     size_t num_programs;
     uint32_t buckets[NUM_BUCKETS]; /* 1 + the first program */
@@ -322,13 +322,13 @@ static void write_bindings(struct stacks *s)
 static bool bind_scene(struct stacks *s, const mxg_document *own)
 {
     struct cli *cli = &s->gen->cli;
-    struct stage_place place = {s->gen->stage_file, s->gen->look, s->gen->purpose};
-    return stage_bind(cli->context, cli->library, &cli->report, &place, own, &s->stage);
+    struct scene_place place = {s->gen->scene_file, s->gen->look, s->gen->purpose};
+    return scene_file_bind(cli->context, cli->library, &cli->report, &place, own, &s->stage);
 }
 
 static bool note_files(struct stacks *s, const mxg_document *own)
 {
-    bool good = generate_add_source(s->gen, s->gen->stage_file);
+    bool good = generate_add_source(s->gen, s->gen->scene_file);
     for (uint32_t i = 0; i < mxg_document_num_files(own); ++i)
         good = generate_add_source(s->gen, mxg_document_file(own, i)) && good;
     return good;
@@ -360,6 +360,6 @@ void generate_stacks(struct generate *gen, const mxg_document *document, const c
         args_free(&s->programs[i].names);
     free(s->programs);
     json_decref(s->stacks);
-    stage_unbind(&s->stage);
+    scene_file_unbind(&s->stage);
     free(s);
 }

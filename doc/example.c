@@ -3,7 +3,7 @@
 #include "program/files.h"
 #include "program/memory.h"
 #include "program/utf8.h"
-#include "doc/explain.h"
+#include "doc/messages.h"
 
 #include <stdlib.h>
 #include <string.h>

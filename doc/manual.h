@@ -84,8 +84,8 @@ void manual_write_html(const struct manual *manual, FILE *out);
 void manual_write_markdown(const struct manual *manual, FILE *out);
 
 /*
- * picture.c: draws all suitable nodes into `folder`/pictures, each picture beside its document.
- * False after a message about a failed picture.
+ * node_pictures.c: draws all suitable nodes into `folder`/pictures, each picture beside its
+ * document. False after a message about a failed picture.
  */
 bool manual_draw(struct manual *manual, struct cli *cli, const char *folder);
 

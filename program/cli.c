@@ -4,7 +4,7 @@
 #include "program/files.h"
 #include "program/help.h"
 #include "program/memory.h"
-#include "program/names.h"
+#include "program/name_table.h"
 #include "program/profile.h"
 #include "program/texels.h"
 #include "program/warnings.h"
@@ -32,7 +32,7 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
          "loads a shared object with nodes in C; it runs with your rights, so not with --sandbox",
          &cli->plugin_files, ARG_COMMON},
         {"profile", 0, ARG_TEXT, "NAME",
-         "options of a platform: desktop, console, mobile, one-closure, or a file.toml; other "
+         "options of a platform: desktop, console, mobile, one-slab, or a file.toml; other "
          "options of generation override them",
          &cli->profile, ARG_COMMON},
         {"max-memory", 0, ARG_SIZE, "BYTES", "limit of memory (default: none)", &cli->max_memory,
@@ -225,8 +225,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
 /* True for options that make slabs cheaper. */
 static bool is_budget(const char *key)
 {
-    static const char *const keys[] = {"slabs",    "max-closures", "max-bytes", "max-error",
-                                       "features", "profile",      "max-steps"};
+    static const char *const keys[] = {"slabs",    "max-slabs", "max-bytes", "max-error",
+                                       "features", "profile",   "max-steps"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
         if (strcmp(keys[i], key) == 0)
             return true;

@@ -7,7 +7,7 @@
 #define MXG_PROGRAM_OUTPUTS_H
 
 #include "program/args.h"
-#include "program/names.h"
+#include "program/name_table.h"
 #include "program/report.h"
 
 /* Zero-initialise it. */

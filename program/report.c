@@ -3,7 +3,7 @@
 #include "program/report.h"
 
 #include "program/files.h"
-#include "program/groups.h"
+#include "program/warning_groups.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #ifndef MXG_PROGRAM_REPORT_H
 #define MXG_PROGRAM_REPORT_H
 
-#include "program/names.h"
+#include "program/name_table.h"
 
 #include <mxgen/mxgen.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/draw.h"
 
-#include "render/inputs.h"
+#include "render/descriptors.h"
 #include "render/stored.h"
 
 #include <assert.h>

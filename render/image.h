@@ -56,7 +56,7 @@ bool image_read(const char *path, const char *layer, struct image *out, char *re
 /* Reads the first part with its mip levels. */
 bool image_read_levels(const char *path, struct image *out, char *reason, size_t capacity);
 
-/* layers.c: combines images as array layers of the largest size. false: out of memory. */
+/* array_layers.c: combines images as array layers of the largest size. false: out of memory. */
 bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 /*
  * Combines tables, whose outer texels are the ends of their ranges, as squares of the largest size

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Reads files through Assimp: import.c as one mesh, stage_import.c as a stage. */
+/* Reads files through Assimp: import.c as one mesh, site_import.c as a stage. */
 #ifndef MXG_RENDER_IMPORT_H
 #define MXG_RENDER_IMPORT_H
 

@@ -10,7 +10,7 @@
 #include "program/outputs.h"
 #include "program/render_options.h"
 #include "render/picture.h"
-#include "render/stage.h"
+#include "render/site.h"
 
 /* The studio takes any mesh. The other scenes are fixed, for tests and patterns. */
 enum scene_kind { SCENE_STUDIO, SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
@@ -21,7 +21,7 @@ struct job {
     struct painter painter;
     enum scene_kind scene_kind;
     double layer_sample; /* below 0: not given */
-    struct stage stage;
+    struct site site;
     struct bind_value *values;
     struct arg_list found; /* documents, including those in folders; allocated */
     struct outputs files;  /* files that the command reads or writes */

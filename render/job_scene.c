@@ -65,7 +65,7 @@ enum { NUM_UNITS = sizeof units / sizeof *units };
 /* Lengths of documents are in the unit of the stage, where it is one of MaterialX's. */
 static void apply_unit(struct job *job)
 {
-    double unit = job->stage.meters_per_unit;
+    double unit = job->site.meters_per_unit;
     if (args_is_given(&job->cli.parser, "distance-unit") || unit <= 0)
         return;
     for (size_t i = 0; i < NUM_UNITS; ++i)
@@ -82,7 +82,7 @@ static double meters_per_unit(const struct job *job)
             if (strcmp(parser->settings[s].key, "distance-unit") == 0
                 && strcmp(parser->settings[s].value, units[i].name) == 0)
                 return units[i].meters;
-    return job->options.stage ? job->stage.meters_per_unit : 0;
+    return job->options.stage ? job->site.meters_per_unit : 0;
 }
 
 /* Shaders have the types of the stage's lights alone, and no environment where it has none. */
@@ -94,7 +94,7 @@ static void apply_lights(struct job *job)
     } types[] = {{LIGHT_DIRECTIONAL, "directional_light"},
                  {LIGHT_SPHERE, "sphere_light"},
                  {LIGHT_DISK, "disk_light"}};
-    const struct stage *stage = &job->stage;
+    const struct site *stage = &job->site;
     char text[128] = "", number[16];
     if (!stage->lights_scene)
         return;
@@ -129,17 +129,17 @@ static bool make_stage(struct job *job)
 {
     struct painter *painter = &job->painter;
     double aspect = (double)painter->width / painter->height;
-    if (!stage_open(&job->stage, job->cli.context, &job->cli.report, job->options.stage,
-                    job->options.purpose))
+    if (!site_open(&job->site, job->cli.context, &job->cli.report, job->options.stage,
+                   job->options.purpose))
         return false;
     apply_unit(job);
-    if (!stage_light(&job->stage, &painter->studio, &painter->scene))
+    if (!site_light(&job->site, &painter->studio, &painter->scene))
         return false;
     apply_lights(job);
     job_tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
-    return stage_aim(&job->stage, &painter->studio,
-                     job_names_camera(job) ? job->options.camera : NULL,
-                     job->options.camera && !job_names_camera(job), aspect, &painter->scene);
+    return site_aim(&job->site, &painter->studio,
+                    job_names_camera(job) ? job->options.camera : NULL,
+                    job->options.camera && !job_names_camera(job), aspect, &painter->scene);
 }
 
 static bool open_gpu(struct job *job)

@@ -3,13 +3,13 @@
 #define _POSIX_C_SOURCE 200809L
 #include "program/files.h"
 #include "program/parent.h"
-#include "program/stage.h"
+#include "program/scene_file.h"
 #include "program/texels.h"
 #include "render/applies.h"
 #include "render/bake.h"
 #include "render/job.h"
 #include "render/means.h"
-#include "render/stage_picture.h"
+#include "render/site_picture.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,12 +23,11 @@ static void print_slot(void *user_data, const char *slot, const unsigned char co
 
 static void draw_stage(struct job *job, const mxg_document *document, const char *path)
 {
-    struct stage_subjects subjects;
+    struct site_subjects subjects;
     struct image picture = {0};
     const char *show = job_shows_slots(job) ? job->options.show : NULL;
     job->painter.wants_aovs = show || job_writes_channels(job);
-    if (stage_subjects_make(&job->painter, &job->stage, document, path, job->options.look,
-                            &subjects)
+    if (site_subjects_make(&job->painter, &job->site, document, path, job->options.look, &subjects)
         && picture_draw(&job->painter, subjects.items, subjects.len, &picture)) {
         if (show)
             aovs_show(&job->painter.aovs, strcmp(show, "weights") == 0, &picture, print_slot, job);
@@ -37,7 +36,7 @@ static void draw_stage(struct job *job, const mxg_document *document, const char
             picture_write(&job->painter, job->options.copy, &picture);
     }
     image_finish(&picture);
-    stage_subjects_finish(&subjects);
+    site_subjects_finish(&subjects);
 }
 
 /* Renders the stage. `path` is the document of the look; NULL: the stage brings all. */
@@ -45,8 +44,8 @@ static void render_stage(struct job *job, const char *path)
 {
     mxg_document *own = path ? job_load(job, path) : NULL, *document = NULL;
     if ((!path || own) && job_prepare(job))
-        document = stage_document(job->cli.context, job->cli.library, &job->cli.report, own,
-                                  job->stage.scene);
+        document = scene_file_document(job->cli.context, job->cli.library, &job->cli.report, own,
+                                       job->site.scene);
     if (document)
         draw_stage(job, document, path ? path : job->options.stage);
     mxg_document_destroy(document);
@@ -88,10 +87,10 @@ static int list_stage(struct job *job)
         fputs("usage: mxgen render --stage FILE --list\n", stderr);
         return EXIT_USAGE;
     }
-    if (stage_open(&job->stage, job->cli.context, &job->cli.report, job->options.stage,
-                   job->options.purpose))
-        stage_list(&job->stage);
-    stage_close(&job->stage);
+    if (site_open(&job->site, job->cli.context, &job->cli.report, job->options.stage,
+                  job->options.purpose))
+        site_list(&job->site);
+    site_close(&job->site);
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }
 
@@ -133,7 +132,7 @@ static int run(struct job *job)
         gpu_close(&job->painter.gpu);
         mesh_finish(&job->painter.fine);
         scene_finish(&job->painter.scene);
-        stage_close(&job->stage);
+        site_close(&job->site);
     }
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }

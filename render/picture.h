@@ -7,7 +7,7 @@
 #define MXG_RENDER_PICTURE_H
 
 #include "program/cli.h"
-#include "program/names.h"
+#include "program/name_table.h"
 #include "program/outputs.h"
 #include "render/aovs.h"
 #include "render/passes.h"

@@ -240,8 +240,8 @@ static double studio_scale(const struct scene *scene)
 
 static const struct scene_light *light_at(const struct scene *scene, uint32_t index)
 {
-    return scene->stage_lights ? &scene->stage_lights[index % scene->num_stage_lights]
-                               : &studio_lights[index % SCENE_NUM_LIGHTS];
+    return scene->site_lights ? &scene->site_lights[index % scene->num_site_lights]
+                              : &studio_lights[index % SCENE_NUM_LIGHTS];
 }
 
 unsigned scene_light(const struct scene *scene, uint32_t index, const char *member, float out[3])

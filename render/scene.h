@@ -57,8 +57,8 @@ struct scene {
     double near;          /* a distance that nothing has */
     double unit;          /* centimetres in a unit of the world; 0: 1 */
     uint32_t num_lights;
-    const struct scene_light *stage_lights; /* NULL: the studio's */
-    uint32_t num_stage_lights;
+    const struct scene_light *site_lights; /* NULL: the studio's */
+    uint32_t num_site_lights;
     uint32_t environment_samples;
     int32_t frame;
     double layer_sample; /* picks a layer of each stack; below 0: another number at each point */

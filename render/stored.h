@@ -7,7 +7,7 @@
 #define MXG_RENDER_STORED_H
 
 #include "render/draw.h"
-#include "render/inputs.h"
+#include "render/descriptors.h"
 
 enum { STORED_TARGETS = 3, STORED_CLASSES = 5, STORED_TILE = 8, STORED_MAX_PASSES = 12 };
 enum { STORED_PAYLOAD_SIZE = 64 }; /* bytes of a ray */

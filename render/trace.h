@@ -5,7 +5,7 @@
 
 #include "render/aovs.h"
 #include "render/bind.h"
-#include "render/inputs.h"
+#include "render/descriptors.h"
 #include "compile/compile.h"
 
 /* path_structs.glsl, path.glsl, media.glsl, body.glsl and matter.glsl, as lines in pieces; ends

@@ -8,7 +8,7 @@
  * The size is the area of a light. That of a DistantLight, of an angular diameter of 2 a, is the
  * illuminance of radiance 1: π sin² a, up to a = 90°.
  */
-#include "render/stage.h"
+#include "render/site.h"
 
 #include "program/memory.h"
 
@@ -21,7 +21,7 @@
 
 /* A light that is read. */
 struct lamp {
-    struct stage *stage;
+    struct site *site;
     uint32_t primitive;
     struct matrix world;
     struct scene_light light; /* its colour is read, and its intensity without the size */
@@ -35,17 +35,17 @@ static bool find_input(const struct lamp *lamp, const char *input, char name[64]
 {
     mxg_property found = {sizeof found};
     snprintf(name, 64, "inputs:%s", input);
-    if (mxg_scene_find_property(lamp->stage->scene, lamp->primitive, name, &found))
+    if (mxg_scene_find_property(lamp->site->scene, lamp->primitive, name, &found))
         return true;
     snprintf(name, 64, "%s", input);
-    return mxg_scene_find_property(lamp->stage->scene, lamp->primitive, name, &found);
+    return mxg_scene_find_property(lamp->site->scene, lamp->primitive, name, &found);
 }
 
 static double input(const struct lamp *lamp, const char *name, double otherwise)
 {
     char property[64];
     find_input(lamp, name, property);
-    return usd_number(lamp->stage, lamp->primitive, property, otherwise);
+    return usd_number(lamp->site, lamp->primitive, property, otherwise);
 }
 
 /* Warns of what the picture does not have. */
@@ -72,14 +72,14 @@ static void tell_unread(const struct lamp *lamp)
         char name[64], word[8];
         if (!find_input(lamp, inputs[i].input, name))
             continue;
-        double value = usd_number(lamp->stage, lamp->primitive, name, inputs[i].neutral);
+        double value = usd_number(lamp->site, lamp->primitive, name, inputs[i].neutral);
         bool has_word =
-            mxg_scene_property_word(lamp->stage->scene, lamp->primitive, name, 0, word, sizeof word)
+            mxg_scene_property_word(lamp->site->scene, lamp->primitive, name, 0, word, sizeof word)
                 > 0
             && strcmp(word, "None") != 0;
         if (inputs[i].is_word ? has_word : value != inputs[i].neutral)
-            stage_warn(lamp->stage, "light-unread", lamp->primitive, name,
-                       "has no effect on the picture");
+            site_warn(lamp->site, "light-unread", lamp->primitive, name,
+                      "has no effect on the picture");
     }
 }
 
@@ -109,7 +109,7 @@ static void read_power(struct lamp *lamp, double intensity)
     char name[64];
     double color[3] = {1, 1, 1}, tint[3] = {1, 1, 1};
     find_input(lamp, "color", name);
-    mxg_scene_property_numbers(lamp->stage->scene, lamp->primitive, name, color, 3);
+    mxg_scene_property_numbers(lamp->site->scene, lamp->primitive, name, color, 3);
     if (input(lamp, "enableColorTemperature", 0) != 0)
         black_body(input(lamp, "colorTemperature", 6500), tint);
     for (size_t i = 0; i < 3; ++i)
@@ -122,9 +122,9 @@ static void read_power(struct lamp *lamp, double intensity)
 
 static void add(struct lamp *lamp)
 {
-    struct stage *stage = lamp->stage;
+    struct site *site = lamp->site;
     tell_unread(lamp);
-    stage_add_light(stage, lamp->light);
+    site_add_light(site, lamp->light);
 }
 
 static void set_cone(struct lamp *lamp)
@@ -146,8 +146,8 @@ static void add_area(struct lamp *lamp, enum light_type type, double radius, dou
 {
     read_power(lamp, 1);
     if (!(radius > 0) && !lamp->is_normalized) {
-        stage_warn(lamp->stage, "light-left-out", lamp->primitive, NULL,
-                   "is a light without a size, which gives no light");
+        site_warn(lamp->site, "light-left-out", lamp->primitive, NULL,
+                  "is a light without a size, which gives no light");
         return;
     }
     if (!(radius > 0))
@@ -196,8 +196,8 @@ static void add_rect(struct lamp *lamp)
 {
     char name[64];
     if (find_input(lamp, "texture:file", name))
-        stage_warn(lamp->stage, "light-unread", lamp->primitive, name,
-                   "has no effect on the picture");
+        site_warn(lamp->site, "light-unread", lamp->primitive, name,
+                  "has no effect on the picture");
     add_flat(lamp, input(lamp, "width", 1) * input(lamp, "height", 1));
 }
 
@@ -214,57 +214,57 @@ static void add_distant(struct lamp *lamp)
 /* The rotation from USD's map, whose middle is at +z, to the world. */
 static struct matrix dome_frame(const struct lamp *lamp, bool has_pole)
 {
-    const struct stage *stage = lamp->stage;
+    const struct site *site = lamp->site;
     bool is_z = has_pole
-                && (usd_is(stage, lamp->primitive, "poleAxis", "Z")
-                    || (!usd_is(stage, lamp->primitive, "poleAxis", "Y")
-                        && mxg_scene_up_axis(stage->scene) == 'Z'));
+                && (usd_is(site, lamp->primitive, "poleAxis", "Z")
+                    || (!usd_is(site, lamp->primitive, "poleAxis", "Y")
+                        && mxg_scene_up_axis(site->scene) == 'Z'));
     struct matrix upright =
         is_z ? matrix_rotation((const double[3]){1, 0, 0}, 90) : matrix_identity();
-    return matrix_multiply(stage_rigid(lamp->world), upright);
+    return matrix_multiply(site_rigid(lamp->world), upright);
 }
 
-/* Reads the map of a dome, relative to the stage. */
+/* Reads the map of a dome, relative to the site. */
 static bool read_map(struct lamp *lamp, struct image *out)
 {
     char name[64], file[1024], reason[256];
     if (!find_input(lamp, "texture:file", name)
-        || mxg_scene_property_word(lamp->stage->scene, lamp->primitive, name, 0, file, sizeof file)
+        || mxg_scene_property_word(lamp->site->scene, lamp->primitive, name, 0, file, sizeof file)
                < 3)
         return environment_make_plain(1, out);
     size_t marks = strncmp(file, "@@@", 3) == 0 ? 3 : 1, len = strlen(file);
     file[len - marks] = '\0';
-    char *path = cli_beside(lamp->stage->file, file + marks);
+    char *path = cli_beside(lamp->site->file, file + marks);
     bool good = environment_read(path, out, reason, sizeof reason);
     if (!good)
-        stage_fail(lamp->stage, lamp->primitive, name, "cannot be used: %s", reason);
+        site_fail(lamp->site, lamp->primitive, name, "cannot be used: %s", reason);
     free(path);
     return good;
 }
 
 static void add_dome_of(struct lamp *lamp, bool has_pole)
 {
-    struct stage *stage = lamp->stage;
+    struct site *site = lamp->site;
     char name[64];
     find_input(lamp, "texture:format", name);
     char format[32] = "automatic";
-    mxg_scene_property_word(stage->scene, lamp->primitive, name, 0, format, sizeof format);
-    if (stage->has_dome || (strcmp(format, "automatic") != 0 && strcmp(format, "latlong") != 0)) {
-        stage_warn(stage, "light-left-out", lamp->primitive, stage->has_dome ? NULL : name,
-                   stage->has_dome ? "is a second dome; the first lights the picture"
-                                   : "is no 'latlong', the only map that mxgen reads");
+    mxg_scene_property_word(site->scene, lamp->primitive, name, 0, format, sizeof format);
+    if (site->has_dome || (strcmp(format, "automatic") != 0 && strcmp(format, "latlong") != 0)) {
+        site_warn(site, "light-left-out", lamp->primitive, site->has_dome ? NULL : name,
+                  site->has_dome ? "is a second dome; the first lights the picture"
+                                 : "is no 'latlong', the only map that mxgen reads");
         return;
     }
-    if (!read_map(lamp, &stage->dome))
+    if (!read_map(lamp, &site->dome))
         return;
     read_power(lamp, 1);
     tell_unread(lamp);
-    float *texel = stage->dome.pixels;
-    for (size_t i = 0; i < (size_t)stage->dome.width * stage->dome.height; ++i, texel += 4)
+    float *texel = site->dome.pixels;
+    for (size_t i = 0; i < (size_t)site->dome.width * site->dome.height; ++i, texel += 4)
         for (size_t c = 0; c < 3; ++c)
             texel[c] *= (float)(lamp->light.color[c] * lamp->light.intensity);
-    stage->has_dome = true;
-    stage->dome_world = dome_frame(lamp, has_pole);
+    site->has_dome = true;
+    site->dome_world = dome_frame(lamp, has_pole);
 }
 
 static void add_dome(struct lamp *lamp)
@@ -289,12 +289,11 @@ static bool is_other_light(const struct lamp *lamp, const char *type)
         if (len >= end && strcmp(type + len - end, ends[i]) == 0)
             return true;
     }
-    return mxg_scene_find_property(lamp->stage->scene, lamp->primitive, "inputs:intensity", &found)
-           || mxg_scene_find_property(lamp->stage->scene, lamp->primitive, "light:shaderId",
-                                      &found);
+    return mxg_scene_find_property(lamp->site->scene, lamp->primitive, "inputs:intensity", &found)
+           || mxg_scene_find_property(lamp->site->scene, lamp->primitive, "light:shaderId", &found);
 }
 
-void usd_add_light(struct stage *stage, uint32_t primitive, const char *type, struct matrix world)
+void usd_add_light(struct site *site, uint32_t primitive, const char *type, struct matrix world)
 {
     static const struct {
         const char *type;
@@ -302,18 +301,18 @@ void usd_add_light(struct stage *stage, uint32_t primitive, const char *type, st
     } types[] = {{"DistantLight", add_distant}, {"SphereLight", add_sphere},
                  {"RectLight", add_rect},       {"DiskLight", add_disk},
                  {"DomeLight", add_dome},       {"DomeLight_1", add_dome_1}};
-    struct lamp lamp = {.stage = stage, .primitive = primitive, .world = world};
+    struct lamp lamp = {.site = site, .primitive = primitive, .world = world};
     for (size_t i = 0; i < 3; ++i)
         lamp.light.direction[i] = -world.m[2][i];
     for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
         if (strcmp(type, types[i].type) == 0) {
-            stage->is_lit = true;
+            site->is_lit = true;
             types[i].add(&lamp);
             return;
         }
     if (!is_other_light(&lamp, type))
         return;
-    stage->is_lit = true;
-    stage_warn(stage, "light-left-out", primitive, NULL, "is a light (%s) that mxgen does not draw",
-               type);
+    site->is_lit = true;
+    site_warn(site, "light-left-out", primitive, NULL, "is a light (%s) that mxgen does not draw",
+              type);
 }

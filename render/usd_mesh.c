@@ -3,7 +3,7 @@
  * Meshes of USD (UsdGeomMesh) as triangles. Faces become fans. A subdivision surface is drawn as
  * its cage with smooth normals.
  */
-#include "render/stage.h"
+#include "render/site.h"
 
 #include "program/memory.h"
 
@@ -14,7 +14,7 @@
 enum { NO_SUBSET = 0, MAX_CORNERS = 1 << 27 };
 
 struct usd_mesh {
-    struct stage *stage;
+    struct site *site;
     uint32_t primitive;
     double *points, *counts, *indices, *normals;
     size_t num_points, num_faces, num_corners, num_normals; /* points and normals: of three */
@@ -36,8 +36,8 @@ static bool fail_counts(struct usd_mesh *mesh)
     }
     if (corners == mesh->num_corners)
         return false;
-    stage_fail(mesh->stage, mesh->primitive, "faceVertexIndices",
-               "has %zu numbers; faceVertexCounts asks for another number", mesh->num_corners);
+    site_fail(mesh->site, mesh->primitive, "faceVertexIndices",
+              "has %zu numbers; faceVertexCounts asks for another number", mesh->num_corners);
     return true;
 }
 
@@ -45,15 +45,15 @@ static bool fail_indices(struct usd_mesh *mesh)
 {
     for (size_t i = 0; i < mesh->num_corners; ++i)
         if (!(mesh->indices[i] >= 0) || mesh->indices[i] >= (double)mesh->num_points) {
-            stage_fail(mesh->stage, mesh->primitive, "faceVertexIndices",
-                       "has %g as number %zu; there are %zu points", mesh->indices[i], i,
-                       mesh->num_points);
+            site_fail(mesh->site, mesh->primitive, "faceVertexIndices",
+                      "has %g as number %zu; there are %zu points", mesh->indices[i], i,
+                      mesh->num_points);
             return true;
         }
     for (size_t i = 0; i < 3 * mesh->num_points; ++i)
         if (!isfinite(mesh->points[i])) {
-            stage_fail(mesh->stage, mesh->primitive, "points",
-                       "has numbers that are NaN or infinite");
+            site_fail(mesh->site, mesh->primitive, "points",
+                      "has numbers that are NaN or infinite");
             return true;
         }
     return false;
@@ -61,15 +61,15 @@ static bool fail_indices(struct usd_mesh *mesh)
 
 static void read_normals(struct usd_mesh *mesh)
 {
-    struct stage *stage = mesh->stage;
+    struct site *site = mesh->site;
     const char *name = "primvars:normals";
     mxg_property property = {sizeof property};
-    if (!mxg_scene_find_property(stage->scene, mesh->primitive, name, &property)) {
+    if (!mxg_scene_find_property(site->scene, mesh->primitive, name, &property)) {
         name = "normals";
-        if (!mxg_scene_find_property(stage->scene, mesh->primitive, name, &property))
+        if (!mxg_scene_find_property(site->scene, mesh->primitive, name, &property))
             return;
     }
-    mesh->normals = usd_numbers(stage, mesh->primitive, name, &mesh->num_normals);
+    mesh->normals = usd_numbers(site, mesh->primitive, name, &mesh->num_normals);
     mesh->num_normals /= 3;
     size_t len = property.interpolation_len;
     mesh->normals_of = len && strncmp(property.interpolation, "faceVarying", len) == 0 ? 'c'
@@ -81,20 +81,20 @@ static void read_normals(struct usd_mesh *mesh)
     if (mesh->num_normals >= needed)
         return;
     if (mesh->num_normals)
-        stage_fail(stage, mesh->primitive, name, "has %zu values; expected %zu", mesh->num_normals,
-                   needed);
+        site_fail(site, mesh->primitive, name, "has %zu values; expected %zu", mesh->num_normals,
+                  needed);
     mesh->normals_of = 0;
 }
 
 static bool read_mesh(struct usd_mesh *mesh)
 {
-    struct stage *stage = mesh->stage;
-    mesh->points = usd_numbers(stage, mesh->primitive, "points", &mesh->num_points);
-    mesh->counts = usd_numbers(stage, mesh->primitive, "faceVertexCounts", &mesh->num_faces);
-    mesh->indices = usd_numbers(stage, mesh->primitive, "faceVertexIndices", &mesh->num_corners);
+    struct site *site = mesh->site;
+    mesh->points = usd_numbers(site, mesh->primitive, "points", &mesh->num_points);
+    mesh->counts = usd_numbers(site, mesh->primitive, "faceVertexCounts", &mesh->num_faces);
+    mesh->indices = usd_numbers(site, mesh->primitive, "faceVertexIndices", &mesh->num_corners);
     mesh->num_points /= 3;
-    mesh->is_flipped = usd_is(stage, mesh->primitive, "orientation", "leftHanded");
-    mesh->is_flat = usd_is(stage, mesh->primitive, "subdivisionScheme", "none");
+    mesh->is_flipped = usd_is(site, mesh->primitive, "orientation", "leftHanded");
+    mesh->is_flat = usd_is(site, mesh->primitive, "subdivisionScheme", "none");
     if (!mesh->points || !mesh->counts || !mesh->indices || fail_counts(mesh) || fail_indices(mesh))
         return false;
     read_normals(mesh);
@@ -211,7 +211,7 @@ static void add_object(struct usd_mesh *mesh, uint32_t subset, uint32_t primitiv
     struct corner_list list = {0};
     add_faces(mesh, subset, &list);
     if (list.count) {
-        struct scene_object *object = stage_add(mesh->stage, primitive, world);
+        struct scene_object *object = site_add(mesh->site, primitive, world);
         const struct usd_corners corners = {list.count, list.faces, list.points, list.numbers};
         if (!mesh_allocate(&object->mesh, list.count, list.count))
             abort();
@@ -219,7 +219,7 @@ static void add_object(struct usd_mesh *mesh, uint32_t subset, uint32_t primitiv
             fill_vertex(mesh, &list, i, &object->mesh.vertices[i]);
             object->mesh.indices[i] = i;
         }
-        usd_add_primvars(mesh->stage, mesh->primitive, &corners, object);
+        usd_add_primvars(mesh->site, mesh->primitive, &corners, object);
         const struct primvar *texcoords = find_texcoords(object);
         for (uint32_t i = 0; texcoords && i < list.count; ++i)
             memcpy(object->mesh.vertices[i].texcoord, texcoords->values[i], 2 * sizeof(float));
@@ -234,11 +234,11 @@ static void add_object(struct usd_mesh *mesh, uint32_t subset, uint32_t primitiv
 static void read_subset(struct usd_mesh *mesh, uint32_t primitive, uint32_t number)
 {
     size_t count;
-    double *faces = usd_numbers(mesh->stage, primitive, "indices", &count);
+    double *faces = usd_numbers(mesh->site, primitive, "indices", &count);
     for (size_t i = 0; i < count; ++i) {
         if (!(faces[i] >= 0) || faces[i] >= (double)mesh->num_faces) {
-            stage_fail(mesh->stage, primitive, "indices", "has %g; the mesh has %zu faces",
-                       faces[i], mesh->num_faces);
+            site_fail(mesh->site, primitive, "indices", "has %g; the mesh has %zu faces", faces[i],
+                      mesh->num_faces);
             break;
         }
         mesh->subsets[(size_t)faces[i]] = number;
@@ -251,9 +251,9 @@ static uint32_t each_subset(struct usd_mesh *mesh, struct matrix world, bool dra
 {
     mxg_primitive at = {sizeof at};
     uint32_t number = 0;
-    mxg_scene_primitive(mesh->stage->scene, mesh->primitive, &at);
+    mxg_scene_primitive(mesh->site->scene, mesh->primitive, &at);
     for (uint32_t child = at.first_child; child != UINT32_MAX; child = at.next_sibling) {
-        mxg_scene_primitive(mesh->stage->scene, child, &at);
+        mxg_scene_primitive(mesh->site->scene, child, &at);
         if (at.type_len != strlen("GeomSubset") || memcmp(at.type, "GeomSubset", at.type_len) != 0)
             continue;
         ++number;
@@ -265,9 +265,9 @@ static uint32_t each_subset(struct usd_mesh *mesh, struct matrix world, bool dra
     return number;
 }
 
-void usd_add_mesh(struct stage *stage, uint32_t primitive, struct matrix world)
+void usd_add_mesh(struct site *site, uint32_t primitive, struct matrix world)
 {
-    struct usd_mesh mesh = {.stage = stage, .primitive = primitive};
+    struct usd_mesh mesh = {.site = site, .primitive = primitive};
     if (read_mesh(&mesh)) {
         mesh.subsets = memory_alloc(mesh.num_faces * sizeof *mesh.subsets + 1);
         if (!mesh.normals_of)

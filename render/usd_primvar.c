@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Primvars of USD for the corners of triangles (UsdGeomPrimvar). */
-#include "render/stage.h"
+#include "render/site.h"
 
 #include "program/memory.h"
 
@@ -95,7 +95,7 @@ static bool has_primvar(const struct scene_object *object, const char *name)
     return false;
 }
 
-static void convert(struct stage *stage, struct authored *from, const mxg_property *property,
+static void convert(struct site *site, struct authored *from, const mxg_property *property,
                     const struct usd_corners *corners, struct scene_object *object)
 {
     bool is_constant = strcmp(from->interpolation, "constant") == 0;
@@ -105,9 +105,9 @@ static void convert(struct stage *stage, struct authored *from, const mxg_proper
                            .num = is_constant ? 1 : corners->count};
     made.values = memory_alloc(made.num * sizeof *made.values + 1);
     if (!fill(from, corners, &made)) {
-        stage_fail(stage, from->primitive, from->property,
-                   "has %zu values and %zu indices, too few for the interpolation '%s'",
-                   from->num_values, from->num_indices, from->interpolation);
+        site_fail(site, from->primitive, from->property,
+                  "has %zu values and %zu indices, too few for the interpolation '%s'",
+                  from->num_values, from->num_indices, from->interpolation);
         free(made.name);
         free(made.values);
         return;
@@ -129,7 +129,7 @@ static const char *interpolation_of(const mxg_property *property)
     return NULL;
 }
 
-static void add_primvar(struct stage *stage, uint32_t primitive, const mxg_property *property,
+static void add_primvar(struct site *site, uint32_t primitive, const mxg_property *property,
                         bool is_inherited, const struct usd_corners *corners,
                         struct scene_object *object)
 {
@@ -142,15 +142,15 @@ static void add_primvar(struct stage *stage, uint32_t primitive, const mxg_prope
     char *indices = cli_format("%s:indices", from.property);
     bool is_constant = from.interpolation && strcmp(from.interpolation, "constant") == 0;
     if (!from.interpolation)
-        stage_fail(stage, primitive, from.property, "has no interpolation of USD: '%.*s'",
-                   (int)property->interpolation_len, property->interpolation);
+        site_fail(site, primitive, from.property, "has no interpolation of USD: '%.*s'",
+                  (int)property->interpolation_len, property->interpolation);
     else if ((is_constant || (!is_inherited && corners->points))
              && !has_primvar(object, from.property + strlen("primvars:"))) {
-        from.values = usd_numbers(stage, primitive, from.property, &from.num_values);
+        from.values = usd_numbers(site, primitive, from.property, &from.num_values);
         from.num_values /= from.components;
-        from.indices = usd_numbers(stage, primitive, indices, &from.num_indices);
+        from.indices = usd_numbers(site, primitive, indices, &from.num_indices);
         if (from.values)
-            convert(stage, &from, property, corners, object);
+            convert(site, &from, property, corners, object);
         free(from.values);
         free(from.indices);
     }
@@ -170,20 +170,20 @@ static bool is_primvar(const mxg_property *property)
     return true;
 }
 
-void usd_add_primvars(struct stage *stage, uint32_t primitive, const struct usd_corners *corners,
+void usd_add_primvars(struct site *site, uint32_t primitive, const struct usd_corners *corners,
                       struct scene_object *object)
 {
     uint32_t own = primitive;
     while (primitive != UINT32_MAX) {
-        uint32_t num = mxg_scene_num_properties(stage->scene, primitive);
+        uint32_t num = mxg_scene_num_properties(site->scene, primitive);
         for (uint32_t i = 0; i < num; ++i) {
             mxg_property property = {sizeof property};
-            mxg_scene_property(stage->scene, primitive, i, &property);
+            mxg_scene_property(site->scene, primitive, i, &property);
             if (is_primvar(&property))
-                add_primvar(stage, primitive, &property, primitive != own, corners, object);
+                add_primvar(site, primitive, &property, primitive != own, corners, object);
         }
         mxg_primitive at = {sizeof at};
-        mxg_scene_primitive(stage->scene, primitive, &at);
+        mxg_scene_primitive(site->scene, primitive, &at);
         primitive = at.parent;
     }
 }

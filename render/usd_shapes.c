@@ -3,7 +3,7 @@
  * The shapes of USD: Sphere, Cube, Cylinder, Cone, Capsule and Plane. A round shape is a profile
  * that turns around the z axis; the attribute `axis` then moves z to another axis.
  */
-#include "render/stage.h"
+#include "render/site.h"
 
 #include "program/memory.h"
 
@@ -168,14 +168,14 @@ static void set_axis(struct mesh *mesh, char axis)
     }
 }
 
-static char axis_of(const struct stage *stage, uint32_t primitive)
+static char axis_of(const struct site *site, uint32_t primitive)
 {
-    return usd_is(stage, primitive, "axis", "X")   ? 'X'
-           : usd_is(stage, primitive, "axis", "Y") ? 'Y'
-                                                   : 'Z';
+    return usd_is(site, primitive, "axis", "X")   ? 'X'
+           : usd_is(site, primitive, "axis", "Y") ? 'Y'
+                                                  : 'Z';
 }
 
-bool usd_add_shape(struct stage *stage, uint32_t primitive, const char *type, struct matrix world)
+bool usd_add_shape(struct site *site, uint32_t primitive, const char *type, struct matrix world)
 {
     static const struct {
         const char *type;
@@ -190,14 +190,14 @@ bool usd_add_shape(struct stage *stage, uint32_t primitive, const char *type, st
     for (size_t i = 0; i < sizeof round_shapes / sizeof *round_shapes; ++i)
         if (strcmp(type, round_shapes[i].type) == 0)
             round_shapes[i].make(&shape,
-                                 usd_number(stage, primitive, "radius", round_shapes[i].radius),
-                                 usd_number(stage, primitive, "height", round_shapes[i].height));
+                                 usd_number(site, primitive, "radius", round_shapes[i].radius),
+                                 usd_number(site, primitive, "height", round_shapes[i].height));
     if (strcmp(type, "Cube") == 0)
-        make_cube(&shape, usd_number(stage, primitive, "size", 2) / 2);
+        make_cube(&shape, usd_number(site, primitive, "size", 2) / 2);
     if (strcmp(type, "Plane") == 0)
         add_quad(&shape, (const double[3]){0, 0, 0},
-                 (const double[3]){usd_number(stage, primitive, "width", 2) / 2, 0, 0},
-                 (const double[3]){0, usd_number(stage, primitive, "length", 2) / 2, 0},
+                 (const double[3]){usd_number(site, primitive, "width", 2) / 2, 0, 0},
+                 (const double[3]){0, usd_number(site, primitive, "length", 2) / 2, 0},
                  (const double[3]){0, 0, 1});
     if (!shape.num_indices) {
         mesh_finish(&shape.mesh);
@@ -205,11 +205,11 @@ bool usd_add_shape(struct stage *stage, uint32_t primitive, const char *type, st
     }
     shape.mesh.num_vertices = shape.num_vertices;
     shape.mesh.num_indices = shape.num_indices;
-    set_axis(&shape.mesh, axis_of(stage, primitive));
-    struct scene_object *object = stage_add(stage, primitive, world);
+    set_axis(&shape.mesh, axis_of(site, primitive));
+    struct scene_object *object = site_add(site, primitive, world);
     object->mesh = shape.mesh;
     mesh_complete(&object->mesh, MESH_TANGENTS);
     const struct usd_corners constant = {.count = shape.num_vertices};
-    usd_add_primvars(stage, primitive, &constant, object);
+    usd_add_primvars(site, primitive, &constant, object);
     return true;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Transforms of USD: the operations that xformOpOrder lists (UsdGeomXformable). */
-#include "render/stage.h"
+#include "render/site.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,37 +62,37 @@ static bool make_matrix(const char *op, const double *v, size_t count, struct ma
     return true;
 }
 
-static struct matrix read_op(struct stage *stage, uint32_t primitive, const char *name)
+static struct matrix read_op(struct site *site, uint32_t primitive, const char *name)
 {
     static const char inverse[] = "!invert!", prefix[] = "xformOp:";
     bool is_inverse = strncmp(name, inverse, strlen(inverse)) == 0;
     name += is_inverse ? strlen(inverse) : 0;
     double v[16];
     struct matrix out = matrix_identity();
-    size_t count = mxg_scene_property_numbers(stage->scene, primitive, name, v, 16);
+    size_t count = mxg_scene_property_numbers(site->scene, primitive, name, v, 16);
     bool good = strncmp(name, prefix, strlen(prefix)) == 0
                 && make_matrix(name + strlen(prefix), v, count, &out);
     if (!good)
-        stage_fail(stage, primitive, "xformOpOrder",
-                   "lists '%s', which is no operation of a transform; expected for example "
-                   "xformOp:translate with three numbers",
-                   name);
+        site_fail(site, primitive, "xformOpOrder",
+                  "lists '%s', which is no operation of a transform; expected for example "
+                  "xformOp:translate with three numbers",
+                  name);
     return good && is_inverse ? matrix_inverse(out) : out;
 }
 
-struct matrix usd_transform(struct stage *stage, uint32_t primitive, bool *out_resets)
+struct matrix usd_transform(struct site *site, uint32_t primitive, bool *out_resets)
 {
     char name[256];
     struct matrix out = matrix_identity();
     *out_resets = false;
     for (uint32_t i = 0;
-         mxg_scene_property_word(stage->scene, primitive, "xformOpOrder", i, name, sizeof name);
+         mxg_scene_property_word(site->scene, primitive, "xformOpOrder", i, name, sizeof name);
          ++i) {
         if (strcmp(name, "!resetXformStack!") == 0) {
             *out_resets = true;
             out = matrix_identity();
         } else {
-            out = matrix_multiply(out, read_op(stage, primitive, name));
+            out = matrix_multiply(out, read_op(site, primitive, name));
         }
     }
     return out;

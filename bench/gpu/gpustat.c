@@ -5,7 +5,7 @@
  * RADV_FORCE_FAMILY=navi21 Mesa compiles for an AMD GPU that need not be there. The process ends
  * without cleaning up.
  */
-#include "interface.h"
+#include "spirv_interface.h"
 
 #include <inttypes.h>
 #include <stdio.h>

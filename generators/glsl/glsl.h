@@ -7,7 +7,7 @@
 
 extern const struct lang_syntax glsl_syntax;
 extern const struct target_frame glsl_frame;     /* frame.c */
-extern const struct source_language glsl_source; /* source.c */
+extern const struct source_language glsl_source; /* genglsl.c */
 extern const struct target target_glsl, target_vulkan, target_essl, target_essl310;
 
 /* The capabilities of every GLSL version. */

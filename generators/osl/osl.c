@@ -5,7 +5,7 @@
  */
 #include "generators/osl/osl.h"
 
-#include "shader/source.h"
+#include "shader/verbatim.h"
 #include "generators/osl/tree.h"
 
 #include <assert.h>

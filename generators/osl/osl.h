@@ -6,7 +6,7 @@
 #include "spell/spell.h"
 
 extern const struct target target_osl;
-extern const struct target_network osl_network; /* network.c */
+extern const struct target_network osl_network; /* group_text.c */
 
 /* A piece of metadata that parameters share. */
 struct osl_macro {
@@ -53,7 +53,7 @@ static inline bool osl_is_struct(ir_type_id type)
            && type != IR_TYPE_VEC3;
 }
 
-/* source.c */
+/* genosl.c */
 extern const struct source_language osl_source;
 /* Adds the operators and functions of a struct that a text may need. */
 void osl_add_struct_functions(struct osl *osl, ir_type_id type, const char *text);

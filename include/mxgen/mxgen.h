@@ -918,8 +918,8 @@ typedef enum mxg_view {
     MXG_VIEW_IR,       /* the optimised IR, parseable (docs/ir.md) */
     MXG_VIEW_CLOSURES, /* leaves with weights */
     MXG_VIEW_STATISTICS,
-    MXG_VIEW_SLABS, /* the tree of slabs, what they cost, and steps to one closure (docs/slabs.md)
-                     */
+    MXG_VIEW_SLABS,      /* the tree of slabs, what they cost, and steps to one slab (docs/slabs.md)
+                          */
     MXG_VIEW_SLABS_JSON, /* the same as JSON */
     MXG_VIEW_SLABS_SVG,  /* the same as a picture */
     MXG_VIEW_MAX_ENUM = 0x7fffffff

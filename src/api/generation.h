@@ -27,7 +27,7 @@ struct stage_source {
     uint32_t num_lines;
 };
 
-void source_find_lines(struct stage_source *source, struct arena *arena); /* source.c */
+void source_find_lines(struct stage_source *source, struct arena *arena); /* source_map.c */
 
 struct mxg_result {
     struct object object; /* keeps the document alive */
@@ -179,7 +179,7 @@ _Static_assert((int)NUM_RESULT_TEXTS <= OBJECT_MAX_TEXTS, "an object has room fo
 void result_storage(void *user_data, struct json *json);
 uint32_t result_classes(const mxg_result *result); /* mxg_shader_info.stored_classes */
 
-/* reflect.c: the user interface data of a variable; user_data is the mxg_result. */
+/* reflection.c: the user interface data of a variable; user_data is the mxg_result. */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
 /* The same for an input by its element (0: none) and the element of its definition. */
 void result_input_ui(const mxg_result *result, elem_id element, elem_id definition,
@@ -190,7 +190,7 @@ bool result_topology(const mxg_result *result, uint64_t *out_topology);
 /* block.c: writes a value to its place in a buffer. */
 void block_write_words(const struct shader_variable *v, const union ir_word *words, char *to);
 
-/* inputs.c: shader_reflect_options.compiled; user_data is the mxg_result. */
+/* result_inputs.c: shader_reflect_options.compiled; user_data is the mxg_result. */
 void result_compiled(void *user_data, uint32_t index, struct shader_compiled_text *out);
 
 /*

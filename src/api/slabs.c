@@ -48,7 +48,7 @@ bool generation_slab_features(struct generation *g)
 struct slab_budget generation_slab_budget(const struct generation *g)
 {
     return (struct slab_budget){
-        .max_closures = generation_packs(g) ? 1 : (uint32_t)g->options[OPTION_max_closures].number,
+        .max_slabs = generation_packs(g) ? 1 : (uint32_t)g->options[OPTION_max_slabs].number,
         .max_bytes = (uint32_t)g->options[OPTION_max_bytes].number,
         .max_error = g->options[OPTION_max_error].real,
         .off = g->slab_features_off,
@@ -90,8 +90,8 @@ static void report_failure(struct generation *g, const struct slab_budget *budge
     write_error(&error, report->error);
     if (generation_packs(g))
         text_str(&limits, "a payload, which is one slab");
-    else if (budget->max_closures)
-        text_fmt(&limits, "%u closures", (unsigned)budget->max_closures);
+    else if (budget->max_slabs)
+        text_fmt(&limits, "%u slabs", (unsigned)budget->max_slabs);
     if (budget->max_bytes)
         text_fmt(&limits, "%s%u bytes", limits.len ? ", " : "", (unsigned)budget->max_bytes);
     if (budget->max_error >= 0.0f) {

@@ -153,7 +153,7 @@ const char *bind_fact_name(const struct document *doc, elem_id fact);
 /* The renderer that a property is for; the viewers of a visibility; "" for all. */
 const char *bind_fact_target(const struct document *doc, elem_id fact);
 
-/* ---- explain.c, report.c ---- */
+/* ---- reasons.c, report.c ---- */
 
 /* "stack_8a5f7a0f9c2f6f0e" and a NUL */
 enum { BIND_STACK_NAME_SIZE = 6 + 16 + 1 };

@@ -127,7 +127,7 @@ void look_begin(struct bind_look *look, const struct document *doc, elem_id elem
 void look_each_ancestor(struct bind_look *look,
                         void (*visit)(struct bind_look *look, elem_id element));
 
-/* ---- describe.c ---- */
+/* ---- message_words.c ---- */
 
 /* "day/dust", "day/#3" if it has no name; "/set.material:binding" of a scene. */
 void look_assign_name(const struct bind_look *look, uint32_t assign, struct text *out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The primitives of a stage: a tree of paths. Groups are primitives, too.
+ * The primitives of a scene: a tree of paths. Groups are primitives, too.
  */
 #ifndef MXG_BIND_SCENE_H
 #define MXG_BIND_SCENE_H
@@ -148,9 +148,9 @@ static inline uint32_t scene_first_binding(const struct scene *scene, prim_id pr
 }
 
 /*
- * stage.c: adds the primitives of a USD text layer, with their bindings. Instances of an internal
- * reference are primitives of their own. purpose: "full", "preview", or "" for all purposes. Keeps
- * `text`, which ends with a NUL and lives as long as the scene.
+ * scene_usda.c: adds the primitives of a USD text layer, with their bindings. Instances of an
+ * internal reference are primitives of their own. purpose: "full", "preview", or "" for all
+ * purposes. Keeps `text`, which ends with a NUL and lives as long as the scene.
  */
 void scene_read_usda(struct scene *scene, const char *file, const char *text, size_t len,
                      const char *purpose, struct arena *scratch, struct diag_list *diags);

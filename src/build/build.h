@@ -9,7 +9,7 @@
 #ifndef MXG_BUILD_BUILD_H
 #define MXG_BUILD_BUILD_H
 
-#include "base/names.h"
+#include "base/folder_names.h"
 #include "library/library.h"
 #include "shader/network.h"
 #include "slabs/sheet.h"

@@ -101,7 +101,7 @@ struct builder {
         bool transforms; /* between colour spaces */
     } reader;
     elem_id root_graph;    /* the nodegraph whose output is generated; 0: none */
-    struct table compiled; /* the inputs in shader->compiled + 1: interface.c */
+    struct table compiled; /* the inputs in shader->compiled + 1: published.c */
     VEC(struct memo) memos;
     uint32_t *memo_table;
     uint32_t memo_mask;
@@ -203,7 +203,7 @@ void build_trace(void *builder, struct diag_list *list);
 ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
                    const struct binding *binding);
 
-/* interface.c */
+/* published.c */
 
 /* The interface variable for an input of a node. `element` holds its value; 0: no element does. */
 struct shader_variable build_describe(struct builder *b, elem_id node, const struct port *port,
@@ -224,7 +224,7 @@ str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id e
 /* The reason why no shader can have this uniform; NULL: it can. Hosts bind uniforms by name. */
 const char *build_uniform_fault(const struct builder *b, str_id name, ir_type_id type);
 
-/* value.c */
+/* unconnected.c */
 
 /*
  * The constant in attribute `value` of an element, given as `text`; poison and a diagnostic if it

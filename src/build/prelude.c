@@ -5,7 +5,7 @@
  */
 #include "base/scan.h"
 #include "build/build_priv.h"
-#include "shader/source.h"
+#include "shader/verbatim.h"
 
 #include <string.h>
 

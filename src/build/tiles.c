@@ -8,7 +8,7 @@
  * The geometry property 'udimset' or 'uvtileset' lists the tiles; without it, the existing files
  * do.
  */
-#include "base/names.h"
+#include "base/folder_names.h"
 #include "build/build_priv.h"
 
 #include <limits.h>

@@ -6,7 +6,7 @@
 #ifndef MXG_CLOSURE_CLOSURE_H
 #define MXG_CLOSURE_CLOSURE_H
 
-#include "shader/source.h"
+#include "shader/verbatim.h"
 
 /*
  * The functions of a leaf (lang ids; LANG_NONE: absent), in the order of enum family_member in
@@ -139,7 +139,7 @@ struct closure_lighting {
     /* transmitted light lowers the alpha, instead of being that of the environment */
     bool transmits_alpha;
     uint8_t transparency;   /* enum closure_transparency */
-    bool occlusion, shadow; /* by maps of the host: occlusion.c */
+    bool occlusion, shadow; /* by maps of the host: occlusion_maps.c */
     bool flips_v;           /* textures of the host have v = 0 at their top */
     bool encodes;           /* colours of the output have the transfer function of sRGB */
 };
@@ -165,7 +165,7 @@ struct closure_aovs {
     struct closure_aov *items;
 };
 
-/* The parts of a surface, each 0 where absent: shaders.c. */
+/* The parts of a surface, each 0 where absent: mixed_shaders.c. */
 struct closure_surface {
     ir_ref bsdf, edf;
     ir_ref unlit;       /* colour that does not depend on lights */
@@ -273,7 +273,8 @@ bool closure_has(const struct shader *shader, const struct closure_host *host, i
 /* Unit direction to the viewer. */
 ir_ref closure_view(struct shader *shader, const struct closure_host *host);
 
-/* occlusion.c: the part of the environment's light that reaches the point, by the host's map. */
+/* occlusion_maps.c: the part of the environment's light that reaches the point, by the host's map.
+ */
 ir_ref closure_occlusion(struct shader *shader, bool flips_v);
 
 /* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */

@@ -20,11 +20,13 @@ bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root);
  */
 ir_ref closure_through(struct shader *shader, const struct closure_host *host, ir_ref leaf);
 
-/* occlusion.c: the part of the first light that reaches the shaded point, by the host's shadow map.
+/* occlusion_maps.c: the part of the first light that reaches the shaded point, by the host's shadow
+ * map.
  */
 ir_ref closure_shadow(struct shader *shader, const struct closure_host *host);
 
-/* describe.c: writes the weight of a leaf as an expression, with the names of inputs and nodes. */
+/* weight_text.c: writes the weight of a leaf as an expression, with the names of inputs and nodes.
+ */
 void closure_describe_weight(const struct shader *shader, const struct closure_leaf *leaf,
                              struct text *out);
 
@@ -35,7 +37,7 @@ ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results);
 
-/* source.c: leaves whose functions are verbatim source. */
+/* verbatim_leaves.c: leaves whose functions are verbatim source. */
 
 /* closure_call for such a leaf. */
 ir_ref closure_call_source(struct shader *shader, const struct closure_host *host, ir_ref leaf,
@@ -47,7 +49,7 @@ bool closure_source_has(const struct source_leaf *source, ir_type_id type,
 struct closure_value {
     ir_ref response, throughput;
 };
-/* value.c: the value of a closure for host->context. root 0: no closure. */
+/* two_colours.c: the value of a closure for host->context. root 0: no closure. */
 struct closure_value closure_evaluate(struct shader *shader, const struct closure_host *host,
                                       ir_ref root);
 /* Calls the functions of a source leaf over the values of its closure operands (by operand). */
@@ -81,7 +83,7 @@ void closure_put_under(struct shader *shader, const struct closure_host *host,
                        const struct closure_above *above, struct closure_list *list);
 /* The way of the light that a leaf reflects from the environment. */
 ir_ref closure_environment_way(struct shader *shader, const struct closure_host *host, ir_ref leaf);
-/* value.c: the throughput of an operator whose operands let these fractions pass. */
+/* two_colours.c: the throughput of an operator whose operands let these fractions pass. */
 ir_ref closure_operator_throughput(struct ir_graph *graph, ir_ref operator_, ir_ref a, ir_ref b);
 
 /*
@@ -203,7 +205,7 @@ ir_ref closure_layer_number(struct shader *shader, ir_ref point);
  * run a layer; except textures that the weights read, too.
  */
 ir_ref closure_own_textures(struct shader *shader, ir_ref slots);
-/* rewrite.c: copies of nodes, which the values that are copied one after the other share. */
+/* copies.c: copies of nodes, which the values that are copied one after the other share. */
 struct closure_copies {
     struct shader *shader;
     VEC(ir_ref) became; /* by node: its copy; 0: itself */
@@ -265,7 +267,7 @@ struct closure_aovs closure_aovs_coated(struct ir_graph *graph, struct closure_a
 struct closure_aovs closure_aovs_weighing(struct ir_graph *graph, struct closure_aovs aovs,
                                           ir_ref weight);
 
-/* shaders.c: 0 is 1. */
+/* mixed_shaders.c: 0 is 1. */
 bool closure_is_opaque(const struct ir_graph *graph, ir_ref opacity);
 
 /* differentials.c: rewrites screen derivatives in `root` as differences, for path tracers. */
@@ -286,7 +288,7 @@ ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
 /* Names a value after its role for a leaf or operator: "coat_weight" of the leaf "coat". */
 void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const char *role);
 
-/* ---- merge.c ---- */
+/* ---- merge_layers.c ---- */
 
 /* A variable of a merged surface; the values of the members begin at `first_value`. */
 struct closure_variable {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The emitter: writes the code of a surface or volume into the pixel stage. lit.c writes its light,
- * layers.c one layer of a stack, surface.c the rest. All values are nodes of `graph`; 0 is absent.
+ * picked_layers.c one layer of a stack, surface.c the rest. All values are nodes of `graph`; 0 is
+ * absent.
  */
 #ifndef MXG_CLOSURE_EMITTER_H
 #define MXG_CLOSURE_EMITTER_H
@@ -47,7 +48,7 @@ void emitter_light_surface(struct emitter *e, const struct closure_surface *s);
 /* Writes the parts as effects. */
 void emitter_write_lit(struct emitter *e);
 
-/* ---- layers.c ---- */
+/* ---- picked_layers.c ---- */
 
 /* Path tracers always pick a layer. slots: IR_SLOTS, also in emitter_pick_layer. */
 void emitter_scatter_stack(struct emitter *e, ir_ref slots);

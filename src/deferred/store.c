@@ -15,7 +15,7 @@
 
 #include "deferred/deferred_priv.h"
 #include "deferred/texts.h"
-#include "shader/source.h"
+#include "shader/verbatim.h"
 #include "slabs/bytes.h"
 
 #include <assert.h>

@@ -14,7 +14,7 @@ bool dynamic_misfit(const mxg_build *build, const char *fault);
 bool dynamic_aov(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_aovpass(void *user_data, mxg_build *build, mxg_ref *results);
 
-/* occlusion.c: <ambientocclusion>, an mxg_build_fn. */
+/* ambient_occlusion.c: <ambientocclusion>, an mxg_build_fn. */
 bool dynamic_occlusion(void *user_data, mxg_build *build, mxg_ref *results);
 
 /* dynamic_slabs.c: the constructors of slabs, each an mxg_build_fn. */

@@ -3,7 +3,7 @@
  * build: the only code that makes nodes. It sorts commutative operands, folds constants, applies
  * rules.def, cancels constructors and swizzles, and hash-conses the result, in this order.
  */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include <assert.h>
 

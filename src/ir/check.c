@@ -4,7 +4,7 @@
  * definition of a well-formed node: the builder asserts it, the parser reports it, and ir_check
  * applies it to each node.
  */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include <stdio.h>
 #include <stdlib.h>

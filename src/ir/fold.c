@@ -6,7 +6,7 @@
  * component; scalars are spread. Each op over whole vectors, and each constructor or part, has a
  * function.
  */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* graph: the arrays of a graph, and hash-consing: equal content is one node. */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include "base/hash.h"
 

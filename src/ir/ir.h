@@ -196,7 +196,7 @@ enum ir_node_flags {
     IR_NODE_INHERITED = IR_NODE_DERIVATIVE | IR_NODE_LOOP | IR_NODE_DEAR | IR_NODE_PARTIAL
 };
 
-/* The name that a shader gives to a node, stored beside the node: names.c. */
+/* The name that a shader gives to a node, stored beside the node: node_names.c. */
 struct ir_label {
     str_id name;    /* 0 = no name, or several candidates */
     uint8_t rank;   /* enum ir_name_rank: the name of the higher rank wins */
@@ -383,9 +383,9 @@ ir_ref ir_other_operand(const struct ir_graph *graph, enum ir_op op, ir_ref a, i
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
 
 /*
- * names.c: suggests names for the locals of a shader. The rank of a library function decreases with
- * the depth of its inlining. If two document nodes have the same result, the first one names it. A
- * node with several names of the same rank has no name.
+ * node_names.c: suggests names for the locals of a shader. The rank of a library function decreases
+ * with the depth of its inlining. If two document nodes have the same result, the first one names
+ * it. A node with several names of the same rank has no name.
  */
 enum ir_name_rank {
     IR_NAME_NONE = 0,

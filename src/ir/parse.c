@@ -3,7 +3,7 @@
  * parse: the text form of a graph (docs/ir.md). One statement per line. The builder makes the
  * nodes, so it folds the text like any other input, unless graph->no_fold is set.
  */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include "base/num.h"
 

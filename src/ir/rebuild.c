@@ -4,7 +4,7 @@
  * the nodes that are not needed. Nodes keep their order, so an unchanged node keeps the
  * order of its operands.
  */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 struct rebuild {
     struct ir_graph *graph;

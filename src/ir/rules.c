@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* rules: the table of algebraic rules (rules.def) and its interpreter. */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include <assert.h>
 

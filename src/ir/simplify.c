@@ -10,7 +10,7 @@
  *     construct(a, b, c).yx     →  construct(b, a)
  *     construct(v.x, v.y, s)    →  construct(v.xy, s)
  */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include <assert.h>
 #include <math.h>

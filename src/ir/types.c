@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* types: the tables of types and ops, and how an op's operand types give its result type. */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 const struct ir_type_info ir_types[IR_NUM_TYPES] = {
 #define IR_TYPE(ID, text, scalar, components, columns) \

@@ -70,7 +70,7 @@ void index_break(struct library *lib, struct implementation *impl, const struct 
  */
 bool index_served(struct indexer *ix, struct implementation *impl);
 
-/* verbatim.c */
+/* verbatim_implementations.c */
 
 /*
  * The text of a source file, interned; 0 after a diagnostic. `from` is the file that refers to it.
@@ -109,7 +109,7 @@ const char *index_include_path(struct indexer *ix, const char *from, const char 
 str_id index_replace_token(struct indexer *ix, const char *text, size_t len, const char *token,
                            const char *replacement);
 
-/* source.c */
+/* source_files.c */
 
 /*
  * The source file `ref` with the files that it includes; LIBRARY_NONE after a diagnostic at

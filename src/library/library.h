@@ -13,7 +13,7 @@
 #include "document/document.h"
 #include "parse/parse.h"
 #include "print/print.h"
-#include "shader/source.h"
+#include "shader/verbatim.h"
 
 #define LIBRARY_NONE UINT32_MAX
 
@@ -305,7 +305,7 @@ elem_id library_typedef(const struct library *lib,
                         doc_type type); /* of a type that is not standard */
 ir_type_id library_type_ir(const struct library *lib, doc_type type);
 
-/* unit.c: adds the units of a <unitdef>. The caller sorts the units afterwards. */
+/* units.c: adds the units of a <unitdef>. The caller sorts the units afterwards. */
 void library_index_units(struct library *lib, elem_id unitdef);
 void library_sort_units(struct library *lib);
 
@@ -386,7 +386,7 @@ bool library_is_unique(const struct library *lib, elem_id element, elem_id from,
 int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output,
                            doc_type type, struct diag_list *diags);
 
-/* interface.c */
+/* interface_names.c */
 
 /* The enclosing nodegraph; 0: none. */
 elem_id library_graph_around(const struct library *lib, elem_id element);
@@ -417,7 +417,7 @@ const char *library_expect_working_space(const struct library *lib, const char *
 void library_report_space(const struct library *lib, const char *space, struct diag_place place,
                           struct diag_list *diags);
 
-/* unit.c */
+/* units.c */
 
 /* The first type that has a unit of this name; 0: none. */
 str_id library_unit_type_of(const struct library *lib, str_id unit);
@@ -445,9 +445,9 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
                         struct diag_place place, struct diag_list *diags);
 
 /*
- * shaders.c: reports values where a node of this layer takes a shader, and a material without any
- * shader. An input that names a source or an input of a definition counts as given; an input of a
- * graph counts if something stands there. `bindings` are those of the node.
+ * shader_inputs.c: reports values where a node of this layer takes a shader, and a material without
+ * any shader. An input that names a source or an input of a definition counts as given; an input of
+ * a graph counts if something stands there. `bindings` are those of the node.
  */
 void library_check_shaders(const struct library *lib, elem_id node, uint32_t nodedef,
                            const struct binding *bindings, struct diag_list *diags);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* What the rooms of closures and slabs ask about the library. */
 #include "material/texels.h"
-#include "slabs/stack.h"
+#include "slabs/joined_surfaces.h"
 
 static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 {

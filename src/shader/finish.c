@@ -3,7 +3,7 @@
  * finish: makes a built shader ready for the speller. The pixel stage comes first, because it
  * decides which vertex data the vertex stage must write.
  */
-#include "shader/source.h"
+#include "shader/verbatim.h"
 
 #include <assert.h>
 

@@ -133,7 +133,7 @@ struct shader_light {
 
 /* Verbatim source, the callee of a VERBATIM node. The id of the callee is its index. */
 struct shader_verbatim {
-    /* in source_refs: the sources that the call needs, in their order (shader/source.h) */
+    /* in source_refs: the sources that the call needs, in their order (shader/verbatim.h) */
     uint32_t first_source, num_sources;
     bool needs_neighbours; /* shader_needs_neighbours */
     /* the function, with the operands and an `out` argument per RESULT; 0: use `expression` */
@@ -268,7 +268,7 @@ struct shader {
     VEC(struct shader_verbatim) verbatim;
     VEC(ir_type_id) result_types;                  /* of verbatim functions */
     const struct source_language *source_language; /* of the target; NULL: it has none */
-    VEC(struct shader_source) sources;             /* source.h */
+    VEC(struct shader_source) sources;             /* verbatim.h */
     VEC(struct source_function) source_functions;
     VEC(uint32_t) source_refs;
     VEC(struct shader_token) tokens; /* of all sources */

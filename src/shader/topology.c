@@ -8,7 +8,7 @@
  * and size, and a version of it node by node.
  */
 #include "base/hash.h"
-#include "shader/source.h"
+#include "shader/verbatim.h"
 #include "tree/walk.h"
 
 #include <assert.h>

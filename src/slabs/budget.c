@@ -4,7 +4,7 @@
 #include "slabs/features.h"
 #include "slabs/recognise.h"
 #include "slabs/search.h"
-#include "slabs/stack.h"
+#include "slabs/joined_surfaces.h"
 
 #include <assert.h>
 
@@ -34,12 +34,12 @@ static bool goes_on(const struct spender *s)
 
 static bool has_limits(const struct slab_budget *budget)
 {
-    return budget->max_closures || budget->max_bytes || budget->max_error >= 0.0f;
+    return budget->max_slabs || budget->max_bytes || budget->max_error >= 0.0f;
 }
 
-static bool keeps_closures(const struct spender *s)
+static bool keeps_slabs(const struct spender *s)
 {
-    return slab_keeps_closures(s->budget, s->saver.cost);
+    return slab_keeps_slabs(s->budget, s->saver.cost);
 }
 
 static bool keeps_bytes(const struct spender *s)
@@ -56,9 +56,9 @@ static bool keeps_error(const struct spender *s)
 /* Blends, and then features, until closures and bytes are few enough. */
 static void take_in_order(struct spender *s)
 {
-    while ((!keeps_closures(s) || !keeps_bytes(s)) && goes_on(s)) {
+    while ((!keeps_slabs(s) || !keeps_bytes(s)) && goes_on(s)) {
         struct slab_candidate c = slab_next_blend(&s->saver, SLAB_CHEAPER);
-        if (!c.root && keeps_closures(s))
+        if (!c.root && keeps_slabs(s))
             c = slab_next_feature(&s->saver);
         if (!c.root)
             return;
@@ -136,7 +136,7 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
         take_smallest(&s);
     else
         take_in_order(&s);
-    out->is_met = !goes_on(&s) || (keeps_closures(&s) && keeps_bytes(&s) && keeps_error(&s));
+    out->is_met = !goes_on(&s) || (keeps_slabs(&s) && keeps_bytes(&s) && keeps_error(&s));
     out->unblended = goes_on(&s) ? slab_find_asked(&s.saver) : 0;
     out->after = s.saver.cost;
     return s.saver.root;

@@ -12,7 +12,7 @@
 enum { SLABS_MAX = 1000 };
 
 struct slab_budget {
-    uint32_t max_closures, max_bytes; /* 0: no limit */
+    uint32_t max_slabs, max_bytes; /* 0: no limit */
     float max_error; /* mean CIEDE2000; cheaper until the next step is above it. Below 0: none */
     uint32_t off;    /* features that are turned off before, as bits */
     bool recognises; /* all closures become slabs before */

@@ -142,7 +142,7 @@ static void write_head(unsigned height, struct text *out)
 
 static void write_steps(const struct slab_sheet *sheet, unsigned y, struct text *out)
 {
-    const char *goal = sheet->is_asked ? "To the budget" : "To one closure";
+    const char *goal = sheet->is_asked ? "To the budget" : "To one slab";
     if (sheet->report.steps.len || !sheet->trees.len)
         text_fmt(out, "<text x='%d' y='%u' class='name'>%s</text>\n", MARGIN, y,
                  sheet->trees.len ? goal : "no slabs");

@@ -31,7 +31,7 @@ enum fault { NONE, TOO_FAR, TOO_LARGE };
 
 static enum fault fault_of(const struct search *s, const struct state *state)
 {
-    if (!slab_keeps_closures(s->limits, state->cost) || !slab_keeps_bytes(s->limits, state->cost))
+    if (!slab_keeps_slabs(s->limits, state->cost) || !slab_keeps_bytes(s->limits, state->cost))
         return TOO_LARGE;
     return state->error <= s->limits->max_error ? NONE : TOO_FAR;
 }

@@ -4,7 +4,7 @@
 #include "slabs/bytes.h"
 #include "slabs/estimate.h"
 #include "slabs/recognise.h"
-#include "slabs/stack.h"
+#include "slabs/joined_surfaces.h"
 
 #include <math.h>
 #include <string.h>
@@ -287,7 +287,7 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
 {
     const struct ir_graph *g = shader->graph;
     const struct slab_budget one = {
-        .max_closures = 1, .max_error = -1.0f, .max_steps = budget->max_steps};
+        .max_slabs = 1, .max_error = -1.0f, .max_steps = budget->max_steps};
     *out = (struct slab_sheet){.shader = shader, .is_asked = slabs_is_asked(budget)};
     slabs_budget(shader, host, out->is_asked ? budget : &one, root, &out->report);
     if (out->report.is_too_much)

@@ -73,7 +73,7 @@ struct slabs_host {
 #define SLABS_LAYER_THICKNESS 0.01f /* centimetres, of a layer without an input for it */
 #define SLABS_CLEAR_PATH 1e6f       /* centimetres, of matter that is only an interface */
 
-/* place.c: where slabs lie. True for a layer of slabs or of any closures. */
+/* layers.c: where slabs lie. True for a layer of slabs or of any closures. */
 bool slabs_is_layer(const struct ir_graph *graph, ir_ref ref);
 /* The thickness of what is in the top of a layer. */
 ir_ref slabs_layer_thickness(struct ir_graph *graph, ir_ref layer);

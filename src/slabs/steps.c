@@ -41,9 +41,9 @@ float slab_saver_error(const struct slab_saver *s, ir_ref root)
     return slabs_difference(&s->whole, &look);
 }
 
-bool slab_keeps_closures(const struct slab_budget *budget, struct slab_cost cost)
+bool slab_keeps_slabs(const struct slab_budget *budget, struct slab_cost cost)
 {
-    return !budget->max_closures || cost.closures <= budget->max_closures;
+    return !budget->max_slabs || cost.closures <= budget->max_slabs;
 }
 
 bool slab_keeps_bytes(const struct slab_budget *budget, struct slab_cost cost)

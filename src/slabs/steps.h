@@ -41,7 +41,7 @@ struct slab_cost slab_saver_cost(const struct slab_saver *saver, ir_ref root);
 float slab_saver_error(const struct slab_saver *saver, ir_ref root);
 
 /* True if a tree keeps to the most closures of a budget, and to the most bytes. */
-bool slab_keeps_closures(const struct slab_budget *budget, struct slab_cost cost);
+bool slab_keeps_slabs(const struct slab_budget *budget, struct slab_cost cost);
 bool slab_keeps_bytes(const struct slab_budget *budget, struct slab_cost cost);
 /* True if a tree takes more closures or more bytes. */
 bool slab_cost_is_higher(struct slab_cost cost, struct slab_cost than);

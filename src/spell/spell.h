@@ -136,8 +136,8 @@ void spell_declare(struct spell *spell, const struct shader_variable *variable,
 void spell_structs(struct spell *spell);
 
 /*
- * function.c: the frame of a shader that is a function (option `form`). The struct of its results
- * and the functions of the host that it calls; its head; its end.
+ * function_frame.c: the frame of a shader that is a function (option `form`). The struct of its
+ * results and the functions of the host that it calls; its head; its end.
  */
 void spell_declare_function(struct spell *spell);
 void spell_open_function(struct spell *spell);
@@ -170,7 +170,7 @@ void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", with
 /* Writes the stage of a C-like target: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
-/* ---- source.c ---- */
+/* ---- verbatim_text.c ---- */
 
 /* The verbatim sources of the stage and the helpers that they use, each once. */
 void spell_verbatim_sources(struct spell *spell);

@@ -100,7 +100,7 @@ struct target_frame {
     void (*close)(struct spell *spell); /* writes the last lines of main, without its brace */
     /*
      * Declares structs, uniforms and textures for a shader that is a function in a file of the host
-     * (spell/function.c); nothing that stands once per file. NULL: the option `form` has no
+     * (spell/function_frame.c); nothing that stands once per file. NULL: the option `form` has no
      * function.
      */
     void (*declare_for_function)(struct spell *spell);

@@ -4,7 +4,7 @@
  * ends on its line, or, behind all children, to the parent. Several blank lines count as one; those
  * at the begin and at the end of an element do not count.
  */
-#include "xml/internal.h"
+#include "xml/xml_priv.h"
 
 #include <assert.h>
 

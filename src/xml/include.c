@@ -3,7 +3,7 @@
  * XInclude (W3C, 1.1) as MaterialX uses it: the top-level elements of a whole document replace the
  * <xi:include>.
  */
-#include "xml/internal.h"
+#include "xml/xml_priv.h"
 
 #include <assert.h>
 

@@ -3,7 +3,7 @@
  * Converts text to elements with libxml2's SAX2 interface. No jump crosses a frame of libxml2: each
  * callback runs under mem_try.
  */
-#include "xml/internal.h"
+#include "xml/xml_priv.h"
 
 #include <assert.h>
 #include <libxml/parser.h>

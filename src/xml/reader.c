@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "xml/internal.h"
+#include "xml/xml_priv.h"
 
 #include <assert.h>
 #include <libxml/parser.h>

@@ -3,7 +3,7 @@
  * Converts the bytes of a file to UTF-8 text: encodings, byte-order marks, text before the XML, raw
  * '<' in attribute values.
  */
-#include "xml/internal.h"
+#include "xml/xml_priv.h"
 
 #include <assert.h>
 

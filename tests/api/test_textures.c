@@ -436,7 +436,7 @@ static void test_texels_of_budgets(void)
     shoot(&shot, body, false, NULL, NULL, MXG_OK);
     REQUIRE_EQ(shot.asked.count, 0);
     finish(&shot);
-    shoot(&shot, body, false, "max-closures", "1", MXG_OK); /* nobody sees an estimate */
+    shoot(&shot, body, false, "max-slabs", "1", MXG_OK); /* nobody sees an estimate */
     REQUIRE_EQ(shot.asked.count, 0);
     finish(&shot);
     shoot(&shot, body, false, "max-error", "0.5", MXG_OK);

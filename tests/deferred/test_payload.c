@@ -156,7 +156,7 @@ static void check_payload(const struct drawing *d)
 static void test_payload(struct bench *b, const char *element, int expected)
 {
     struct drawing forward = {0}, rays = {0};
-    mxg_options_set(b->options, "max-closures", "1");
+    mxg_options_set(b->options, "max-slabs", "1");
     if (drawing_open(b, element, NULL, UINT32_MAX, &forward) && draw_rays(b, element, &rays)) {
         mxg_shader_info info = {sizeof info};
         mxg_result_info(rays.results[0], &info);
@@ -179,7 +179,7 @@ static void test_payload(struct bench *b, const char *element, int expected)
     }
     drawing_close(&rays);
     drawing_close(&forward);
-    mxg_options_set(b->options, "max-closures", "0");
+    mxg_options_set(b->options, "max-slabs", "0");
 }
 
 int main(int argc, char **argv)

@@ -141,7 +141,7 @@ assert {"Paint/transmission", "Paint/thin_walled"} <= compiled and "Paint/specul
 check "glass is generated" as_slabs -e Glass --interface reduced --slabs
 check "a message says that glass is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction' is no slab" out
 check "glass lights itself" eval '! grep -q mx_word0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
-check "glass in a budget is generated" as_slabs -e Glass --interface reduced --max-closures 4
+check "glass in a budget is generated" as_slabs -e Glass --interface reduced --max-slabs 4
 check "glass in a budget is stored" eval 'grep -q mx_word0 models/Glass.frag && ! grep -q drawn-forward out'
 cat >absent.mtlx <<'X'
 <materialx version="1.39">
@@ -158,7 +158,7 @@ stores_red() {
 check "a top of weight 0 hides nothing" stores_red
 check "a top of weight 0 hides all with --layering occluding" eval '! stores_red --layering occluding && test -s absent/SR.frag'
 check "a material that only glows is generated" as_slabs -e Flat --interface reduced
-check "options of slabs are accepted for passes" "$mxgen" pipeline slabs --slabs --max-closures 1
+check "options of slabs are accepted for passes" "$mxgen" pipeline slabs --slabs --max-slabs 1
 check "options of slabs do not change passes" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'
 
 # ---- payloads of rays ----

@@ -12,35 +12,35 @@ compiles() { # document and options of generation: all its materials, for two la
 
 # Budgets
 for closures in 1 2 3; do
-    check "materials of $closures closures compile" compiles "$slabs" --max-closures "$closures"
+    check "materials with $closures slabs" compiles "$slabs" --max-slabs "$closures"
 done
-check 'a budget prints nothing' eval 'exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -o made && test ! -s err'
-check '-Wbudget-step is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -Wbudget-step -o made
+check 'a budget prints nothing' eval 'exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -o made && test ! -s err'
+check '-Wbudget-step is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -Wbudget-step -o made
 check 'a feature can be left out' exits 0 "$mxgen" "$examples/slab_blends.mtlx" -e Opal --features -roughness-tracking -o quiet
 check 'a feature can be left out with a message' exits 0 "$mxgen" "$examples/slab_blends.mtlx" -e Opal --features -roughness-tracking -Wbudget-step -o told
 check 'the message does not change the shader' eval 'says "no roughness of what lies below" && cmp -s quiet/Opal.frag told/Opal.frag'
-check 'a budget of one closure takes steps' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 -Wbudget-step -o made
-check 'the mix is blended first' eval 'grep -F budget-step err | head -1 | grep -qE "the mix .paint.: closures 3 to 2, bytes 40 to 28, estimated error 0\.[0-9]+ "'
-check 'the layer is blended last' eval 'grep -F budget-step err | tail -1 | grep -qE "the layer .coated.: closures 2 to 1, bytes 28 to 16"'
-check '--max-steps 1 is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-closures 1 --max-steps 1 -Wbudget-step -o made
+check 'a budget of one closure takes steps' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -Wbudget-step -o made
+check 'the mix is blended first' eval 'grep -F budget-step err | head -1 | grep -qE "the mix .paint.: slabs 3 to 2, bytes 40 to 28, estimated error 0\.[0-9]+ "'
+check 'the layer is blended last' eval 'grep -F budget-step err | tail -1 | grep -qE "the layer .coated.: slabs 2 to 1, bytes 28 to 16"'
+check '--max-steps 1 is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-steps 1 -Wbudget-step -o made
 check '--max-steps 1 takes one step, whatever the budget' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "the mix" && ! says "the layer"'
 check 'inspect takes a budget' exits 0 "$mxgen" inspect "$slabs" -e CarPaint --slabs --max-bytes 12
-check 'inspect shows the steps to its budget' eval 'grep -q "^to the budget" out && grep -q "no second lobe: closures 1 to 1, bytes 16 to 12" out'
+check 'inspect shows the steps to its budget' eval 'grep -q "^to the budget" out && grep -q "no second lobe: slabs 1 to 1, bytes 16 to 12" out'
 check 'a budget of bytes is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-bytes 12 -Wbudget-step -o made
-check 'a budget of bytes leaves out the second lobe' says 'no second lobe: closures 1 to 1, bytes 16 to 12'
+check 'a budget of bytes leaves out the second lobe' says 'no second lobe: slabs 1 to 1, bytes 16 to 12'
 check 'a budget of an error is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-error 0.2 -Wbudget-step -o made
 check 'a small error keeps the coat' eval 'says "the mix" && ! says "the layer"'
 check 'too few bytes fail' exits 1 "$mxgen" "$slabs" -e CarPaint --max-bytes 8 -o made
 check 'the error is budget-impossible' says '[budget-impossible]'
-check 'one closure within a small error fails' exits 1 "$mxgen" "$slabs" -e CarPaint --max-closures 1 --max-error 0.01 -o made
-check 'the error names both limits' says '1 closures, an error of 0.01'
+check 'slabs within an error' exits 1 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-error 0.01 -o made
+check 'the error names both limits' says '1 slabs, an error of 0.01'
 check 'a limit that is no number is wrong usage' exits 2 "$mxgen" "$slabs" --max-error much -o made
 check 'the error gives the range' says "expected a number of 0..100"
 
-check 'a budget of bytes takes steps for operators' exits 0 "$mxgen" "$slabs" -e DustyFibre --max-closures 1 --max-error 1.7 -Wbudget-step -o made
+check 'a budget of bytes takes steps for operators' exits 0 "$mxgen" "$slabs" -e DustyFibre --max-slabs 1 --max-error 1.7 -Wbudget-step -o made
 check 'operators blend before features go' eval '[ "$(grep -cF budget-step err)" = 2 ] && says "bytes 48 to 24"'
 check 'glints can be left out' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e FlakePaint --features -glints -Wbudget-step -o made
-check 'the error of lost glints is unknown' says 'no glints: closures 2 to 2, bytes 40 to 24, estimated error unknown'
+check 'the error of lost glints is unknown' says 'no glints: slabs 2 to 2, bytes 40 to 24, estimated error unknown'
 check 'a large error is accepted' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e FlakePaint --max-error 50 -Wbudget-step -o made
 check '--max-error keeps glints' eval '! says "no glints"'
 
@@ -84,8 +84,8 @@ cat >filled.mtlx <<'END'
   <surface name="Hollow" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="hollow"/></surface>
 </materialx>
 END
-check 'glass with a volume beside a slab becomes one slab' exits 0 "$mxgen" inspect --slabs filled.mtlx -e Filled --max-closures 1
-check 'the mix of both becomes one slab in a step of its own' grep -q "one slab for the mix 'both': closures 2 to 1" out
+check 'glass with a volume beside a slab becomes one slab' exits 0 "$mxgen" inspect --slabs filled.mtlx -e Filled --max-slabs 1
+check 'the mix of both becomes one slab in a step of its own' grep -q "one slab for the mix 'both': slabs 2 to 1" out
 check 'a volume behind nothing is generated' exits 0 "$mxgen" filled.mtlx -e Hollow --target vulkan --stdout
 
 # A sum of a sum with itself, and so on: 2^40 ways from the surface to a closure.
@@ -157,7 +157,7 @@ check 'an opaque coat does not widen the lobe' grep -qF 'mx_ggx_albedo_fit(0.04,
 # The document asks for one slab
 sed 's/<input name="mix" type="float" value="0.6"\/>/&<input name="blend_parameters" type="boolean" value="true"\/>/' "$slabs" >asked.mtlx
 check 'a document may ask for one slab' exits 0 "$mxgen" asked.mtlx -e CarPaint -Wbudget-step -o made
-check 'the document gets one slab' says "one slab for 'paint': closures 3 to 2"
+check 'the document gets one slab' says "one slab for 'paint': slabs 3 to 2"
 check '--max-steps 0 is accepted' exits 0 "$mxgen" asked.mtlx -e CarPaint --max-steps 0 -Wbudget-step -o made
 check '--max-steps 0 leaves out the step of the document' eval '! says "one slab"'
 mixes() { # two mixes of the same slabs, and a mix of these; the first ARGUMENT of them ask
@@ -172,7 +172,7 @@ END
 }
 mixes 3 >mixes.mtlx
 check 'mixes that share slabs may ask for one slab' exits 0 "$mxgen" mixes.mtlx -Wbudget-step -o made
-check 'mixes that share slabs blend together' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "closures 2 to 1, bytes 36 to 16" && ! says not-blended'
+check 'mixes that share slabs blend together' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "slabs 2 to 1, bytes 36 to 16" && ! says not-blended'
 mixes 1 >mixes.mtlx
 check 'one of two mixes that share slabs may ask for one slab' exits 0 "$mxgen" mixes.mtlx -Wbudget-step -o made
 check 'one of two mixes that share slabs does not blend' eval "says \"the parameters of 'p' do not blend\" && ! says budget-step"
@@ -187,24 +187,24 @@ cat >sum.mtlx <<'END'
   <slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></slab_surface>
 </materialx>
 END
-check 'a sum takes a budget' exits 0 "$mxgen" sum.mtlx --max-closures 1 -Wbudget-step -o made
-check 'a sum becomes one slab' says "one slab for the sum 'both': closures 2 to 1"
+check 'a sum takes a budget' exits 0 "$mxgen" sum.mtlx --max-slabs 1 -Wbudget-step -o made
+check 'a sum becomes one slab' says "one slab for the sum 'both': slabs 2 to 1"
 
 # Profiles
-for profile in desktop console mobile one-closure; do
+for profile in desktop console mobile one-slab; do
     check "the profile $profile compiles" compiles "$slabs" --profile "$profile"
 done
 check 'an unknown profile is wrong usage' exits 2 "$mxgen" "$slabs" --profile mobil -o made
 check 'an unknown profile has a suggestion' says "did you mean 'mobile'"
-printf '# ours\nmax-closures = 2 # as the others\nfeatures = ["-fuzz", "-f90"]\n' >own.toml
+printf '# ours\nmax-slabs = 2 # as the others\nfeatures = ["-fuzz", "-f90"]\n' >own.toml
 check 'a profile may be a file' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml -Wbudget-step -o made
-check 'the options of the file count' eval 'says "no fuzz" && says "closures 3 to 2"'
-check 'the command line goes with a profile' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml --max-closures 1 -Wbudget-step -o made
-check 'the command line replaces an option of the profile' says 'closures 2 to 1'
-printf 'max-closures = 2\nmax-byts = 3\n' >wrong.toml
+check 'the options of the file count' eval 'says "no fuzz" && says "slabs 3 to 2"'
+check 'the command line goes with a profile' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml --max-slabs 1 -Wbudget-step -o made
+check 'the command line replaces an option of the profile' says 'slabs 2 to 1'
+printf 'max-slabs = 2\nmax-byts = 3\n' >wrong.toml
 check 'an unknown key of a profile is wrong usage' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
 check 'the error has the line of the key' says "wrong.toml:2: error: unknown option 'max-byts'"
-printf 'max-closures 2\n' >wrong.toml
+printf 'max-slabs 2\n' >wrong.toml
 check 'a line without a value is wrong usage' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
 check 'the error says what a line is' says 'wrong.toml:1: error: a line is a comment'
 check 'a profile that is missing is wrong usage' exits 2 "$mxgen" "$slabs" --profile gone.toml -o made
@@ -213,9 +213,9 @@ check 'the error names the file of the profile' says "cannot read the profile 'g
 # Other materials
 for document in marble gold car_paint; do
     check "$document.mtlx compiles as slabs" compiles "$examples/$document.mtlx" --slabs
-    check "$document.mtlx compiles as one closure" compiles "$examples/$document.mtlx" --max-closures 1
+    check "$document as one slab" compiles "$examples/$document.mtlx" --max-slabs 1
 done
-check 'marble takes a budget of one closure' exits 0 "$mxgen" inspect --closures "$examples/marble.mtlx" --max-closures 1
+check 'marble takes a budget of one closure' exits 0 "$mxgen" inspect --closures "$examples/marble.mtlx" --max-slabs 1
 check 'marble has lobes of slabs only' eval 'grep -q mx_slab_medium_bsdf out && ! grep -qE "mx_(oren|dielectric|conductor)" out'
 
 cat >glass.mtlx <<'END'
@@ -225,7 +225,7 @@ cat >glass.mtlx <<'END'
   <surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="glass"/></surface>
 </materialx>
 END
-check 'glass takes a budget of one closure' exits 0 "$mxgen" glass.mtlx --max-closures 1 --interface reduced --stdout
+check 'glass takes a budget of one closure' exits 0 "$mxgen" glass.mtlx --max-slabs 1 --interface reduced --stdout
 check 'glass as one slab has the mean roughness' grep -qF "$(python3 -c 'import math
 g = math.log2(2 / 0.6 ** 4 - 1) / 18 # the bump of Chan 2018
 print(f"+ {(34.5 * g - 59) * g + 24.5:.3f}"[:-1])')" out
@@ -265,7 +265,7 @@ check 'a weight above 1 counts as 1' eval 'grep -q "matter.y >= 0.5" covered.fra
 
 # Views
 check 'a material of slabs is inspected' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre
-check 'the view has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "; tangent basis 2; " out && grep -q "to one closure" out'
+check 'the view has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "; tangent basis 2; " out && grep -q "to one slab" out'
 check 'another material is inspected as slabs' exits 0 "$mxgen" inspect --slabs "$examples/marble.mtlx"
 check 'the view says that slabs are made' grep -q 'a body, as slabs' out
 check 'the view can be JSON' exits 0 "$mxgen" inspect --slabs --format json "$slabs" -e DustyFibre
@@ -301,7 +301,7 @@ check 'the view can be a picture' exits 0 "$mxgen" inspect --slabs --format svg 
 check 'the picture is XML' python3 -c 'import xml.etree.ElementTree as e
 root = e.parse("out").getroot()
 assert root.tag == "{http://www.w3.org/2000/svg}svg" and len(root.findall("{*}text")) >= 8'
-check 'the picture shows the steps to one closure' eval 'grep -q ">To one closure<" out && grep -q "tangent basis 2<" out'
+check 'to one slab' eval 'grep -q ">To one slab<" out && grep -q "tangent basis 2<" out'
 check 'the picture takes a budget' exits 0 "$mxgen" inspect --slabs --format svg --max-bytes 30 "$slabs" -e DustyFibre
 check 'the picture shows the steps to the budget' grep -q '>To the budget<' out
 check 'the JSON takes a budget' exits 0 "$mxgen" inspect --slabs --format json --max-bytes 30 "$slabs" -e DustyFibre

@@ -76,7 +76,7 @@ def draw(folder, name, document, *options):
 
 def estimates(material):
     """By closures: the last estimated error of the steps that lead to so many."""
-    result = run(MXGEN, document_of(material), "-e", material, "--max-closures", "1", "-Wbudget-step", "--stdout")
+    result = run(MXGEN, document_of(material), "-e", material, "--max-slabs", "1", "-Wbudget-step", "--stdout")
     return {int(count): float(error) for count, error in re.findall(r"closures \d+ to (\d+),.*?estimated error ([\d.e-]+)", result.stderr)}
 
 
@@ -90,7 +90,7 @@ def row_of(material, folder):
         if count not in estimated:
             columns.append("")
             continue
-        picture = draw(folder, f"{material}-{count}", document, *ball, "--max-closures", count)
+        picture = draw(folder, f"{material}-{count}", document, *ball, "--max-slabs", count)
         columns.append(f"{estimated[count]:.2f}, {balls.compare(whole, picture):.2f}" if whole and picture else "?")
     return f"| `{material}` | {' | '.join(columns)} |"
 
@@ -164,7 +164,7 @@ def difference(a, b):
 
 def check_halo(folder):
     """Where no mirror sends the lights to the eye, metal and plastic are dark, and so is what lies between; a halo is not."""
-    variants = {"slabs": ("MetalToPlastic",), "one slab": ("MetalToPlastic", "--max-closures", 1), "metalness": ("MetalToPlasticHalo",)}
+    variants = {"slabs": ("MetalToPlastic",), "one slab": ("MetalToPlastic", "--max-slabs", 1), "metalness": ("MetalToPlasticHalo",)}
     for name, options in variants.items():
         picture = sweep(folder, name, ROOT / "examples/slab_blends.mtlx", "--environment", "none", "-e", *options)
         means = [sum(color) / 3 for color in columns_of(picture)]

@@ -112,7 +112,7 @@ def check_reports(kind, path, stage, num):
     check(kinds.count("mix") == NUM_LAYERS - 1, f"{kind}: the layers are mixes: {kinds}")
     check(kinds.count("layer") == (1 if kind == "coat" else 0), f"{kind}: vertical layers are layers: {kinds}")
     for closures in (3, 2, 1):
-        made = generate(path, stage, path.parent / "made", "--max-closures", closures)
+        made = generate(path, stage, path.parent / "made", "--max-slabs", closures)
         steps = steps_of(made.stderr)
         check(made.returncode == 0 and steps and steps[-1][1] <= closures, f"{kind}: {closures} closures: {made.stderr}")
         check(all(b <= a and d <= c for a, b, c, d in steps), f"{kind}: a step raises the cost: {steps}")
@@ -133,7 +133,7 @@ def draw(path, stage, name, *options):
 
 def check_pictures(kind, path, stage, num):
     """As one surface, and with one closure, which must not be the same."""
-    whole, joined, one = (draw(path, stage, f"{kind}{closures}", *(("--max-closures", closures) if closures else ()))
+    whole, joined, one = (draw(path, stage, f"{kind}{closures}", *(("--max-slabs", closures) if closures else ()))
                           for closures in (0, num, 1))
     if not whole or not joined or not one:
         return False
@@ -235,7 +235,7 @@ def main():
         check_cut(folder, stage)
         if draws:
             check_traced(folder, stage)
-        stored = generate(folder / "slabs.mtlx", stage, folder / "stored", "--pipeline", "deferred", "--max-closures", 3)
+        stored = generate(folder / "slabs.mtlx", stage, folder / "stored", "--pipeline", "deferred", "--max-slabs", 3)
         check(stored.returncode == 0 and "drawn-forward" not in stored.stderr, f"the deferred pipeline: {stored.stderr}")
         unknown = run(MXGEN, "inspect", "--slabs", folder / "slabs.mtlx", "--stage", stage, "-e", "/bell")
         check(unknown.returncode == 1 and "did you mean '/ball'" in unknown.stderr, f"a primitive that is not there: {unknown.stderr}")

@@ -6,7 +6,7 @@
 #include "base/hash.h"
 #include "base/json.h"
 #include "base/mem.h"
-#include "base/names.h"
+#include "base/folder_names.h"
 #include "base/num.h"
 #include "base/strpool.h"
 #include "base/text.h"

@@ -159,7 +159,7 @@ static void save_closures(struct generation *g)
     slabs_find_spots(&g->result->shader, g->root, &spots);
     struct slab_cost whole = slabs_cost(&g->result->shader, &spots);
     for (uint32_t num = 1; num <= MAX_CLOSURES && num < whole.closures; num++) {
-        struct slab_budget budget = {.max_closures = num, .max_error = -1.0f, .max_steps = -1};
+        struct slab_budget budget = {.max_slabs = num, .max_error = -1.0f, .max_steps = -1};
         ir_ref root = build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget,
                                          g->root, &report);
         REQUIRE(report.is_met && report.after.closures == num);
@@ -276,7 +276,7 @@ static void spend_all(struct generation *g, struct fixed *out)
     for (uint32_t off = 0; off < 1u << NUM_SLAB_FEATURES; off++)
         for (uint32_t num = whole.closures; num && !(off & ~whole.features); num--) {
             struct slab_budget budget = {
-                .max_closures = num, .max_error = -1.0f, .off = off, .max_steps = -1};
+                .max_slabs = num, .max_error = -1.0f, .off = off, .max_steps = -1};
             if (REQUIRE(out->num < MAX_FIXED))
                 spend(g, &budget, &out->reports[out->num++]);
         }

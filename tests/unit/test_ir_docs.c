@@ -5,7 +5,7 @@
  * written anew. Tables stand between
  * <!-- name --> and <!-- end -->.
  */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include "test.h"
 

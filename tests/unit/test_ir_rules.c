@@ -4,7 +4,7 @@
  * right costs less, so that rewriting ends; both sides have the same value, on special and random
  * inputs and in every typing that fits; and the builder makes the same node of both sides.
  */
-#include "ir/internal.h"
+#include "ir/ir_priv.h"
 
 #include "test.h"
 

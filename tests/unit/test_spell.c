@@ -3,7 +3,7 @@
  * The speller and its targets. With a folder as argument, the shaders of the op walk and of the
  * whole stages are written there, for a GLSL compiler to judge.
  */
-#include "shader/source.h"
+#include "shader/verbatim.h"
 
 #include "shader_fixture.h"
 #include "test.h"

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "program/scene_file.h"
+
+#include "program/cli.h"
+#include "program/files.h"
+#include "program/memory.h"
+
+#include <errno.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum scene_file_kind scene_file_kind(const char *path)
+{
+    const char *dot = strrchr(files_base_name(path), '.');
+    if (!dot || strcmp(dot, ".txt") == 0)
+        return SCENE_FILE_LIST;
+    return strncmp(dot, ".usd", 4) == 0 ? SCENE_FILE_USD : SCENE_FILE_OTHER;
+}
+
+/* ---- Files of Assimp ---- */
+
+/* Adds a path for each line that the program writes. */
+static mxg_status read_paths(FILE *in, mxg_scene *scene)
+{
+    mxg_status status = MXG_OK;
+    char *line = NULL;
+    size_t capacity = 0;
+    ssize_t len;
+    while ((len = getline(&line, &capacity, in)) > 0) {
+        line[len - 1] = '\0';
+        if (status == MXG_OK)
+            status = mxg_scene_add_paths(scene, (const char *const *)&line, 1);
+    }
+    free(line);
+    return status;
+}
+
+/* Starts mxgen-render, whose messages go to standard error. Returns 0 or a reason of errno. */
+static int start(const char *program, const char *path, pid_t *out_child, int *out_output)
+{
+    char *stage = cli_format("--stage=%s", path), list[] = "--list", quiet[] = "--quiet";
+    char *const argv[] = {(char *)(uintptr_t)program, stage, list, quiet, NULL};
+    int ends[2], reason = pipe(ends) < 0 ? errno : 0;
+    if (!reason) {
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+        posix_spawn_file_actions_addclose(&actions, ends[0]);
+        posix_spawn_file_actions_addclose(&actions, ends[1]);
+        reason = posix_spawnp(out_child, program, &actions, NULL, argv, environ);
+        posix_spawn_file_actions_destroy(&actions);
+        close(ends[1]);
+        *out_output = ends[0];
+        if (reason)
+            close(ends[0]);
+    }
+    free(stage);
+    return reason;
+}
+
+/* The child has reported its own errors. */
+static bool import(struct report *report, const char *path, mxg_scene *scene)
+{
+    char *program = cli_program("mxgen-render");
+    pid_t child;
+    int output, code = -1, reason = start(program, path, &child, &output);
+    mxg_status status = MXG_OK;
+    if (!reason) {
+        FILE *in = fdopen(output, "r");
+        status = in ? read_paths(in, scene) : MXG_ERROR_MEMORY;
+        if (in)
+            fclose(in);
+        while (waitpid(child, &code, 0) < 0 && errno == EINTR) {
+        }
+    }
+    if (reason)
+        report_error(report, "no-renderer", "cannot start '%s', which reads '%s': %s", program,
+                     path, strerror(reason));
+    else if (code)
+        ++report->errors;
+    free(program);
+    return !reason && !code && report_status(report, status);
+}
+
+/* ---- All files ---- */
+
+mxg_scene *scene_file_load(mxg_context *context, struct report *report, const char *path,
+                           const char *purpose)
+{
+    mxg_scene *scene = NULL;
+    bool is_other = scene_file_kind(path) == SCENE_FILE_OTHER;
+    mxg_status status = is_other ? mxg_scene_create(context, &scene)
+                                 : mxg_scene_load(context, path, purpose, &scene);
+    if (scene && !is_other)
+        report_list(report, mxg_scene_diagnostics(scene));
+    if (report_status(report, status) && (!is_other || import(report, path, scene)))
+        return scene;
+    mxg_scene_destroy(scene);
+    return NULL;
+}
+
+mxg_document *scene_file_document(mxg_context *context, mxg_library *library, struct report *report,
+                                  const mxg_document *own, const mxg_scene *scene)
+{
+    mxg_document *whole = NULL;
+    mxg_status status = mxg_document_import(context, library, own, scene, &whole);
+    if (whole)
+        report_list(report, mxg_document_diagnostics(whole));
+    if (report_status(report, status))
+        return whole;
+    mxg_document_destroy(whole);
+    return NULL;
+}
+
+/* ---- Primitives ---- */
+
+/* The path of a primitive, which the caller frees. */
+static char *path_of(const mxg_scene *scene, uint32_t primitive)
+{
+    size_t size = mxg_scene_primitive_path(scene, primitive, NULL, 0) + 1;
+    char *path = memory_alloc(size);
+    mxg_scene_primitive_path(scene, primitive, path, size);
+    return path;
+}
+
+void scene_file_report_unknown(struct report *report, const mxg_scene *scene, const char *path)
+{
+    enum { MAX_GUESSES = 1000 };
+    uint32_t num = mxg_scene_num_primitives(scene);
+    struct arg_list paths = {0};
+    for (uint32_t i = 0; i < num && i < MAX_GUESSES; ++i)
+        args_append(&paths, path_of(scene, i));
+    const char *near = args_closest(path, paths.items, paths.len);
+    report_error(report, "unknown-primitive", "the stage has no primitive '%s'%s%s%s", path,
+                 near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "");
+    args_free(&paths);
+}
+
+bool scene_file_bind(mxg_context *context, mxg_library *library, struct report *report,
+                     const struct scene_place *place, const mxg_document *own,
+                     struct bound_scene *out)
+{
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
+    desc.look = place->look;
+    *out = (struct bound_scene){.scene =
+                                    scene_file_load(context, report, place->file, place->purpose)};
+    if (out->scene)
+        out->document = scene_file_document(context, library, report, own, out->scene);
+    if (!out->document)
+        return false;
+    mxg_status status =
+        mxg_bindings_create(context, out->document, out->scene, &desc, &out->bindings);
+    if (out->bindings)
+        report_list(report, mxg_bindings_diagnostics(out->bindings));
+    return report_status(report, status);
+}
+
+void scene_file_unbind(struct bound_scene *stage)
+{
+    mxg_bindings_destroy(stage->bindings);
+    mxg_scene_destroy(stage->scene);
+    mxg_document_destroy(stage->document);
+}

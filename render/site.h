@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The site of `--stage`: the objects of a scene, one for each primitive with geometry, and a
+ * camera. Files of USD come through mxgen.h, other files through Assimp.
+ */
+#ifndef MXG_RENDER_SITE_H
+#define MXG_RENDER_SITE_H
+
+#include "program/cli.h"
+#include "render/studio.h"
+
+struct site_object {
+    struct scene_object object;
+    uint32_t primitive; /* of the scene */
+};
+
+struct site_camera {
+    struct matrix world;  /* it looks along -z, with y upwards */
+    double width, height; /* tangents of half its angles */
+    char *path;
+};
+
+struct site {
+    struct report *report;
+    const char *file;
+    mxg_scene *scene;
+    struct site_object *objects;
+    uint32_t num_objects, capacity;
+    struct site_camera *cameras;
+    uint32_t num_cameras;
+    struct scene_light *lights;
+    uint32_t num_lights;
+    struct image dome;        /* the environment; no pixels: none */
+    struct matrix dome_world; /* from USD's map to the world: a rotation */
+    bool has_dome, is_lit;    /* is_lit: it has lights, also such as are left out */
+    bool lights_scene;        /* they are the light of the picture */
+    double meters_per_unit;   /* 0: unknown */
+    bool is_z_up;
+    bool has_fault; /* an error was reported */
+};
+
+/*
+ * Reads a file. `purpose` as for mxg_scene_load. false after reporting an error. Call site_close
+ * in any case.
+ */
+bool site_open(struct site *site, mxg_context *context, struct report *report, const char *path,
+               const char *purpose);
+void site_close(struct site *site);
+/* Prints the paths of the primitives, one in each line. */
+void site_list(const struct site *site);
+
+/*
+ * Lights the scene: by the site where it has lights, unless `studio` has a map; by the studio
+ * otherwise. false after reporting an error.
+ */
+bool site_light(struct site *site, const struct studio *studio, struct scene *scene);
+
+/*
+ * Places the camera around the site, and the light of the studio. `camera` is the path of
+ * a camera; NULL: the first, or the studio's, which also stands in where the site has none;
+ * `is_orbit` takes the studio's. false after reporting an error.
+ */
+bool site_aim(const struct site *site, const struct studio *studio, const char *camera,
+              bool is_orbit, double aspect, struct scene *scene);
+
+/* ---- Shared by the readers ---- */
+
+/* A new object of a primitive, which the caller fills: its path is set. */
+struct scene_object *site_add(struct site *site, uint32_t primitive, struct matrix world);
+/* The path of a primitive, which the caller frees. */
+char *site_path(const mxg_scene *scene, uint32_t primitive);
+/* Reports a fault of a primitive, at the property's place if it is not NULL. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+void site_fail(struct site *site, uint32_t primitive, const char *property, const char *format,
+                ...);
+
+/* The same as a warning, of its own id. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 5, 6)))
+#endif
+void site_warn(struct site *site, const char *id, uint32_t primitive, const char *property,
+                const char *format, ...);
+void site_add_light(struct site *site, struct scene_light light);
+/* Rotation and place without scale. */
+struct matrix site_rigid(struct matrix m);
+
+/* site_usd.c: adds the objects, cameras and lights of a scene of USD. */
+void site_read_usd(struct site *site);
+/* site_import.c: reads a file through Assimp, with its hierarchy as paths. */
+bool site_import(struct site *site, mxg_context *context, const char *path);
+
+/* A numeric value of USD, or `otherwise`. */
+double usd_number(const struct site *site, uint32_t primitive, const char *name, double otherwise);
+/* The numbers of a property, and how many there are; the caller frees them. NULL: none. */
+double *usd_numbers(const struct site *site, uint32_t primitive, const char *name,
+                    size_t *out_count);
+/* True if a token has this value. */
+bool usd_is(const struct site *site, uint32_t primitive, const char *name, const char *value);
+
+/* usd_xform.c: the matrix of a primitive, from its space to the parent's; *out_resets: to the
+ * world. */
+struct matrix usd_transform(struct site *site, uint32_t primitive, bool *out_resets);
+
+/* usd_mesh.c: adds the objects of a Mesh: its own, and those of its subsets. */
+void usd_add_mesh(struct site *site, uint32_t primitive, struct matrix world);
+
+/* usd_light.c: adds a light, or says why not; ignores other types. */
+void usd_add_light(struct site *site, uint32_t primitive, const char *type, struct matrix world);
+
+/* usd_shapes.c: adds Sphere, Cube, Cylinder, Cone, Capsule or Plane; false: another type. */
+bool usd_add_shape(struct site *site, uint32_t primitive, const char *type, struct matrix world);
+
+/*
+ * usd_primvar.c: the primvars of a primitive, and the constant ones of those above it. They come
+ * for corners: corner i belongs to face faces[i] and point points[i]; numbers[i] is its number in
+ * the list of corners. NULLs: the geometry has constant primvars only.
+ */
+struct usd_corners {
+    uint32_t count;
+    const uint32_t *faces, *points, *numbers;
+};
+void usd_add_primvars(struct site *site, uint32_t primitive, const struct usd_corners *corners,
+                      struct scene_object *object);
+/* The components of a type: 3 of "color3f[]"; 0: it has no numbers. */
+unsigned usd_components(const char *type, size_t len);
+
+#endif

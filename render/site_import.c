@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A site from a file that Assimp reads. Its nodes are primitives; a node with several meshes (the
+ * materials of one glTF mesh) has a primitive for each below it.
+ */
+#include "render/import.h"
+#include "render/site.h"
+
+#include "program/memory.h"
+
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct importer {
+    struct site *site;
+    const struct aiScene *scene;
+    bool is_gltf, good;
+};
+
+/* A node to visit, with the path and the matrix of its parent. */
+struct visit {
+    const struct aiNode *node;
+    char *parent;
+    struct matrix world;
+};
+
+/* The name of a node as a part of a path: letters, digits and '_'. */
+static char *part_of(const char *name)
+{
+    char *part = cli_format("%s", *name ? name : "_");
+    for (char *c = part; *c; ++c)
+        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_", *c))
+            *c = '_';
+    return part;
+}
+
+/* Adds a primitive below a path: "name", or "name_2" where others have the name. Its path; free. */
+static char *add_primitive(struct importer *in, const char *parent, const char *name)
+{
+    char *part = part_of(name), *path = cli_format("%s/%s", parent, part);
+    for (unsigned number = 2; mxg_scene_find_primitive(in->site->scene, path) != UINT32_MAX;
+         ++number) {
+        free(path);
+        path = cli_format("%s/%s_%u", parent, part, number);
+    }
+    free(part);
+    in->good = report_status(in->site->report,
+                             mxg_scene_add_paths(in->site->scene, (const char *const *)&path, 1))
+               && in->good;
+    return path;
+}
+
+static struct matrix matrix_of(const struct aiMatrix4x4 *m)
+{
+    return (struct matrix){{{m->a1, m->b1, m->c1, m->d1},
+                            {m->a2, m->b2, m->c2, m->d2},
+                            {m->a3, m->b3, m->c3, m->d3},
+                            {m->a4, m->b4, m->c4, m->d4}}};
+}
+
+static void add_primvar(struct scene_object *object, const char *name, unsigned components,
+                        const void *from, size_t stride)
+{
+    struct primvar made = {
+        .name = cli_format("%s", name), .components = components, .num = object->mesh.num_vertices};
+    made.values = memory_alloc(made.num * sizeof *made.values + 1);
+    for (uint32_t i = 0; i < made.num; ++i)
+        memcpy(made.values[i], (const char *)from + i * stride, components * sizeof(float));
+    object->primvars =
+        memory_resize(object->primvars, (object->num_primvars + 1) * sizeof *object->primvars);
+    object->primvars[object->num_primvars++] = made;
+}
+
+/* Colours and texture coordinates, under the names that USD gives them. */
+static void add_primvars(const struct aiMesh *mesh, struct scene_object *object)
+{
+    for (unsigned i = 0; i < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh->mTextureCoords[i]; ++i) {
+        char *name = i ? cli_format("st%u", i) : cli_format("st");
+        add_primvar(object, name, 2, mesh->mTextureCoords[i], sizeof *mesh->mTextureCoords[i]);
+        free(name);
+    }
+    for (unsigned i = 0; i < AI_MAX_NUMBER_OF_COLOR_SETS && mesh->mColors[i]; ++i) {
+        char *name = i ? cli_format("displayColor%u", i) : cli_format("displayColor");
+        add_primvar(object, name, 4, mesh->mColors[i], sizeof *mesh->mColors[i]);
+        free(name);
+    }
+}
+
+static void add_object(struct importer *in, const struct aiMesh *mesh, const char *path,
+                       struct matrix world)
+{
+    struct mesh made;
+    uint32_t index = 0;
+    if (!mesh_allocate(&made, mesh->mNumVertices, 3 * mesh->mNumFaces))
+        abort();
+    import_vertices(mesh, made.vertices);
+    for (unsigned f = 0; f < mesh->mNumFaces; ++f)
+        for (unsigned k = 0; mesh->mFaces[f].mNumIndices == 3 && k < 3; ++k)
+            made.indices[index++] = mesh->mFaces[f].mIndices[k];
+    made.num_indices = index;
+    if (!index) {
+        mesh_finish(&made);
+        return;
+    }
+    struct scene_object *object =
+        site_add(in->site, mxg_scene_find_primitive(in->site->scene, path), world);
+    object->mesh = made;
+    add_primvars(mesh, object);
+    if (!mesh_complete(&object->mesh, import_missing(mesh)))
+        abort();
+}
+
+/* A node's meshes are its own, or several primitives below it. */
+static void add_node(struct importer *in, const struct aiNode *node, const char *path,
+                     struct matrix world)
+{
+    for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+        const struct aiMesh *mesh = in->scene->mMeshes[node->mMeshes[i]];
+        char *below = node->mNumMeshes > 1 ? add_primitive(in, path, mesh->mName.data) : NULL;
+        add_object(in, mesh, below ? below : path, world);
+        free(below);
+    }
+}
+
+/* ---- Cameras ---- */
+
+static void add_camera(struct importer *in, const struct aiNode *node, const char *path,
+                       struct matrix world)
+{
+    for (unsigned i = 0; i < in->scene->mNumCameras; ++i) {
+        const struct aiCamera *camera = in->scene->mCameras[i];
+        if (strcmp(camera->mName.data, node->mName.data) != 0 || camera->mHorizontalFOV <= 0.0f)
+            continue;
+        double width = tan((double)camera->mHorizontalFOV / 2), aspect = (double)camera->mAspect;
+        struct site *site = in->site;
+        /* Assimp 5 multiplies the angle of glTF, which is vertical, by the aspect */
+        if (in->is_gltf && aspect > 0)
+            width = aspect * tan((double)camera->mHorizontalFOV / aspect / 2);
+        site->cameras =
+            memory_resize(site->cameras, (site->num_cameras + 1) * sizeof *site->cameras);
+        site->cameras[site->num_cameras++] =
+            (struct site_camera){.world = world,
+                                 .width = width,
+                                 .height = aspect > 0 ? width / aspect : 0,
+                                 .path = cli_format("%s", path)};
+    }
+}
+
+/* ---- Lights ---- */
+
+/*
+ * Lights of glTF (KHR_lights_punctual): a directional one has its illuminance, the others their
+ * intensity, which a small sphere has if its radiance is I / (π r²).
+ */
+static void add_light(struct importer *in, const struct aiNode *node, const char *path,
+                      struct matrix world)
+{
+    const double radius = 1e-4, area = 3.14159265358979323846 * radius * radius;
+    struct site *site = in->site;
+    for (unsigned i = 0; i < in->scene->mNumLights; ++i) {
+        const struct aiLight *light = in->scene->mLights[i];
+        if (strcmp(light->mName.data, node->mName.data) != 0)
+            continue;
+        bool is_far = light->mType == aiLightSource_DIRECTIONAL,
+             is_spot = light->mType == aiLightSource_SPOT;
+        if (!is_far && !is_spot && light->mType != aiLightSource_POINT) {
+            site->is_lit = true;
+            report_warning(site->report, "light-left-out",
+                           "'%s' is a light without a direction and a place, which mxgen does not "
+                           "draw",
+                           path);
+            continue;
+        }
+        struct scene_light added = {
+            .type = is_far ? LIGHT_DIRECTIONAL : LIGHT_SPHERE,
+            .color = {(double)light->mColorDiffuse.r, (double)light->mColorDiffuse.g,
+                      (double)light->mColorDiffuse.b},
+            .intensity = is_far ? 1 : 1 / area,
+            .radius = radius,
+            .inner = is_spot ? cos((double)light->mAngleInnerCone) : NO_CONE,
+            .outer = is_spot ? cos((double)light->mAngleOuterCone) : NO_CONE};
+        const double along[3] = {(double)light->mDirection.x, (double)light->mDirection.y,
+                                 is_far || is_spot ? (double)light->mDirection.z : -1},
+                     at[3] = {(double)light->mPosition.x, (double)light->mPosition.y,
+                              (double)light->mPosition.z};
+        matrix_direction(world, along, added.direction);
+        matrix_point(world, at, added.position);
+        site_add_light(site, added);
+    }
+}
+
+/* ---- The walk ---- */
+
+/*
+ * True if the root is the scene itself, and no node of the file. glTF has several roots; if there
+ * is just one, Assimp makes no other.
+ */
+static bool is_made_root(const struct importer *in)
+{
+    const struct aiNode *root = in->scene->mRootNode;
+    return !root->mNumMeshes && (!in->is_gltf || strcmp(root->mName.data, "ROOT") == 0);
+}
+
+static void walk(struct importer *in)
+{
+    size_t num = 1, capacity = 64;
+    struct visit *visits = memory_alloc(capacity * sizeof *visits);
+    visits[0] = (struct visit){in->scene->mRootNode, cli_format("%s", ""), matrix_identity()};
+    while (num) {
+        struct visit at = visits[--num];
+        bool is_root = at.node == in->scene->mRootNode && is_made_root(in);
+        struct matrix world = matrix_multiply(at.world, matrix_of(&at.node->mTransformation));
+        char *path =
+            is_root ? cli_format("%s", "") : add_primitive(in, at.parent, at.node->mName.data);
+        add_node(in, at.node, path, world);
+        add_camera(in, at.node, path, world);
+        add_light(in, at.node, path, world);
+        if (num + at.node->mNumChildren > capacity) {
+            capacity = 2 * (num + at.node->mNumChildren);
+            visits = memory_resize(visits, capacity * sizeof *visits);
+        }
+        for (unsigned i = at.node->mNumChildren; i-- > 0;)
+            visits[num++] = (struct visit){at.node->mChildren[i], cli_format("%s", path), world};
+        free(path);
+        free(at.parent);
+    }
+    free(visits);
+}
+
+bool site_import(struct site *site, mxg_context *context, const char *path)
+{
+    struct mesh_fault fault = {"bad-mesh", "it has no normals"};
+    if (!report_status(site->report, mxg_scene_create(context, &site->scene)))
+        return false;
+    const struct aiScene *scene = import_read(path, true, &fault);
+    bool has_normals = true;
+    for (unsigned i = 0; scene && i < scene->mNumMeshes; ++i)
+        has_normals = has_normals && scene->mMeshes[i]->mNormals;
+    if (scene && !has_normals)
+        scene = aiApplyPostProcessing(scene,
+                                      aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices);
+    if (!scene) {
+        report_error(site->report, fault.id, "cannot use the stage '%s': %s", path, fault.text);
+        return false;
+    }
+    const char *dot = strrchr(path, '.');
+    struct importer in = {.site = site, .scene = scene, .good = true};
+    in.is_gltf = dot && (strcmp(dot, ".gltf") == 0 || strcmp(dot, ".glb") == 0);
+    site->meters_per_unit = in.is_gltf ? 1 : 0;
+    walk(&in);
+    aiReleaseImport(scene);
+    return in.good;
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The subjects of a site: its objects, grouped by the stack that a look gives them. */
+#ifndef MXG_RENDER_SITE_PICTURE_H
+#define MXG_RENDER_SITE_PICTURE_H
+
+#include "render/picture.h"
+#include "render/site.h"
+
+struct site_subjects {
+    struct subject *items; /* their element is allocated */
+    size_t len;
+    struct scene_object *objects; /* of all subjects; refers to the site */
+    mxg_bindings *bindings;
+};
+
+/*
+ * Binds a look (NULL: as for mxg_bindings_create) to the site, and groups its objects. false after
+ * reporting an error. Call site_subjects_finish in any case.
+ */
+bool site_subjects_make(struct painter *painter, const struct site *site,
+                        const mxg_document *document, const char *path, const char *look,
+                        struct site_subjects *out);
+void site_subjects_finish(struct site_subjects *subjects);
+
+#endif

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The objects of a scene of USD: a walk down its primitives, with instances of PointInstancer. */
+#include "render/site.h"
+
+#include "program/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Properties ---- */
+
+double *usd_numbers(const struct site *site, uint32_t primitive, const char *name,
+                    size_t *out_count)
+{
+    *out_count = mxg_scene_property_numbers(site->scene, primitive, name, NULL, 0);
+    if (!*out_count)
+        return NULL;
+    double *numbers = memory_alloc(*out_count * sizeof *numbers);
+    mxg_scene_property_numbers(site->scene, primitive, name, numbers, *out_count);
+    return numbers;
+}
+
+double usd_number(const struct site *site, uint32_t primitive, const char *name, double otherwise)
+{
+    double number = otherwise;
+    mxg_scene_property_numbers(site->scene, primitive, name, &number, 1);
+    return number;
+}
+
+bool usd_is(const struct site *site, uint32_t primitive, const char *name, const char *value)
+{
+    char word[64];
+    return mxg_scene_property_word(site->scene, primitive, name, 0, word, sizeof word)
+           && strcmp(word, value) == 0;
+}
+
+/* ---- The walk ---- */
+
+struct visit {
+    uint32_t primitive;
+    struct matrix parent;
+    uint32_t depth; /* of instancers around it */
+};
+
+struct walk {
+    struct site *site;
+    struct visit *visits;
+    size_t num_visits, capacity;
+};
+
+enum { MAX_DEPTH = 16, MAX_OBJECTS = 1 << 20 };
+
+static void push(struct walk *walk, struct visit visit)
+{
+    if (walk->num_visits == walk->capacity) {
+        walk->capacity = walk->capacity ? 2 * walk->capacity : 64;
+        walk->visits = memory_resize(walk->visits, walk->capacity * sizeof *walk->visits);
+    }
+    walk->visits[walk->num_visits++] = visit;
+}
+
+/* Children are visited in their order: the last one is pushed first. */
+static void push_children(struct walk *walk, uint32_t first, struct visit below)
+{
+    size_t begin = walk->num_visits;
+    mxg_primitive at = {sizeof at};
+    for (below.primitive = first; below.primitive != UINT32_MAX;
+         below.primitive = at.next_sibling) {
+        push(walk, below);
+        mxg_scene_primitive(walk->site->scene, below.primitive, &at);
+    }
+    for (size_t i = begin, k = walk->num_visits; i + 1 < k; ++i) {
+        struct visit swapped = walk->visits[--k];
+        walk->visits[k] = walk->visits[i];
+        walk->visits[i] = swapped;
+    }
+}
+
+static bool is_hidden(const struct site *site, uint32_t primitive)
+{
+    return usd_is(site, primitive, "visibility", "invisible")
+           || usd_is(site, primitive, "purpose", "guide")
+           || usd_is(site, primitive, "purpose", "proxy");
+}
+
+static bool is_regular(struct matrix m)
+{
+    double normal[3];
+    vector_cross(m.m[0], m.m[1], normal);
+    return fabs(normal[0] * m.m[2][0] + normal[1] * m.m[2][1] + normal[2] * m.m[2][2]) > 0;
+}
+
+/* ---- Cameras ---- */
+
+static void add_camera(struct site *site, uint32_t primitive, struct matrix world)
+{
+    /* the defaults of the schema, all in tenths of a unit */
+    double focal = usd_number(site, primitive, "focalLength", 50);
+    if (usd_is(site, primitive, "projection", "orthographic") || !(focal > 0)) {
+        site_fail(site, primitive, focal > 0 ? "projection" : "focalLength",
+                  "is no perspective, which is the only one that mxgen draws");
+        return;
+    }
+    site->cameras = memory_resize(site->cameras, (site->num_cameras + 1) * sizeof *site->cameras);
+    site->cameras[site->num_cameras++] = (struct site_camera){
+        .world = world,
+        .width = usd_number(site, primitive, "horizontalAperture", 20.955) / 2 / focal,
+        .height = usd_number(site, primitive, "verticalAperture", 15.2908) / 2 / focal,
+        .path = site_path(site->scene, primitive)};
+}
+
+/* ---- Instances ---- */
+
+/* The arrays of a PointInstancer. */
+struct instances {
+    double *positions, *orientations, *scales, *prototypes, *hidden, *ids;
+    size_t num, num_orientations, num_scales, num_prototypes, num_hidden, num_ids;
+};
+
+static bool is_invisible(const struct instances *instances, size_t i)
+{
+    double id = i < instances->num_ids ? instances->ids[i] : (double)i;
+    for (size_t k = 0; k < instances->num_hidden; ++k)
+        if (instances->hidden[k] == id)
+            return true;
+    return false;
+}
+
+static struct matrix instance_matrix(const struct instances *instances, size_t i)
+{
+    const double *at = &instances->positions[3 * i];
+    struct matrix out = matrix_translation(at[0], at[1], at[2]);
+    if (i < instances->num_orientations)
+        out = matrix_multiply(out, matrix_orientation(&instances->orientations[4 * i]));
+    if (i < instances->num_scales) {
+        const double *scale = &instances->scales[3 * i];
+        out = matrix_multiply(out, matrix_scale(scale[0], scale[1], scale[2]));
+    }
+    return out;
+}
+
+static void add_instances(struct walk *walk, struct visit at, struct matrix world)
+{
+    struct site *site = walk->site;
+    struct instances in = {0};
+    in.positions = usd_numbers(site, at.primitive, "positions", &in.num);
+    in.orientations = usd_numbers(site, at.primitive, "orientations", &in.num_orientations);
+    in.scales = usd_numbers(site, at.primitive, "scales", &in.num_scales);
+    in.prototypes = usd_numbers(site, at.primitive, "protoIndices", &in.num_prototypes);
+    in.hidden = usd_numbers(site, at.primitive, "invisibleIds", &in.num_hidden);
+    in.ids = usd_numbers(site, at.primitive, "ids", &in.num_ids);
+    in.num /= 3;
+    in.num_orientations /= 4;
+    in.num_scales /= 3;
+    if (in.num_prototypes != in.num)
+        site_fail(site, at.primitive, "protoIndices", "has %zu numbers for %zu positions",
+                  in.num_prototypes, in.num);
+    for (size_t i = in.num_prototypes == in.num ? in.num : 0; i-- > 0;) {
+        uint32_t prototype =
+            in.prototypes[i] >= 0 && in.prototypes[i] < UINT32_MAX ? mxg_scene_property_target(
+                site->scene, at.primitive, "prototypes", (uint32_t)in.prototypes[i])
+                                                                   : UINT32_MAX;
+        if (prototype == UINT32_MAX) {
+            site_fail(site, at.primitive, "protoIndices", "has %g, which is no prototype",
+                      in.prototypes[i]);
+            break;
+        }
+        if (!is_invisible(&in, i))
+            push(walk, (struct visit){prototype, matrix_multiply(world, instance_matrix(&in, i)),
+                                      at.depth + 1});
+    }
+    double *const arrays[] = {in.positions,  in.orientations, in.scales,
+                              in.prototypes, in.hidden,       in.ids};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
+        free(arrays[i]);
+}
+
+static void visit(struct walk *walk, struct visit at)
+{
+    struct site *site = walk->site;
+    mxg_primitive primitive = {sizeof primitive};
+    bool resets;
+    if (is_hidden(site, at.primitive))
+        return;
+    mxg_scene_primitive(site->scene, at.primitive, &primitive);
+    struct matrix local = usd_transform(site, at.primitive, &resets);
+    struct matrix world = resets ? local : matrix_multiply(at.parent, local);
+    char *type = cli_format("%.*s", (int)primitive.type_len, primitive.type);
+    if (strcmp(type, "Camera") == 0)
+        add_camera(site, at.primitive, world);
+    else if (strcmp(type, "PointInstancer") == 0 && at.depth == MAX_DEPTH)
+        site_fail(site, at.primitive, NULL, "has instances that contain it");
+    else if (strcmp(type, "PointInstancer") == 0)
+        add_instances(walk, at, world);
+    else if (strcmp(type, "Mesh") == 0 && is_regular(world))
+        usd_add_mesh(site, at.primitive, world);
+    else if (is_regular(world))
+        usd_add_shape(site, at.primitive, type, world);
+    if (is_regular(world))
+        usd_add_light(site, at.primitive, type, world);
+    /* prototypes below an instancer are drawn as its instances only */
+    if (strcmp(type, "PointInstancer") != 0)
+        push_children(walk, primitive.first_child, (struct visit){0, world, at.depth});
+    free(type);
+}
+
+void site_read_usd(struct site *site)
+{
+    struct walk walk = {.site = site};
+    mxg_primitive at = {sizeof at};
+    uint32_t num = mxg_scene_num_primitives(site->scene);
+    for (uint32_t i = num; i-- > 0;) { /* roots in their order: the first is visited first */
+        mxg_scene_primitive(site->scene, i, &at);
+        if (at.parent == UINT32_MAX)
+            push(&walk, (struct visit){i, matrix_identity(), 0});
+    }
+    while (walk.num_visits && site->num_objects < MAX_OBJECTS && !site->has_fault)
+        visit(&walk, walk.visits[--walk.num_visits]);
+    if (walk.num_visits && !site->has_fault)
+        site_fail(site, 0, NULL, "and others are more than %d objects", MAX_OBJECTS);
+    free(walk.visits);
+}
