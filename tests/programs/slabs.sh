@@ -12,7 +12,7 @@ compiles() { # document and options of generation: all its materials, for two la
 
 # Budgets
 for closures in 1 2 3; do
-    check "materials with $closures slabs" compiles "$slabs" --max-slabs "$closures"
+    check "materials with $closures slabs compile" compiles "$slabs" --max-slabs "$closures"
 done
 check 'a budget prints nothing' eval 'exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -o made && test ! -s err'
 check '-Wbudget-step is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -Wbudget-step -o made
@@ -32,7 +32,7 @@ check 'a budget of an error is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint -
 check 'a small error keeps the coat' eval 'says "the mix" && ! says "the layer"'
 check 'too few bytes fail' exits 1 "$mxgen" "$slabs" -e CarPaint --max-bytes 8 -o made
 check 'the error is budget-impossible' says '[budget-impossible]'
-check 'slabs within an error' exits 1 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-error 0.01 -o made
+check 'one slab within a small error fails' exits 1 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-error 0.01 -o made
 check 'the error names both limits' says '1 slabs, an error of 0.01'
 check 'a limit that is no number is wrong usage' exits 2 "$mxgen" "$slabs" --max-error much -o made
 check 'the error gives the range' says "expected a number of 0..100"
@@ -213,7 +213,7 @@ check 'the error names the file of the profile' says "cannot read the profile 'g
 # Other materials
 for document in marble gold car_paint; do
     check "$document.mtlx compiles as slabs" compiles "$examples/$document.mtlx" --slabs
-    check "$document as one slab" compiles "$examples/$document.mtlx" --max-slabs 1
+    check "$document.mtlx compiles as one slab" compiles "$examples/$document.mtlx" --max-slabs 1
 done
 check 'marble takes a budget of one closure' exits 0 "$mxgen" inspect --closures "$examples/marble.mtlx" --max-slabs 1
 check 'marble has lobes of slabs only' eval 'grep -q mx_slab_medium_bsdf out && ! grep -qE "mx_(oren|dielectric|conductor)" out'
@@ -301,7 +301,7 @@ check 'the view can be a picture' exits 0 "$mxgen" inspect --slabs --format svg 
 check 'the picture is XML' python3 -c 'import xml.etree.ElementTree as e
 root = e.parse("out").getroot()
 assert root.tag == "{http://www.w3.org/2000/svg}svg" and len(root.findall("{*}text")) >= 8'
-check 'to one slab' eval 'grep -q ">To one slab<" out && grep -q "tangent basis 2<" out'
+check 'the picture shows the steps to one slab' eval 'grep -q ">To one slab<" out && grep -q "tangent basis 2<" out'
 check 'the picture takes a budget' exits 0 "$mxgen" inspect --slabs --format svg --max-bytes 30 "$slabs" -e DustyFibre
 check 'the picture shows the steps to the budget' grep -q '>To the budget<' out
 check 'the JSON takes a budget' exits 0 "$mxgen" inspect --slabs --format json --max-bytes 30 "$slabs" -e DustyFibre
