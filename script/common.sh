@@ -3,6 +3,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+# Programs and libraries of others, built, in a folder beside the checkout: oslc, testshade and testrender for OSL, and MaterialX's own
+# libraries (MXGEN_MATERIALX). Tests skip what they need and do not find; what is installed or already named comes first.
+peers=$(realpath -m ../shared/peers)
+[ ! -d "$peers/bin" ] || export PATH="$PATH:$peers/bin"
+[ ! -d "$peers/materialx/libraries" ] || export MXGEN_MATERIALX="${MXGEN_MATERIALX:-$peers/materialx}"
+
 install_missing_packages() { # [FURTHER_LIST...]
     local missing=() package
     command -v dpkg >/dev/null || return 0 # not Debian: the user installs the packages

@@ -105,6 +105,30 @@ static const char *shader_name(struct spell *spell)
     return names_unique(&spell->names, text_cstr(&name), name.len).text;
 }
 
+/*
+ * A function of a graph may read streams and parameters, which are in scope in the shader alone: it
+ * stands there, indented like other statements.
+ */
+static void write_graph_functions(struct spell *spell)
+{
+    struct text *out = spell->out;
+    size_t begin = out->len;
+    uint32_t mark = spell->marks.len;
+    for (uint32_t i = 0; i < spell->stage->functions.len; i++)
+        spell_graph_function(spell, &spell->stage->functions.items[i]);
+    size_t end = out->len;
+    const char *written = arena_strndup(spell->scratch, out->data + begin, end - begin);
+    out->len = begin;
+    for (size_t i = begin; i < end; i++) {
+        bool begins_line = i == begin || written[i - begin - 1] == '\n';
+        if (begins_line && written[i - begin] != '\n')
+            spell_indent(spell, 1);
+        for (; mark < spell->marks.len && spell->marks.items[mark].at == i; mark++)
+            spell->marks.items[mark].at = out->len;
+        text_char(out, written[i - begin]);
+    }
+}
+
 static void write_shader(struct osl *osl)
 {
     struct spell *spell = osl->spell;
@@ -114,16 +138,11 @@ static void write_shader(struct osl *osl)
     spell_text(spell, "{\n");
     names_open_scope(&spell->names);
     osl_write_streams(osl);
+    write_graph_functions(spell);
     spell_statements(spell, &spell->stage->statements, 1);
     if (spell->stage_id == STAGE_VERTEX)
         spell_text(spell, "    N = normalize(calculatenormal(P));\n");
     spell_text(spell, "}\n");
-}
-
-static void write_graph_functions(struct spell *spell)
-{
-    for (uint32_t i = 0; i < spell->stage->functions.len; i++)
-        spell_graph_function(spell, &spell->stage->functions.items[i]);
 }
 
 static void start(struct osl *osl)
@@ -158,7 +177,6 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
     start(&osl);
     text_init(&shader, spell->scratch);
     spell->out = &shader;
-    write_graph_functions(spell);
     write_shader(&osl);
     text_init(&functions, spell->scratch);
     spell->out = &functions;

@@ -10,12 +10,12 @@ export LD_LIBRARY_PATH=$folder
 same() {
     local language=$1
     shift
-    check "$language: a shader" exits 0 "$@" gold.mtlx
-    check "$language: the same bytes as C" cmp out gold.c
-    check "$language: errors" exits 1 "$@" broken.mtlx
-    check "$language: the same messages as C" diff -B err broken.c
-    check "$language: no document" exits 1 "$@" none.mtlx
-    check "$language: a message" grep -q 'file-missing' err
+    check "$language generates a shader" exits 0 "$@" gold.mtlx
+    check "$language gives the bytes of C" cmp out gold.c
+    check "$language reports errors" exits 1 "$@" broken.mtlx
+    check "$language gives the messages of C" diff -B err broken.c
+    check "$language fails without a document" exits 1 "$@" none.mtlx
+    check "$language reports the missing document" grep -q 'file-missing' err
 }
 
 cp "$root/examples/gold.mtlx" .

@@ -18,55 +18,55 @@ ln -s .. tree/sub/back # a circle of links
 
 # Which documents
 quick=(--no-compile -j2)
-check 'a folder' exits 0 "$mxgen" check tree "${quick[@]}" --json tree.json
-check 'is all below, in order' says tree.json '[x["file"] for x in d]' "['tree/a.mtlx', 'tree/b.mtlx', 'tree/sub/c.mtlx', 'tree/sub/deep/d.mtlx']"
-check 'and numbered' says tree.json '[x["index"] for x in d]' '[0, 1, 2, 3]'
-check 'a pattern' exits 0 "$mxgen" check 'tree/*.mtlx' "${quick[@]}" --json pattern.json
-check 'is what matches' says pattern.json '[x["file"] for x in d]' "['tree/a.mtlx', 'tree/b.mtlx']"
-check 'a pattern that nothing matches' exits 1 "$mxgen" check 'tree/none*.mtlx' tree/a.mtlx "${quick[@]}"
-check 'is told' grep -q "no file matches 'tree/none\*.mtlx' \[file-missing\]" err
-check 'and counted as none' grep -q '^1 document, 1 element, 1 shader$' out
+check 'a folder can be checked' exits 0 "$mxgen" check tree "${quick[@]}" --json tree.json
+check 'the documents of a folder are all that lie below, in order' says tree.json '[x["file"] for x in d]' "['tree/a.mtlx', 'tree/b.mtlx', 'tree/sub/c.mtlx', 'tree/sub/deep/d.mtlx']"
+check 'the documents of a report are numbered' says tree.json '[x["index"] for x in d]' '[0, 1, 2, 3]'
+check 'a pattern can be checked' exits 0 "$mxgen" check 'tree/*.mtlx' "${quick[@]}" --json pattern.json
+check 'the documents of a pattern are those that match' says pattern.json '[x["file"] for x in d]' "['tree/a.mtlx', 'tree/b.mtlx']"
+check 'a pattern that nothing matches is an error' exits 1 "$mxgen" check 'tree/none*.mtlx' tree/a.mtlx "${quick[@]}"
+check 'the error names the pattern' grep -q "no file matches 'tree/none\*.mtlx' \[file-missing\]" err
+check 'a pattern that nothing matches counts as no document' grep -q '^1 document, 1 element, 1 shader$' out
 printf 'tree/b.mtlx\r\n\n./tree/a.mtlx\ntree/sub\n' >list
-check 'a list' exits 0 "$mxgen" check @list "${quick[@]}" --json list.json
-check 'is in its own order' says list.json '[x["file"] for x in d]' "['tree/b.mtlx', 'tree/a.mtlx', 'tree/sub/c.mtlx', 'tree/sub/deep/d.mtlx']"
-check 'a list from standard input' eval '"$mxgen" check --files-from - "${quick[@]}" --json stdin.json <list'
-check 'is the same' cmp list.json stdin.json
-check 'what is named twice' exits 0 "$mxgen" check tree/a.mtlx tree @list "${quick[@]}" --json twice.json
-check 'is checked once' says twice.json 'len(d), len({x["file"] for x in d})' '(4, 4)'
-check 'a list that is not there' exits 1 "$mxgen" check tree @none "${quick[@]}"
-check 'a document that is not there' exits 1 "$mxgen" check tree/none.mtlx tree/a.mtlx "${quick[@]}"
-check 'has its id' grep -q '\[file-missing\]' out
-check 'and the others are checked' grep -q '^1 passed, 1 failed (load 1)' out
+check 'a list can be checked' exits 0 "$mxgen" check @list "${quick[@]}" --json list.json
+check 'the documents of a list have its order' says list.json '[x["file"] for x in d]' "['tree/b.mtlx', 'tree/a.mtlx', 'tree/sub/c.mtlx', 'tree/sub/deep/d.mtlx']"
+check 'a list can come from standard input' eval '"$mxgen" check --files-from - "${quick[@]}" --json stdin.json <list'
+check 'a list from standard input gives the same report' cmp list.json stdin.json
+check 'a document may be named several times' exits 0 "$mxgen" check tree/a.mtlx tree @list "${quick[@]}" --json twice.json
+check 'a document that is named several times is checked once' says twice.json 'len(d), len({x["file"] for x in d})' '(4, 4)'
+check 'a list that does not exist is an error' exits 1 "$mxgen" check tree @none "${quick[@]}"
+check 'a document that does not exist fails the run' exits 1 "$mxgen" check tree/none.mtlx tree/a.mtlx "${quick[@]}"
+check 'a document that does not exist has an id' grep -q '\[file-missing\]' out
+check 'a document that does not exist leaves the others to be checked' grep -q '^1 passed, 1 failed (load 1)' out
 mkdir -p kept/locked && cp tree/a.mtlx kept && chmod 0 kept/locked
 if [ -r kept/locked ]; then
     skip 'root reads every folder'
 else
-    check 'a folder that cannot be read' exits 1 "$mxgen" check kept "${quick[@]}"
-    check 'is told' grep -q "cannot read the folder 'kept/locked'.*\[file-unreadable\]" err
+    check 'a folder that cannot be read fails the run' exits 1 "$mxgen" check kept "${quick[@]}"
+    check 'the error names the folder that cannot be read' grep -q "cannot read the folder 'kept/locked'.*\[file-unreadable\]" err
 fi
-check 'no limit of time' exits 0 "$mxgen" check tree/a.mtlx "${quick[@]}" --time-limit 0
+check 'a time limit of 0 is no limit' exits 0 "$mxgen" check tree/a.mtlx "${quick[@]}" --time-limit 0
 mkdir empty
-check 'nothing to check is a failure' exits 1 "$mxgen" check empty
-check 'with an id' grep -q '\[nothing-to-check\]' err
-check 'no argument' exits 2 "$mxgen" check
-check 'an unknown target' exits 2 "$mxgen" check tree -t gsls
-check 'an unknown option' exits 2 "$mxgen" check tree --jobbs 2
-check 'a bad option of generation' exits 2 "$mxgen" check tree --interface none
+check 'a run with nothing to check fails' exits 1 "$mxgen" check empty
+check 'a run with nothing to check has an id' grep -q '\[nothing-to-check\]' err
+check 'a run without arguments is wrong usage' exits 2 "$mxgen" check
+check 'an unknown target is wrong usage' exits 2 "$mxgen" check tree -t gsls
+check 'an unknown option is wrong usage' exits 2 "$mxgen" check tree --jobbs 2
+check 'a bad value of an option of generation is wrong usage' exits 2 "$mxgen" check tree --interface none
 
 # What is told
 sed 's/standard_surface/standard_surfase/' tree/a.mtlx >bad.mtlx
 sed 's/value="0.5"/value="abc"/' tree/a.mtlx >worse.mtlx
 head -n 5 tree/a.mtlx >half.mtlx
 echo '<materialx version="1.39"><surfacematerial name="M" type="material"/></materialx>' >shaderless.mtlx
-check 'a material without a shader' exits 1 "$mxgen" check shaderless.mtlx "${quick[@]}" --json shaderless.json
-check 'is an error of the document' says shaderless.json '(d[0]["stage"], [m["id"] for m in d[0]["messages"]])' "('validate', ['no-shader'])"
-check 'documents with errors' exits 1 "$mxgen" check bad.mtlx worse.mtlx half.mtlx tree "${quick[@]}" --json bad.json
-check 'do not stop the others' says bad.json '[x["status"] for x in d]' "['failed', 'failed', 'failed', 'passed', 'passed', 'passed', 'passed']"
-check 'the stage is told' says bad.json '[x["stage"] for x in d[:3]]' "['validate', 'validate', 'load']"
-check 'the place is told' says bad.json '(d[1]["messages"][0]["id"], d[1]["messages"][0]["line"])' "('bad-value', 4)"
-check 'the line is shown' grep -q 'value="abc"' out
-check 'a fault is told once' is "$(grep -c '^worse.mtlx:4:.*error' out)" 1
-check 'the summary is last' is "$(tail -n 1 out)" "$(grep 'passed, 3 failed' out)"
+check 'a material without a shader fails the run' exits 1 "$mxgen" check shaderless.mtlx "${quick[@]}" --json shaderless.json
+check 'a material without a shader is an error of its document' says shaderless.json '(d[0]["stage"], [m["id"] for m in d[0]["messages"]])' "('validate', ['no-shader'])"
+check 'documents with errors fail the run' exits 1 "$mxgen" check bad.mtlx worse.mtlx half.mtlx tree "${quick[@]}" --json bad.json
+check 'documents with errors do not stop the others' says bad.json '[x["status"] for x in d]' "['failed', 'failed', 'failed', 'passed', 'passed', 'passed', 'passed']"
+check 'the report has the stage of each failure' says bad.json '[x["stage"] for x in d[:3]]' "['validate', 'validate', 'load']"
+check 'the report has the place of each failure' says bad.json '(d[1]["messages"][0]["id"], d[1]["messages"][0]["line"])' "('bad-value', 4)"
+check 'the text shows the line of an error' grep -q 'value="abc"' out
+check 'a fault is printed once' is "$(grep -c '^worse.mtlx:4:.*error' out)" 1
+check 'the summary is the last line' is "$(tail -n 1 out)" "$(grep 'passed, 3 failed' out)"
 {
     echo '<materialx version="1.39">'
     for i in $(seq 30); do
@@ -74,33 +74,33 @@ check 'the summary is last' is "$(tail -n 1 out)" "$(grep 'passed, 3 failed' out
     done
     echo '</materialx>'
 } >many.mtlx # each output is a generation of its own
-check 'a document with many faults' exits 1 "$mxgen" check many.mtlx "${quick[@]}" --json many.json
-check 'tells 20' is "$(grep -c 'error:' out)" 20
-check 'and that there are more' grep -q '^note: more than 20 errors; the rest is not shown' out
-check 'which every shader refers to' says many.json 'all(s["messages"] for e in d[0]["elements"] for s in e["shaders"])' True
-check 'or all of them' eval 'exits 1 "$mxgen" check many.mtlx "${quick[@]}" --max-errors 0; is "$(grep -c "error:" out)" 30'
-check 'a generation, too' exits 1 "$mxgen" many.mtlx -o many_out
-check 'tells 20 of a document' is "$(grep -c 'error:' err)" 20
-check 'and that there are more' is "$(grep -c '^note: more than 20 errors' err)" 1
+check 'a document with many faults fails' exits 1 "$mxgen" check many.mtlx "${quick[@]}" --json many.json
+check '20 errors of a document are printed' is "$(grep -c 'error:' out)" 20
+check 'a note says that there are more errors' grep -q '^note: more than 20 errors; the rest is not shown' out
+check 'every shader of the report refers to the errors' says many.json 'all(s["messages"] for e in d[0]["elements"] for s in e["shaders"])' True
+check '--max-errors 0 prints all errors' eval 'exits 1 "$mxgen" check many.mtlx "${quick[@]}" --max-errors 0; is "$(grep -c "error:" out)" 30'
+check 'a generation of a document with many faults fails' exits 1 "$mxgen" many.mtlx -o many_out
+check 'a generation prints 20 errors of a document' is "$(grep -c 'error:' err)" 20
+check 'a generation notes once that there are more errors' is "$(grep -c '^note: more than 20 errors' err)" 1
 mkdir repeats && for i in $(seq 15); do echo "<constant name='c$i' type='float' nodeid='$i'/><output name='o$i' type='float' nodename='c$i'/>"; done |
     { echo '<materialx version="1.39">'; cat; echo '<constant name="c16" type="float" uid="1"/></materialx>'; } >repeats/a.mtlx
 sed 's/ nodeid=.[0-9]*.//' repeats/a.mtlx >clean.mtlx
-check 'a warning fifteen times' exits 0 "$mxgen" check repeats "${quick[@]}" --json repeats.json --html repeats.html
-check 'is told once' is "$(grep -c "'nodeid'" out)" 1
-check 'with the places of the others' eval 'grep -A3 "nodeid" out | grep -q "^note: and 14 more, in the lines 3, 4, 5, 6, 7, 8, 9, 10, …$"'
-check 'and another warning by itself' is "$(grep -c "'uid'" out)" 1
-check 'the page tells it once on each of 15 cards' is "$(grep -o "attribute 'nodeid'" repeats.html | wc -l)" 15
-check 'with the number of the others' is "$(grep -o 'and 14 more' repeats.html | wc -l)" 15
-check 'reports for programs have them all' says repeats.json 'sum("nodeid" in m["message"] for m in d[0]["messages"])' 15
-check 'a baseline without it' exits 0 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline repeats.base --update-baseline
+check 'a document with a warning in fifteen places passes' exits 0 "$mxgen" check repeats "${quick[@]}" --json repeats.json --html repeats.html
+check 'a warning in fifteen places is printed once' is "$(grep -c "'nodeid'" out)" 1
+check 'the printed warning names the lines of the others' eval 'grep -A3 "nodeid" out | grep -q "^note: and 14 more, in the lines 3, 4, 5, 6, 7, 8, 9, 10, …$"'
+check 'another warning is printed by itself' is "$(grep -c "'uid'" out)" 1
+check 'the page has a warning once on each of 15 cards' is "$(grep -o "attribute 'nodeid'" repeats.html | wc -l)" 15
+check 'each card of the page counts the other places' is "$(grep -o 'and 14 more' repeats.html | wc -l)" 15
+check 'reports for programs have a warning for each place' says repeats.json 'sum("nodeid" in m["message"] for m in d[0]["messages"])' 15
+check 'a baseline with the warning can be made' exits 0 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline repeats.base --update-baseline
 cp clean.mtlx repeats/a.mtlx
-check 'and one with it' eval 'exits 0 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline clean.base --update-baseline'
+check 'a baseline can be made of a document without the warning' eval 'exits 0 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline clean.base --update-baseline'
 sed "s/'float'\/><output/'float' nodeid='1'\/><output/" clean.mtlx >repeats/a.mtlx
-check 'fifteen new warnings' exits 1 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline clean.base --fail-on new-warnings
-check 'are one change' is "$(grep -c '^FAILED .*(new-warnings)' out)" 1
-check 'with the places of the others' grep -q '^note: and 14 more, in the lines 3' out
-check 'every element for every target' exits 0 "$mxgen" check tree/a.mtlx -t glsl,essl -t vulkan "${quick[@]}" --json targets.json
-check 'is in the report' says targets.json '[s["target"] for s in d[0]["elements"][0]["shaders"]]' "['glsl', 'essl', 'vulkan']"
+check 'fifteen new warnings fail a run that forbids new warnings' exits 1 "$mxgen" check repeats --root repeats "${quick[@]}" --baseline clean.base --fail-on new-warnings
+check 'fifteen new warnings are one change' is "$(grep -c '^FAILED .*(new-warnings)' out)" 1
+check 'the change names the lines of the others' grep -q '^note: and 14 more, in the lines 3' out
+check 'a run takes several targets' exits 0 "$mxgen" check tree/a.mtlx -t glsl,essl -t vulkan "${quick[@]}" --json targets.json
+check 'the report has every element for every target' says targets.json '[s["target"] for s in d[0]["elements"][0]["shaders"]]' "['glsl', 'essl', 'vulkan']"
 cat >foreign.mtlx <<'X'
 <materialx version="1.39">
   <nodedef name="ND_glow" node="glow"><output name="out" type="float"/></nodedef>
@@ -108,31 +108,31 @@ cat >foreign.mtlx <<'X'
   <glow name="g" type="float"/><output name="o" type="float" nodename="g"/>
 </materialx>
 X
-check 'a node for one target only' exits 1 "$mxgen" check foreign.mtlx -t glsl,osl,vulkan,hlsl --trust "${quick[@]}" --json foreign.json
-check 'is one error' is "$(grep -c 'error:' out)" 1
-check 'which says what there is' grep -q "'ND_glow' has no implementation for this target; it has implementations for: genosl \[missing-implementation\]" out
-check 'and for which targets it is' grep -q '^note: for the targets glsl, vulkan, hlsl$' out
-check 'in reports for programs, too' says foreign.json '[s.get("messages", []) for s in d[0]["elements"][0]["shaders"]]' '[[0], [], [0], [0]]'
-check 'for all targets of a run' exits 1 "$mxgen" check foreign.mtlx -t glsl,vulkan --trust "${quick[@]}"
-check 'nothing is noted' eval '! grep -q "note: for the target" out'
-check 'options of generation are passed on' exits 0 "$mxgen" check tree/a.mtlx --interface reduced "${quick[@]}" --json reduced.json
-check 'and make smaller shaders' eval \
+check 'a node that only one target has fails the others' exits 1 "$mxgen" check foreign.mtlx -t glsl,osl,vulkan,hlsl --trust "${quick[@]}" --json foreign.json
+check 'a node without an implementation is one error' is "$(grep -c 'error:' out)" 1
+check 'the error says for which targets there are implementations' grep -q "'ND_glow' has no implementation for this target; it has implementations for: genosl \[missing-implementation\]" out
+check 'a note says for which targets the node is missing' grep -q '^note: for the targets glsl, vulkan, hlsl$' out
+check 'reports for programs refer to the error from each target' says foreign.json '[s.get("messages", []) for s in d[0]["elements"][0]["shaders"]]' '[[0], [], [0], [0]]'
+check 'a node that no target of a run has fails the run' exits 1 "$mxgen" check foreign.mtlx -t glsl,vulkan --trust "${quick[@]}"
+check 'an error of all targets has no note about targets' eval '! grep -q "note: for the target" out'
+check 'options of generation are accepted' exits 0 "$mxgen" check tree/a.mtlx --interface reduced "${quick[@]}" --json reduced.json
+check 'a reduced interface makes smaller shaders' eval \
     '[ "$(json reduced.json "$uniforms")" -lt "$(json targets.json "$uniforms")" ]' # in materials.sh
-check 'text goes to stderr' exits 0 "$mxgen" check tree --json - "${quick[@]}"
-check 'where a report takes standard output' python3 -m json.tool out
+check 'a report can go to standard output' exits 0 "$mxgen" check tree --json - "${quick[@]}"
+check 'standard output has nothing but the report' python3 -m json.tool out
 check 'two runs give the same bytes' eval '"$mxgen" check tree -j1 --no-compile --json again.json && cmp tree.json again.json'
-check '--stats' exits 0 "$mxgen" check tree --stats "${quick[@]}"
-check 'tells the slowest' grep -q 'slowest documents' out
-check 'a folder that is not there' exits 1 "$mxgen" check tree "${quick[@]}" --json none/a.json
-check 'for a report is told' grep -q output-failed err
-check 'a full disk' exits 1 "$mxgen" check tree "${quick[@]}" --json /dev/full
-check 'is told' grep -q output-failed err
+check '--stats is accepted' exits 0 "$mxgen" check tree --stats "${quick[@]}"
+check '--stats lists the slowest documents' grep -q 'slowest documents' out
+check 'a report in a folder that does not exist fails the run' exits 1 "$mxgen" check tree "${quick[@]}" --json none/a.json
+check 'the error of a report in no folder is output-failed' grep -q output-failed err
+check 'a report on a full disk fails the run' exits 1 "$mxgen" check tree "${quick[@]}" --json /dev/full
+check 'the error of a full disk is output-failed' grep -q output-failed err
 compiled=
 if [ "$compiles" = yes ]; then
     compiled=1
-    check 'shaders are compiled' exits 0 "$mxgen" check tree/a.mtlx -t glsl,vulkan,essl --json compiled.json
-    check 'for all three' says compiled.json '[s["compiled"] and s["instructions"] > 500 for s in d[0]["elements"][0]["shaders"]]' '[True, True, True]'
-    check 'and it is told where instructions go' says compiled.json 'all(max(s["parts"]["instructions"].values()) > 50 for s in d[0]["elements"][0]["shaders"])' True
+    check 'shaders of three targets compile' exits 0 "$mxgen" check tree/a.mtlx -t glsl,vulkan,essl --json compiled.json
+    check 'the report counts the instructions of each compiled shader' says compiled.json '[s["compiled"] and s["instructions"] > 500 for s in d[0]["elements"][0]["shaders"]]' '[True, True, True]'
+    check 'the report tells where instructions go' says compiled.json 'all(max(s["parts"]["instructions"].values()) > 50 for s in d[0]["elements"][0]["shaders"])' True
 else
     skip 'glslang is not installed: nothing was compiled'
 fi
@@ -144,9 +144,9 @@ echo '<materialx version="1.39"><nodedef name="ND_own" node="own"><output name="
 while IFS='|' read -r file options; do
     cp "$file" before
     # shellcheck disable=SC2086
-    check "one file: check $options" exits 1 "$mxgen" check $options
-    check 'is told' grep -q '\[output-clash\]' err
-    check 'and kept' cmp "$file" before
+    check "a report may not replace an input: check $options" exits 1 "$mxgen" check $options
+    check 'the error of a replaced input is output-clash' grep -q '\[output-clash\]' err
+    check 'the input is unchanged' cmp "$file" before
 done <<'X'
 over.mtlx|over.mtlx --no-compile --json over.mtlx
 over.mtlx|over.mtlx --no-compile --sarif ./over.mtlx
@@ -162,18 +162,18 @@ over.mtlx|over.mtlx --no-compile --json y.json --sarif ./y.json
 shard.json|merge shard.json --json shard.json
 shard.json|merge shard.json --html ./shard.json
 X
-check 'and nothing is written' test ! -e y.json
+check 'a run that fails so writes no other report' test ! -e y.json
 
 # The schema of JSON reports
 schema=$here/../../docs/check.schema.json
 if python3 -c 'import jsonschema' 2>/dev/null; then
     for report in tree bad targets ${compiled:+compiled}; do
-        check "$report.json is as its schema says" validates "$schema" $report.json
+        check "$report.json follows its schema" validates "$schema" $report.json
     done
-    check 'with times too' exits 0 "$mxgen" check tree --stats "${quick[@]}" --json times.json
-    check 'it is as its schema says' validates "$schema" times.json
+    check 'a report with times can be made' exits 0 "$mxgen" check tree --stats "${quick[@]}" --json times.json
+    check 'a report with times follows its schema' validates "$schema" times.json
     sed 's/"status":"passed"/"status":"perhaps"/' tree.json >broken.json
-    check 'and what is not is found' eval '! validates "$schema" broken.json'
+    check 'the schema rejects a broken report' eval '! validates "$schema" broken.json'
 else
     skip 'python3-jsonschema is not installed: reports are not compared with the schema'
 fi
@@ -182,30 +182,30 @@ fi
 mkdir programs && cp "$mxgen" programs/mxgen && cp "$fake" programs/mxgen-check
 mkdir odd
 touch odd/{a,b_dies,c,d_hangs,e_slow,f,g_lies,h}.mtlx
-check 'a worker that dies, one that hangs and one that lies' exits 1 programs/mxgen check odd --time-limit 1 -j3 --json odd.json
-check 'fail their documents' says odd.json '[x.get("stage", "passed") for x in d]' \
+check 'a worker that dies, one that hangs and one that lies fail the run' exits 1 programs/mxgen check odd --time-limit 1 -j3 --json odd.json
+check 'each of them fails its own document only' says odd.json '[x.get("stage", "passed") for x in d]' \
     "['passed', 'crash', 'passed', 'timeout', 'passed', 'passed', 'crash', 'passed']"
-check 'with an id' says odd.json '[m["id"] for x in d for m in x["messages"]]' "['check-crashed', 'check-timeout', 'check-crashed']"
-check 'and say when' grep -q 'signal 9 (Killed) at: validate' out
+check 'each of them has an id' says odd.json '[m["id"] for x in d for m in x["messages"]]' "['check-crashed', 'check-timeout', 'check-crashed']"
+check 'the error of a worker that dies says at which step' grep -q 'signal 9 (Killed) at: validate' out
 mkdir many
 for i in $(seq 100 199); do
     case $i in 1?7) touch many/${i}_dies.mtlx ;; 150) touch many/${i}_hangs.mtlx ;; *) touch many/$i.mtlx ;; esac
 done
-check 'a worker that has several documents to do' exits 1 programs/mxgen check many --time-limit 1 -j1 --verbose --json many.json
-check 'loses none when it ends' says many.json '[i for i, x in enumerate(d) if x.get("stage")]' '[7, 17, 27, 37, 47, 50, 57, 67, 77, 87, 97]'
-check 'nor their order' says many.json '[int(x["file"].split("/")[1][:3]) for x in d] == list(range(100, 200))' True
-check 'nor their answers' is "$(grep -c '^passed' out)" 89
+check 'a worker that has several documents may die' exits 1 programs/mxgen check many --time-limit 1 -j1 --verbose --json many.json
+check 'a worker that dies loses only the document at hand' says many.json '[i for i, x in enumerate(d) if x.get("stage")]' '[7, 17, 27, 37, 47, 50, 57, 67, 77, 87, 97]'
+check 'documents stay in order when workers die' says many.json '[int(x["file"].split("/")[1][:3]) for x in d] == list(range(100, 200))' True
+check 'all answers arrive when workers die' is "$(grep -c '^passed' out)" 89
 name=$(printf 'x%.0s' $(seq 200)) deep=deep
 for i in $(seq 15); do deep=$deep/$name; done
 mkdir -p "$deep"
 touch "$deep"/{10..99}.mtlx
-check 'paths that fill a pipe' exits 0 programs/mxgen check deep -j1 --json deep.json
-check 'are all answered' says deep.json '{x["status"] for x in d}, len(d)' "({'passed'}, 90)"
+check 'paths may fill a pipe' exits 0 programs/mxgen check deep -j1 --json deep.json
+check 'all documents with long paths are answered' says deep.json '{x["status"] for x in d}, len(d)' "({'passed'}, 90)"
 rm programs/mxgen-check
-check 'no worker at all' exits 1 env PATH= programs/mxgen check tree
-check 'has an id' grep -q '\[check-failed\]' err
+check 'a run without a worker program fails' exits 1 env PATH= programs/mxgen check tree
+check 'a run without a worker program has an id' grep -q '\[check-failed\]' err
 printf '#!/bin/sh\nexit 3\n' >programs/mxgen-check && chmod +x programs/mxgen-check
-check 'a worker that cannot begin' exits 1 programs/mxgen check tree --json nothing.json
-check 'leaves no report' test ! -e nothing.json
+check 'a worker that cannot begin fails the run' exits 1 programs/mxgen check tree --json nothing.json
+check 'a worker that cannot begin leaves no report' test ! -e nothing.json
 
 finish check

@@ -6,6 +6,7 @@ mxgen=$(realpath "$1") compiles=$2
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../programs/common.sh"
 . "$here/materials.sh"
+messages=$(dirname "$mxgen")/docs/messages.md
 quick=(--no-compile -t glsl,essl)
 base=(--baseline base.json)
 
@@ -34,64 +35,64 @@ make_show() {
 
 # Only --update-baseline writes a baseline
 make_show
-check 'a baseline that is missing' exits 1 "$mxgen" check show "${quick[@]}" --baseline bsae.json --json none.json
-check 'is an error' grep -q "^error: there is no baseline 'bsae.json'; --update-baseline writes it \[baseline-missing\]" err
-check 'and makes no file' test ! -e bsae.json -a ! -e none.json
-check 'nothing is checked then' eval '! grep -q . out'
-check 'an update writes it, and accepts failures' exits 0 "$mxgen" check show "${quick[@]}" "${base[@]}" --update-baseline
-check 'which it shows' grep -q '^FAILED show/bad.mtlx (validate)' out
-check 'it has all documents by their names' says base.json '[x["name"] for x in d]' "['show/bad.mtlx', 'show/deep/near.mtlx', 'show/wood.mtlx']"
+check 'a baseline that is missing fails the run' exits 1 "$mxgen" check show "${quick[@]}" --baseline bsae.json --json none.json
+check 'the error says how to write a baseline' grep -q "^error: there is no baseline 'bsae.json'; --update-baseline writes it \[baseline-missing\]" err
+check 'a missing baseline leads to no file' test ! -e bsae.json -a ! -e none.json
+check 'nothing is checked without the baseline' eval '! grep -q . out'
+check 'an update writes the baseline and accepts failures' exits 0 "$mxgen" check show "${quick[@]}" "${base[@]}" --update-baseline
+check 'an update shows the failures' grep -q '^FAILED show/bad.mtlx (validate)' out
+check 'the baseline has all documents by their names' says base.json '[x["name"] for x in d]' "['show/bad.mtlx', 'show/deep/near.mtlx', 'show/wood.mtlx']"
 cp base.json kept.json
-check 'a run against it passes, known failures too' exits 0 "$mxgen" check show "${quick[@]}" "${base[@]}" --json same.json
-check 'and has no changes' is "$(kinds same.json) $(since)" '[] since the baseline: no change'
-check 'the known failure is in the summary' grep -q '^2 passed, 1 failed (validate 1; known 1), 1 error, 0 warnings$' out
-check 'and nowhere else' eval '! grep -q bad.mtlx out'
-check 'but for --verbose' eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --verbose >out; grep -q "^known show/bad.mtlx (validate)" out'
-check 'its messages are old ones' says same.json '[m["baselineState"] for m in d[0]["messages"]]' "['unchanged']"
+check 'a run against a baseline passes with known failures' exits 0 "$mxgen" check show "${quick[@]}" "${base[@]}" --json same.json
+check 'a run against its own baseline has no changes' is "$(kinds same.json) $(since)" '[] since the baseline: no change'
+check 'the summary counts the known failure' grep -q '^2 passed, 1 failed (validate 1; known 1), 1 error, 0 warnings$' out
+check 'a known failure is printed nowhere else' eval '! grep -q bad.mtlx out'
+check '--verbose prints a known failure' eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --verbose >out; grep -q "^known show/bad.mtlx (validate)" out'
+check 'messages of a known failure are unchanged' says same.json '[m["baselineState"] for m in d[0]["messages"]]' "['unchanged']"
 material Near 0.9 >show/deep/near.mtlx
-check 'a run that fails' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --fail-on values
-check 'leaves the baseline' cmp base.json kept.json
-check 'an update of a file that is none' eval 'cp show/bad.mtlx odd.json && exits 0 "$mxgen" check show "${quick[@]}" --baseline odd.json --update-baseline'
-check 'replaces it' says odd.json 'len(d)' 3
-check 'without an update such a file' exits 1 "$mxgen" check show "${quick[@]}" --baseline show/bad.mtlx
-check 'is an error' grep -q '\[report-unreadable\]' err
+check 'a changed value fails a run with --fail-on values' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --fail-on values
+check 'a run that fails leaves the baseline as it is' cmp base.json kept.json
+check 'an update may replace a file that is no baseline' eval 'cp show/bad.mtlx odd.json && exits 0 "$mxgen" check show "${quick[@]}" --baseline odd.json --update-baseline'
+check 'the replaced file is a baseline' says odd.json 'len(d)' 3
+check 'a run against a file that is no baseline fails' exits 1 "$mxgen" check show "${quick[@]}" --baseline show/bad.mtlx
+check 'the error is report-unreadable' grep -q '\[report-unreadable\]' err
 "$mxgen" check show "${quick[@]}" --shard 1/2 --json shard.json >/dev/null
-check 'so is a shard' eval 'exits 1 "$mxgen" check show "${quick[@]}" --baseline shard.json; grep -q "it is only a shard" err'
-check 'an update needs a name' exits 2 "$mxgen" check show --update-baseline
+check 'a shard is no baseline' eval 'exits 1 "$mxgen" check show "${quick[@]}" --baseline shard.json; grep -q "it is only a shard" err'
+check 'an update needs the name of the baseline' exits 2 "$mxgen" check show --update-baseline
 check '--fail-on needs a baseline' exits 2 "$mxgen" check show --fail-on size
-check 'a shard cannot write it' exits 2 "$mxgen" check show "${base[@]}" --update-baseline --shard 1/2
-check 'an unknown kind' exits 2 "$mxgen" check show "${base[@]}" --fail-on new-warning
-check 'has a suggestion' grep -q "no kind of change 'new-warning'; did you mean 'new-warnings'?" err
-check 'the help names the kinds' eval '"$mxgen" check --help >out; grep -q "new-warnings" out'
+check 'a shard cannot write a baseline' exits 2 "$mxgen" check show "${base[@]}" --update-baseline --shard 1/2
+check 'an unknown kind of change is wrong usage' exits 2 "$mxgen" check show "${base[@]}" --fail-on new-warning
+check 'an unknown kind of change has a suggestion' grep -q "no kind of change 'new-warning'; did you mean 'new-warnings'?" err
+check 'the help names the kinds of changes' eval '"$mxgen" check --help >out; grep -q "new-warnings" out'
 
 # Documents are matched by their path below the root
 make_show
-check 'from another folder, with absolute paths' eval '(mkdir -p elsewhere && cd elsewhere && exits 0 "$mxgen" check "$work/show" "${quick[@]}" --root .. --baseline ../base.json && since | grep "no change")'
-check 'from inside' eval '(cd show && exits 0 "$mxgen" check . "${quick[@]}" --root .. --baseline ../base.json && since | grep "no change"; rm -f out err check.log)'
-check 'through a link' eval 'ln -s . link && exits 0 "$mxgen" check "$work/link/show" "${quick[@]}" "${base[@]}" && since | grep "no change"'
-check 'a copy of the whole tree' eval 'mkdir copy && cp -r show base.json copy && (cd copy && exits 0 "$mxgen" check show "${quick[@]}" "${base[@]}" && since | grep "no change")'
-check 'a baseline does not depend on the folder' eval '(cd elsewhere && "$mxgen" check "$work/show" "${quick[@]}" --root "$work" --baseline far.json --update-baseline >/dev/null); cmp base.json elsewhere/far.json'
-check 'another root' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --root show
-check 'is an error' grep -Eq "^error: 'base.json' is the baseline of another run: none of its documents, such as 'show/[a-z/]*.mtlx', is below the root '$work/show': name its root with --root DIR \[baseline-other\]" err
-check 'a document outside the root' exits 1 "$mxgen" check show copy/show/bad.mtlx "${quick[@]}" --root show --baseline in.json --update-baseline
-check 'is an error' grep -q "^error: 'copy/show/bad.mtlx' is not below the root.*\[outside-root\]" err
-check 'and writes no baseline' test ! -e in.json
-check 'a root that is not there' exits 1 "$mxgen" check show "${quick[@]}" --root none
-check 'other targets' exits 1 "$mxgen" check show --no-compile -t essl "${base[@]}"
-check 'are an error' grep -q "it has the targets glsl,essl: use --target glsl,essl \[baseline-other\]" err
-check 'in another order they are the same' exits 0 "$mxgen" check show --no-compile -t essl,glsl "${base[@]}"
-check 'shaders that are compiled' exits 1 "$mxgen" check show -t glsl,essl "${base[@]}"
-check 'are another run' grep -q 'its shaders were not compiled: use --no-compile \[baseline-other\]' err
-check 'an update takes other targets' exits 0 "$mxgen" check show --no-compile -t essl --baseline odd.json --update-baseline
-check 'a part of the documents' exits 0 "$mxgen" check show/deep "${quick[@]}" "${base[@]}" --json part.json
-check 'lacks the others' is "$(kinds part.json)" "[('bad.mtlx', 'gone'), ('wood.mtlx', 'gone')]"
+check 'a baseline holds from another folder and with absolute paths' eval '(mkdir -p elsewhere && cd elsewhere && exits 0 "$mxgen" check "$work/show" "${quick[@]}" --root .. --baseline ../base.json && since | grep "no change")'
+check 'a baseline holds from inside of the folder' eval '(cd show && exits 0 "$mxgen" check . "${quick[@]}" --root .. --baseline ../base.json && since | grep "no change"; rm -f out err check.log)'
+check 'a baseline holds through a link' eval 'ln -s . link && exits 0 "$mxgen" check "$work/link/show" "${quick[@]}" "${base[@]}" && since | grep "no change"'
+check 'a baseline holds for a copy of the whole tree' eval 'mkdir copy && cp -r show base.json copy && (cd copy && exits 0 "$mxgen" check show "${quick[@]}" "${base[@]}" && since | grep "no change")'
+check 'a baseline does not depend on the folder of the run' eval '(cd elsewhere && "$mxgen" check "$work/show" "${quick[@]}" --root "$work" --baseline far.json --update-baseline >/dev/null); cmp base.json elsewhere/far.json'
+check 'a run with another root fails' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --root show
+check 'the error names the root of the baseline' grep -Eq "^error: 'base.json' is the baseline of another run: none of its documents, such as 'show/[a-z/]*.mtlx', is below the root '$work/show': name its root with --root DIR \[baseline-other\]" err
+check 'a document outside the root fails the run' exits 1 "$mxgen" check show copy/show/bad.mtlx "${quick[@]}" --root show --baseline in.json --update-baseline
+check 'the error is outside-root' grep -q "^error: 'copy/show/bad.mtlx' is not below the root.*\[outside-root\]" err
+check 'a document outside the root leads to no baseline' test ! -e in.json
+check 'a root that does not exist fails the run' exits 1 "$mxgen" check show "${quick[@]}" --root none
+check 'a run with other targets fails' exits 1 "$mxgen" check show --no-compile -t essl "${base[@]}"
+check 'the error names the targets of the baseline' grep -q "it has the targets glsl,essl: use --target glsl,essl \[baseline-other\]" err
+check 'the order of targets does not matter' exits 0 "$mxgen" check show --no-compile -t essl,glsl "${base[@]}"
+check 'a run that compiles fails against a baseline without compiling' exits 1 "$mxgen" check show -t glsl,essl "${base[@]}"
+check 'the error says that shaders were not compiled' grep -q 'its shaders were not compiled: use --no-compile \[baseline-other\]' err
+check 'an update accepts other targets' exits 0 "$mxgen" check show --no-compile -t essl --baseline odd.json --update-baseline
+check 'a run may check a part of the documents' exits 0 "$mxgen" check show/deep "${quick[@]}" "${base[@]}" --json part.json
+check 'the documents that the run lacks are gone' is "$(kinds part.json)" "[('bad.mtlx', 'gone'), ('wood.mtlx', 'gone')]"
 
 # Every change is told, and each kind fails on demand. change KIND... : the kinds, all that fail the run and all others
 # changed WHAT EXPECTED KIND...: the kinds of changes, and that each of the given kinds fails a run, but no other does
 changed() {
     local what=$1 expected=$2 all=(fixed gone-errors new-warnings gone-warnings topology size values textures new gone)
     shift 2
-    check "$what" eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --json c.json >out 2>err; is "$(kinds c.json)" "$expected"'
+    check "the report has the kinds of changes of $what" eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --json c.json >out 2>err; is "$(kinds c.json)" "$expected"'
     for kind in "${all[@]}"; do
         case " $* " in
         *" $kind "*) check "$what: --fail-on $kind" exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --fail-on "$kind" ;;
@@ -117,7 +118,7 @@ changed 'a material of another name' "[('near.mtlx', 'new'), ('near.mtlx', 'gone
 material Bad >show/bad.mtlx
 changed 'a failure that ends' "[('bad.mtlx', 'fixed'), ('bad.mtlx', 'gone-errors'), ('bad.mtlx', 'fixed'), ('bad.mtlx', 'fixed')]" fixed gone-errors
 sed -i '/<input name="surfaceshader"/d' show/deep/near.mtlx
-check 'a deleted shader line is told' eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --fail-on gone >out; [ $? -eq 1 ] && grep -q "^FAILED show/deep/near.mtlx" out'
+check '--fail-on gone fails a shader that is gone' eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --fail-on gone >out; [ $? -eq 1 ] && grep -q "^FAILED show/deep/near.mtlx" out'
 make_show
 printf '%s\n' '2i <!-- a comment -->' | sed -i -f - show/bad.mtlx
 changed 'a known error in another line' '[]'
@@ -132,8 +133,8 @@ sed 's|<standard_surface name|<image name="K" type="color3"><input name="file" t
 cp wood show/wood.mtlx
 "$mxgen" check show "${quick[@]}" --baseline twice.json --update-baseline >/dev/null
 cp wood2 show/wood.mtlx
-check 'a message that is there twice' eval '"$mxgen" check show "${quick[@]}" --baseline twice.json --json two.json >out; [[ $(kinds two.json) == *new-warnings* ]]'
-check 'is new once' says two.json 'sorted(m["baselineState"] for m in d[2]["messages"] if m["id"] == "missing-texture")' "['new', 'unchanged']"
+check 'a message that appears a second time is a new warning' eval '"$mxgen" check show "${quick[@]}" --baseline twice.json --json two.json >out; [[ $(kinds two.json) == *new-warnings* ]]'
+check 'only one of two equal messages is new' says two.json 'sorted(m["baselineState"] for m in d[2]["messages"] if m["id"] == "missing-texture")' "['new', 'unchanged']"
 nonsense() { # COUNT: a document with as many errors
     echo '<materialx version="1.39">'
     for i in $(seq "$1"); do echo "<nonsense$i name='n$i' type='float'/>"; done
@@ -142,15 +143,15 @@ nonsense() { # COUNT: a document with as many errors
 nonsense 30 >show/many.mtlx
 "$mxgen" check show "${quick[@]}" --baseline many.json --update-baseline >/dev/null
 nonsense 31 >show/many.mtlx
-check 'an error beyond --max-errors' exits 1 "$mxgen" check show "${quick[@]}" --baseline many.json
-check 'is counted' grep -Eq '^FAILED show/many.mtlx \(new-errors\): [0-9]+ errors beyond --max-errors, before [0-9]+' out
+check 'an error beyond --max-errors fails the run' exits 1 "$mxgen" check show "${quick[@]}" --baseline many.json
+check 'errors beyond --max-errors are counted' grep -Eq '^FAILED show/many.mtlx \(new-errors\): [0-9]+ errors beyond --max-errors, before [0-9]+' out
 make_show
 
 # The sizes of shaders
-check 'other options' exits 0 "$mxgen" check show/deep "${quick[@]}" --interface reduced "${base[@]}"
-check 'make another shader' grep -q "(topology) 'Near' for glsl: another shader" out
-check 'of another size' grep -Eq "\(size\) 'Near' for essl: [0-9]+ bytes of source, before [0-9]+ \(-[0-9.]+ %\)" out
-check 'which fails on demand' exits 1 "$mxgen" check show/deep "${quick[@]}" --interface reduced "${base[@]}" --fail-on size,new
+check 'a run with other options passes' exits 0 "$mxgen" check show/deep "${quick[@]}" --interface reduced "${base[@]}"
+check 'another shader is a change of topology' grep -q "(topology) 'Near' for glsl: another shader" out
+check 'another length of the source is a change of size' grep -Eq "\(size\) 'Near' for essl: [0-9]+ bytes of source, before [0-9]+ \(-[0-9.]+ %\)" out
+check '--fail-on size fails a change of size' exits 1 "$mxgen" check show/deep "${quick[@]}" --interface reduced "${base[@]}" --fail-on size,new
 
 # A machine without a compiler
 if [ "$compiles" = yes ]; then
@@ -158,8 +159,8 @@ if [ "$compiles" = yes ]; then
     sed 's/"compiled":false/"compiled":true/g' base.json | sed 's/"compiles":false/"compiles":true/; s/"targets":\["glsl","essl"\]/"targets":["osl"]/; s/"glsl"/"osl"/g' >osl.json
     "$mxgen" check show -t osl --json osl_now.json >/dev/null
     if [ "$(json osl_now.json 'd[1]["elements"][0]["shaders"][0]["compiled"]')" = False ]; then
-        check 'a shader that no compiler sees any more' exits 1 "$mxgen" check show -t osl --baseline osl.json
-        check 'is told' grep -q '(uncompiled) .* for osl: was compiled, but no compiler is installed now' out
+        check 'a shader that had a compiler and has none fails the run' exits 1 "$mxgen" check show -t osl --baseline osl.json
+        check 'the change is uncompiled' grep -q '(uncompiled) .* for osl: was compiled, but no compiler is installed now' out
     else
         skip 'oslc is installed: every target has a compiler'
     fi
@@ -171,51 +172,51 @@ fi
 material Near rough >show/deep/near.mtlx
 material Aaa >show/aaa.mtlx
 rm show/wood.mtlx
-check 'a run with changes of all sorts' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --html all.html --sarif all.sarif --junit all.xml --json all.json
-check 'tells failures first' is "$(grep -n '^changed' out | head -n 1 | cut -d: -f1)" "$(($(grep -n '^FAILED' out | tail -n 1 | cut -d: -f1) + 1))"
-check 'with the source of a new error' is "$(grep -A 2 '(new-errors)' out | tail -n 1 | tr -d ' ')" '^~~~~'
-check 'then the rest' eval 'grep -q "^changed show/aaa.mtlx (new): is new" out && grep -q "^changed show/wood.mtlx (gone): is in the baseline, but not in this run" out'
-check 'and one summary' is "$(tail -n 3 out)" '3 documents, 3 elements, 6 shaders
+check 'a run with changes of all sorts fails' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --html all.html --sarif all.sarif --junit all.xml --json all.json
+check 'failures are printed before other changes' is "$(grep -n '^changed' out | head -n 1 | cut -d: -f1)" "$(($(grep -n '^FAILED' out | tail -n 1 | cut -d: -f1) + 1))"
+check 'a new error is printed with its source' is "$(grep -A 2 '(new-errors)' out | tail -n 1 | tr -d ' ')" '^~~~~'
+check 'the other changes are printed after the failures' eval 'grep -q "^changed show/aaa.mtlx (new): is new" out && grep -q "^changed show/wood.mtlx (gone): is in the baseline, but not in this run" out'
+check 'the summary is printed last' is "$(tail -n 3 out)" '3 documents, 3 elements, 6 shaders
 since the baseline: 1 document fails (fails 1, new-errors 1); others: new 1, gone 1
 1 passed, 2 failed (validate 2; known 1), 2 errors, 0 warnings'
-check 'JUnit fails what is gone on demand' eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --fail-on gone --junit gone.xml >out; grep -A 1 "<testsuite name=\"show/wood.mtlx\" tests=\"1\" failures=\"1\"" gone.xml | grep "<failure type=\"gone\""'
-check 'and skips it otherwise' grep -q 'classname="show/wood.mtlx" name="document"><skipped message="gone: ' all.xml
-check 'as it does a known failure' grep -q 'classname="show/bad.mtlx" name="document"><skipped message="known failure: ' all.xml
-check 'without a temporary folder the text is complete' eval 'TMPDIR=none "$mxgen" check show "${quick[@]}" "${base[@]}" >unsorted; sort unsorted >a; "$mxgen" check show "${quick[@]}" "${base[@]}" | sort >b; cmp a b'
-check '--quiet' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --quiet
-check 'leaves out what does not fail' eval '! grep -q "^changed" out && grep -q "^FAILED show/deep/near.mtlx (fails)" out'
-check 'but not the summary' is "$(tail -n 3 out | head -n 1)" '3 documents, 3 elements, 6 shaders'
-check 'a baseline is renewed' exits 0 "$mxgen" check show "${quick[@]}" --baseline new.json --update-baseline
-check 'and holds' exits 0 "$mxgen" check show "${quick[@]}" --baseline new.json --fail-on all
+check 'JUnit fails a document that is gone with --fail-on gone' eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --fail-on gone --junit gone.xml >out; grep -A 1 "<testsuite name=\"show/wood.mtlx\" tests=\"1\" failures=\"1\"" gone.xml | grep "<failure type=\"gone\""'
+check 'JUnit skips a document that is gone' grep -q 'classname="show/wood.mtlx" name="document"><skipped message="gone: ' all.xml
+check 'JUnit skips a known failure' grep -q 'classname="show/bad.mtlx" name="document"><skipped message="known failure: ' all.xml
+check 'the text is complete without a temporary folder' eval 'TMPDIR=none "$mxgen" check show "${quick[@]}" "${base[@]}" >unsorted; sort unsorted >a; "$mxgen" check show "${quick[@]}" "${base[@]}" | sort >b; cmp a b'
+check 'a run with --quiet fails as without' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --quiet
+check '--quiet prints failures only' eval '! grep -q "^changed" out && grep -q "^FAILED show/deep/near.mtlx (fails)" out'
+check '--quiet prints the summary' is "$(tail -n 3 out | head -n 1)" '3 documents, 3 elements, 6 shaders'
+check 'a baseline can be renewed' exits 0 "$mxgen" check show "${quick[@]}" --baseline new.json --update-baseline
+check 'a renewed baseline has no changes' exits 0 "$mxgen" check show "${quick[@]}" --baseline new.json --fail-on all
 
 # The same from shards
 shards() { for k in 1 2 3; do "$mxgen" check show "${quick[@]}" --shard $k/3 --json shard$k.json >/dev/null; done; }
 shards
 merge() { "$mxgen" check merge shard?.json "${base[@]}" "$@"; }
 cp base.json kept.json
-check 'a merge compares' exits 1 merge --html m.html --sarif m.sarif --junit m.xml --json m.json
-check 'and leaves the baseline' cmp base.json kept.json
-for kind in sarif xml json; do check "with the report of one run: $kind" cmp m.$kind all.$kind; done
-check 'as does the page' eval 'diff <(sed "s/<time>[^<]*//" m.html) <(sed "s/<time>[^<]*//" all.html)'
-check 'a merge against a baseline that is missing' eval 'exits 1 "$mxgen" check merge shard?.json --baseline bsae.json && grep -q baseline-missing err && [ ! -e bsae.json ]'
-check 'a merge that fails on a kind' eval 'material Near >show/deep/near.mtlx; shards; exits 0 merge && exits 1 merge --fail-on gone'
-check 'a merge writes a baseline' eval 'exits 0 "$mxgen" check merge shard?.json --baseline merged.json --update-baseline'
-check 'that of one run' eval '"$mxgen" check show "${quick[@]}" --baseline one.json --update-baseline >/dev/null; cmp merged.json one.json'
+check 'a merge compares with a baseline' exits 1 merge --html m.html --sarif m.sarif --junit m.xml --json m.json
+check 'a merge leaves the baseline as it is' cmp base.json kept.json
+for kind in sarif xml json; do check "a merge gives the report of one run: $kind" cmp m.$kind all.$kind; done
+check 'a merge gives the page of one run' eval 'diff <(sed "s/<time>[^<]*//" m.html) <(sed "s/<time>[^<]*//" all.html)'
+check 'a merge against a missing baseline fails' eval 'exits 1 "$mxgen" check merge shard?.json --baseline bsae.json && grep -q baseline-missing err && [ ! -e bsae.json ]'
+check 'a merge fails with --fail-on' eval 'material Near >show/deep/near.mtlx; shards; exits 0 merge && exits 1 merge --fail-on gone'
+check 'a merge can write a baseline' eval 'exits 0 "$mxgen" check merge shard?.json --baseline merged.json --update-baseline'
+check 'a merge writes the baseline of one run' eval '"$mxgen" check show "${quick[@]}" --baseline one.json --update-baseline >/dev/null; cmp merged.json one.json'
 for k in 1 2; do "$mxgen" check show "${quick[@]}" "${base[@]}" --shard $k/2 --json compared$k.json >/dev/null; done
-check 'shards that were compared' exits 1 "$mxgen" check merge compared?.json
-check 'need the baseline again' grep -q "is compared with a baseline, which the merge needs too.*\[baseline-missing\]" err
-check 'with it they are compared as a whole' eval '"$mxgen" check merge compared?.json "${base[@]}" --json whole.json >/dev/null; "$mxgen" check show "${quick[@]}" "${base[@]}" --json single.json >/dev/null; cmp whole.json single.json'
+check 'a merge of compared shards fails without the baseline' exits 1 "$mxgen" check merge compared?.json
+check 'the error says that the merge needs the baseline' grep -q "is compared with a baseline, which the merge needs too.*\[baseline-missing\]" err
+check 'a merge with the baseline gives the report of one run' eval '"$mxgen" check merge compared?.json "${base[@]}" --json whole.json >/dev/null; "$mxgen" check show "${quick[@]}" "${base[@]}" --json single.json >/dev/null; cmp whole.json single.json'
 (cd show && for k in 1 2; do "$mxgen" check . "${quick[@]}" --shard $k/2 --json ../root$k.json >/dev/null; done)
-check 'shards of another root' exits 1 "$mxgen" check merge root?.json "${base[@]}"
-check 'are an error' grep -q '\[baseline-other\]' err
+check 'shards of another root fail the merge' exits 1 "$mxgen" check merge root?.json "${base[@]}"
+check 'the error is baseline-other' grep -q '\[baseline-other\]' err
 
 if python3 -c 'import jsonschema' 2>/dev/null; then
     for report in base all c two merged compared1; do
-        check "$report.json is as its schema says" validates "$here/../../docs/check.schema.json" $report.json
+        check "$report.json follows its schema" validates "$here/../../docs/check.schema.json" $report.json
     done
 else
     skip 'python3-jsonschema is not installed: reports are not compared with the schema'
 fi
-check 'all reports tell the same' "$here/reports.py" all.json all.sarif all.xml all.html
+check 'all reports have the same content' "$here/reports.py" all.json all.sarif all.xml all.html "$messages"
 
 finish check-gate

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the reports of one run of mxgen check in all formats and compares their contents. Arguments: JSON, SARIF, JUnit, HTML."""
+"""Reads the reports of one run of mxgen check in all formats and compares their contents. Arguments: JSON, SARIF, JUnit, HTML,
+messages.md."""
 import html.parser
 import json
 import pathlib
@@ -12,7 +13,7 @@ import xml.etree.ElementTree
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
 
-EXPLANATIONS = (pathlib.Path(__file__).resolve().parents[2] / "docs/messages.md").read_text(encoding="utf-8")
+EXPLANATIONS = pathlib.Path(sys.argv[5]).read_text(encoding="utf-8")
 OWN_STAGES = ("load", "validate", "render", "crash", "timeout")
 REASONS = ("cannot be loaded", "does not match the node library", "cannot generate the shader", "rejects the shader", "cannot be rendered",
            "exceeds its budget", "worker crashed", "takes too long")

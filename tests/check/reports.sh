@@ -5,6 +5,7 @@ mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../programs/common.sh"
 . "$here/materials.sh"
+messages=$(dirname "$mxgen")/docs/messages.md
 
 mkdir show
 material Good >'show/a good.mtlx'
@@ -14,18 +15,18 @@ material Odd | sed 's/standard_surface/standard_surfase/' >show/odd.mtlx
 material Warned | sed 's/specular_roughness/specular_rough/' >show/warned.mtlx
 echo '<materialx version="1.39"><nodedef name="ND_x" node="x"><output name="out" type="float"/></nodedef></materialx>' >show/library.mtlx
 
-check 'all reports at once' exits 1 "$mxgen" check show --no-compile -t glsl,essl --json r.json --sarif r.sarif --junit r.xml --html r.html
-check 'the run had what they must tell' says r.json '[x.get("stage", "passed") for x in d]' \
+check 'all reports can be written at once' exits 1 "$mxgen" check show --no-compile -t glsl,essl --json r.json --sarif r.sarif --junit r.xml --html r.html
+check 'the run has documents of every kind' says r.json '[x.get("stage", "passed") for x in d]' \
     "['passed', 'load', 'passed', 'validate', 'passed', 'validate']"
-check 'they tell the same' "$here/reports.py" r.json r.sarif r.xml r.html
-check 'two reports in one file' exits 1 "$mxgen" check show --no-compile --json one.json --sarif one.json
-check 'are told' grep -q '\[output-clash\]' err
-check 'or on standard output' exits 2 "$mxgen" check show --no-compile --json - --html -
-check 'of a merge, too' exits 2 "$mxgen" check merge r.json --json - --html -
-check 'but for nobody' exits 1 "$mxgen" check show --no-compile --json /dev/null --sarif /dev/null
-check 'with times too' exits 1 "$mxgen" check show --no-compile --stats --json t.json --sarif t.sarif --junit t.xml --html t.html
-check 'which JUnit has' grep -q '<testcase [^>]* time="[0-9.]*"' t.xml
-check 'they still tell the same' "$here/reports.py" t.json t.sarif t.xml t.html
+check 'all reports have the same content' "$here/reports.py" r.json r.sarif r.xml r.html "$messages"
+check 'two reports in one file fail the run' exits 1 "$mxgen" check show --no-compile --json one.json --sarif one.json
+check 'the error is output-clash' grep -q '\[output-clash\]' err
+check 'two reports on standard output are wrong usage' exits 2 "$mxgen" check show --no-compile --json - --html -
+check 'two reports of a merge on standard output are wrong usage' exits 2 "$mxgen" check merge r.json --json - --html -
+check 'two reports may go to /dev/null' exits 1 "$mxgen" check show --no-compile --json /dev/null --sarif /dev/null
+check 'all reports can have times' exits 1 "$mxgen" check show --no-compile --stats --json t.json --sarif t.sarif --junit t.xml --html t.html
+check 'JUnit has the times' grep -q '<testcase [^>]* time="[0-9.]*"' t.xml
+check 'all reports with times have the same content' "$here/reports.py" t.json t.sarif t.xml t.html "$messages"
 
 # Messages with notes
 mkdir notes
@@ -36,17 +37,17 @@ cat >notes/twice.mtlx <<'END'
   <output name="out" type="float" nodename="a"/>
 </materialx>
 END
-check 'a document with notes' exits 0 "$mxgen" check notes --no-compile --json n.json --sarif n.sarif --junit n.xml --html n.html
-check 'has them in its record' says n.json '[n["line"] for m in d[0]["messages"] for n in m["notes"]]' '[2]'
-check 'and in all reports' "$here/reports.py" n.json n.sarif n.xml n.html
+check 'a document with notes passes' exits 0 "$mxgen" check notes --no-compile --json n.json --sarif n.sarif --junit n.xml --html n.html
+check 'the record of a message has its notes' says n.json '[n["line"] for m in d[0]["messages"] for n in m["notes"]]' '[2]'
+check 'all reports have the same notes' "$here/reports.py" n.json n.sarif n.xml n.html "$messages"
 
 # The date of the page, and a temporary folder that is not there
-check 'the date can be fixed' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html a.html >out; grep -q "<time>2023-11-14 22:13 UTC</time>" a.html'
-check 'then the page is the same' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html b.html >out; cmp a.html b.html'
+check 'SOURCE_DATE_EPOCH fixes the date of the page' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html a.html >out; grep -q "<time>2023-11-14 22:13 UTC</time>" a.html'
+check 'a page of a fixed date is the same each time' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html b.html >out; cmp a.html b.html'
 for kind in html junit; do
-    check "no temporary folder for --$kind" exits 1 env TMPDIR=none "$mxgen" check show/warned.mtlx --no-compile --$kind none.$kind
-    check 'is an error' grep -q "^error: cannot write 'none.$kind': No such file or directory \[output-failed\]" err
-    check 'and leaves no report' test ! -e none.$kind
+    check "a report as $kind fails without a temporary folder" exits 1 env TMPDIR=none "$mxgen" check show/warned.mtlx --no-compile --$kind none.$kind
+    check 'the error names the report' grep -q "^error: cannot write 'none.$kind': No such file or directory \[output-failed\]" err
+    check 'a report that fails leaves no file' test ! -e none.$kind
 done
 
 # The page in a browser: cards that are shown after a filter, and their order
@@ -61,10 +62,10 @@ shown() {
         grep -o '<article [^>]*>\(<img[^>]*>\)\?<h2>[^<]*' | grep -v 'hidden' | sed 's/.*<h2>//; s/ $//' | paste -sd ' '
 }
 if [ -n "$browser" ]; then
-    check 'the page shows all' is "$(shown '')" 'document Odd Wrong Good document Warned'
-    check 'filters by status' is "$(shown status=failed)" 'document Odd Wrong'
-    check 'filters by text' is "$(shown filter=show/war)" 'Warned'
-    check 'sorts by size' is "$(shown order=sourceBytes)" "$(json r.json '
+    check 'the page shows all cards' is "$(shown '')" 'document Odd Wrong Good document Warned'
+    check 'the page filters by status' is "$(shown status=failed)" 'document Odd Wrong'
+    check 'the page filters by text' is "$(shown filter=show/war)" 'Warned'
+    check 'the page sorts by size' is "$(shown order=sourceBytes)" "$(json r.json '
         " ".join(e["path"] for x, e in sorted(((x, e) for x in d for e in x["elements"] or [{"path": "document", "shaders": []}]),
                                               key=lambda pair: (-max((s.get("sourceBytes", 0) for s in pair[1]["shaders"]), default=0),
                                                                 pair[0]["status"] == "passed")))')"
@@ -83,7 +84,7 @@ if [ -n "$browser" ]; then
     "$mxgen" check look "${targets[@]}" --baseline look.json --html look.html >out
     "$here/layout.py" instrument look.html measured.html
     check 'the page is drawn' eval 'browse --screenshot="$work/look.png" "file://$work/look.html" && [ -s look.png ]'
-    check 'nothing is cut off, carets stand under what they point at' eval 'browse --dump-dom "file://$work/measured.html" >dom.html && "$here/layout.py" verify dom.html look.png'
+    check 'nothing is cut off and carets stand under what they point at' eval 'browse --dump-dom "file://$work/measured.html" >dom.html && "$here/layout.py" verify dom.html look.png'
 else
     skip 'there is no Chromium: the page was read by a parser only'
 fi

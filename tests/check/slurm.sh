@@ -107,14 +107,14 @@ merged() { # CODE JOB
 
 # The example as it is
 fresh
-check 'an array and a merge against the baseline' merged 0 "$(submit 1-3)"
-check 'whose failure is known' grep -q '^9 passed, 1 failed (validate 1; known 1)' merge.log
-check 'is the report of one run' eval '"$mxgen" check merge shards/*.json --json plain.json >/dev/null; cmp plain.json none.json'
+check 'an array is merged against the baseline' merged 0 "$(submit 1-3)"
+check 'the summary counts the known failure' grep -q '^9 passed, 1 failed (validate 1; known 1)' merge.log
+check 'the merge is the report of one run' eval '"$mxgen" check merge shards/*.json --json plain.json >/dev/null; cmp plain.json none.json'
 material M3 rough >show/m3.mtlx
 fresh
-check 'a new failure' merged 1 "$(submit 1-3)"
-check 'fails the merge' grep -q '^FAILED show/m3.mtlx (fails)' merge.log
-check 'which has a report' grep -q '<article class="failed fails' report.html
+check 'a new failure fails the merge' merged 1 "$(submit 1-3)"
+check 'the merge names the failure' grep -q '^FAILED show/m3.mtlx (fails)' merge.log
+check 'the merge of a failure has a report' grep -q '<article class="failed fails' report.html
 material M3 0.3 >show/m3.mtlx
 
 # A task that is killed: its shard is missing, is named, and runs again alone
@@ -123,18 +123,18 @@ array=$work/held.sbatch
 fresh && touch hold
 job=$(submit 1-3)
 check 'a task begins' until_ begins 2 1
-check 'and is killed' scancel --signal=KILL "${job}_2"
+check 'the task is killed' scancel --signal=KILL "${job}_2"
 rm hold
-check 'the merge does not pass' merged 1 "$job"
-check 'but names its shard' grep -q '^error: shard 2 of 3 is missing \[shard-missing\]' merge.log
-check 'and leaves no report' test ! -e report.json
-check 'the shard runs again' merged 0 "$(submit 2)"
-check 'and completes the report' eval '"$mxgen" check merge shards/*.json --json plain.json >/dev/null; cmp plain.json none.json'
+check 'the merge does not pass without the task' merged 1 "$job"
+check 'the merge names the missing shard' grep -q '^error: shard 2 of 3 is missing \[shard-missing\]' merge.log
+check 'the failed merge leaves no report' test ! -e report.json
+check 'the missing shard runs again' merged 0 "$(submit 2)"
+check 'the report is complete then' eval '"$mxgen" check merge shards/*.json --json plain.json >/dev/null; cmp plain.json none.json'
 
 # A node that dies with its task: Slurm runs the task again
 fresh && touch hold
 job=$(submit 1-3)
-check 'another task begins' until_ begins 2 1
+check 'a task of another job begins' until_ begins 2 1
 task=$(sed -n 's/^2 //p' begun)
 step=$(sed -n 's/^PPid:\t//p' "/proc/$task/status") # Slurm's process above the task, which would tell of its end
 kill -9 "$node" "$step" "$task"
@@ -142,8 +142,8 @@ wait "$node" 2>/dev/null
 rm hold
 check 'the controller misses the node' until_ eval '! is_idle && sinfo -h -o %T | grep -q down'
 start_node
-check 'the task begins again' until_ begins 2 2
-check 'the merge passes' merged 0 "$job"
-check 'with the same report' eval '"$mxgen" check merge shards/*.json --json plain.json >/dev/null; cmp plain.json none.json'
+check 'the task of the node begins again' until_ begins 2 2
+check 'the merge of that job passes' merged 0 "$job"
+check 'the merge of that job is the report of one run' eval '"$mxgen" check merge shards/*.json --json plain.json >/dev/null; cmp plain.json none.json'
 
 finish check-slurm

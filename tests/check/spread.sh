@@ -27,33 +27,33 @@ check_show() { "$mxgen" check show --no-compile --cache cache "$@" >out 2>err; }
 unchanged() { sed -n 's/.*; \([0-9]*\) documents\{0,1\} unchanged.*/\1/p' out; }
 
 # The cache
-check 'a first run' exits 1 "$mxgen" check show --no-compile --cache cache --json first.json
-check 'finds nothing in the cache' is "$(unchanged)" ''
-check 'a second run' exits 1 "$mxgen" check show --no-compile --cache cache --json second.json
-check 'finds every document' is "$(unchanged)" 15
-check 'and tells the same' cmp first.json second.json
+check 'a first run fills the cache' exits 1 "$mxgen" check show --no-compile --cache cache --json first.json
+check 'a first run finds nothing in the cache' is "$(unchanged)" ''
+check 'a second run reads the cache' exits 1 "$mxgen" check show --no-compile --cache cache --json second.json
+check 'a second run finds every document in the cache' is "$(unchanged)" 15
+check 'both runs give the same report' cmp first.json second.json
 material M1 0.99 >show/m1.mtlx
 check_show
 check 'a document that changed is checked again' is "$(unchanged)" 14
 touch -d '1 hour ago' show/part.mtlx && check_show
-check 'a time that changed is nothing' is "$(unchanged)" 15
+check 'a document with another time only is not checked again' is "$(unchanged)" 15
 sed 's/<standard_surface/<gltf_pbr/' show/part.mtlx >part && mv part show/part.mtlx && touch -d '1 hour ago' show/part.mtlx
 check_show
-check 'where an include changed its documents are checked again' is "$(unchanged)" 13 # itself and the whole
+check 'a changed include checks its documents again' is "$(unchanged)" 13 # itself and the whole
 check_show --target essl
-check 'other options are another question' is "$(unchanged)" ''
+check 'other options are not in the cache' is "$(unchanged)" ''
 mkdir library && echo '<materialx version="1.39"/>' >library/a.mtlx
 check_show --library library
-check 'and so is another library' is "$(unchanged)" ''
+check 'another library is not in the cache' is "$(unchanged)" ''
 check_show --library library
-check 'that is remembered too' is "$(unchanged)" 15
+check 'the results of another library are kept in the cache' is "$(unchanged)" 15
 echo '<materialx version="1.39"><!-- --></materialx>' >library/a.mtlx
 check_show --library library
-check 'until it changes' is "$(unchanged)" ''
+check 'a changed library checks all documents again' is "$(unchanged)" ''
 sed 's/part.mtlx/later.mtlx/' show/whole.mtlx >waits.mtlx
 "$mxgen" check waits.mtlx --no-compile --cache cache >out 2>err
 cp show/part.mtlx later.mtlx
-check 'a missing include that appears is seen' exits 0 "$mxgen" check waits.mtlx --no-compile --cache cache
+check 'an include that appears is seen' exits 0 "$mxgen" check waits.mtlx --no-compile --cache cache
 mkdir textures
 cat >textured.mtlx <<'END'
 <materialx version="1.39">
@@ -62,44 +62,44 @@ cat >textured.mtlx <<'END'
 </materialx>
 END
 textured() { exits 0 "$mxgen" check textured.mtlx --no-compile --cache cache && is "$(unchanged)" "$1" && is "$(grep -c missing-texture out)" "$2"; }
-check 'a missing texture' textured '' 1
-check 'is remembered' textured 1 1
+check 'a missing texture is a warning' textured '' 1
+check 'the warning of a missing texture comes from the cache' textured 1 1
 touch textures/wood.png
-check 'until it is there' textured '' 0
-check 'which is remembered' textured 1 0
+check 'a texture that appears checks its document again' textured '' 0
+check 'the result with the texture comes from the cache' textured 1 0
 rm textures/wood.png
-check 'until it is gone' textured '' 1
+check 'a texture that disappears checks its document again' textured '' 1
 for entry in cache/*/*.entry; do # still JSON, and no record any more
     sed -i 's/"passed"/"failed"/; s/"record"/"recurd"/' "$entry"
 done
 check 'damaged entries are made anew' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
-check 'as if there were none' eval '"$mxgen" check show --no-compile --json none.json >out 2>err; cmp damaged.json none.json'
-check 'and kept' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
-check 'whole' is "$(unchanged)" 15
+check 'damaged entries do not change the report' eval '"$mxgen" check show --no-compile --json none.json >out 2>err; cmp damaged.json none.json'
+check 'a run after damaged entries reads the cache' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
+check 'the entries made anew are whole' is "$(unchanged)" 15
 for entry in cache/*/*.entry; do printf 'x' >"$entry"; done
 check 'entries of one byte are made anew' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
-check 'are none' eval 'exits 1 "$mxgen" check show --no-compile --json none.json && cmp damaged.json none.json'
-check 'a cache that cannot be written is told' exits 0 "$mxgen" check show/m2.mtlx --no-compile --cache show/m1.mtlx
-check 'and changes no verdict' grep -q '^warning: the cache' err
+check 'entries of one byte do not change the report' eval 'exits 1 "$mxgen" check show --no-compile --json none.json && cmp damaged.json none.json'
+check 'a cache that cannot be written changes no verdict' exits 0 "$mxgen" check show/m2.mtlx --no-compile --cache show/m1.mtlx
+check 'a cache that cannot be written is a warning' grep -q '^warning: the cache' err
 
 # A disk that is full, then has room, then is read only
 mkdir disk
 on_disk() { unshare -rm sh -c "mount -t tmpfs -o size=16k none disk && $1" >out 2>err; }
 run='mxgen check show --no-compile --cache disk/cache'
 if on_disk true; then
-    check 'a full disk' on_disk "{ $run --json full.json; test \$? -eq 1; }"
-    check 'is told' grep -q "^warning: the cache 'disk/cache' cannot be written: No space left" err
-    check 'and changes no verdict' cmp full.json none.json
-    check 'what it kept is whole' on_disk "{ $run; mount -o remount,size=8m disk; $run; $run --json again.json; test -z \"\$(find disk -name '*.tmp')\"; }"
-    check 'and the rest is made' is "$(sed -n 's/.*; \([0-9]*\) documents\{0,1\} unchanged.*/\1/p' out | tail -n 1)" 15
-    check 'into the same report' cmp again.json none.json
-    check 'a disk that is read only' on_disk "{ mount -o remount,ro disk; $run --json ro.json; test \$? -eq 1; }"
-    check 'is told as well' grep -q "^warning: the cache 'disk/cache' cannot be written: Read-only" err
-    check 'and changes no verdict either' cmp ro.json none.json
-    check 'a report that cannot be written' on_disk "{ mount -o remount,ro disk; $run --json disk/r.json; test \$? -eq 1; }"
-    check 'is an error' grep -q "^error: cannot write 'disk/r.json': Read-only file system \[output-failed\]" err
-    check 'one on a full disk' on_disk "{ head -c 12000 /dev/zero >disk/fill; mxgen check show --no-compile --json disk/r.json; test \$(ls disk) = fill; }"
-    check 'is one, too, and leaves nothing' grep -q "^error: cannot write 'disk/r.json': No space left on device \[output-failed\]" err
+    check 'a full disk under the cache changes no verdict' on_disk "{ $run --json full.json; test \$? -eq 1; }"
+    check 'a full disk under the cache is a warning' grep -q "^warning: the cache 'disk/cache' cannot be written: No space left" err
+    check 'a full disk under the cache does not change the report' cmp full.json none.json
+    check 'the entries on a full disk are whole' on_disk "{ $run; mount -o remount,size=8m disk; $run; $run --json again.json; test -z \"\$(find disk -name '*.tmp')\"; }"
+    check 'the missing entries are made when there is room' is "$(sed -n 's/.*; \([0-9]*\) documents\{0,1\} unchanged.*/\1/p' out | tail -n 1)" 15
+    check 'the report is the same with these entries' cmp again.json none.json
+    check 'a read-only disk under the cache changes no verdict' on_disk "{ mount -o remount,ro disk; $run --json ro.json; test \$? -eq 1; }"
+    check 'a read-only disk under the cache is a warning' grep -q "^warning: the cache 'disk/cache' cannot be written: Read-only" err
+    check 'a read-only disk under the cache does not change the report' cmp ro.json none.json
+    check 'a report on a read-only disk fails the run' on_disk "{ mount -o remount,ro disk; $run --json disk/r.json; test \$? -eq 1; }"
+    check 'the error names the report on the read-only disk' grep -q "^error: cannot write 'disk/r.json': Read-only file system \[output-failed\]" err
+    check 'a report on a full disk leaves no file' on_disk "{ head -c 12000 /dev/zero >disk/fill; mxgen check show --no-compile --json disk/r.json; test \$(ls disk) = fill; }"
+    check 'the error names the report on the full disk' grep -q "^error: cannot write 'disk/r.json': No space left on device \[output-failed\]" err
 else
     skip 'no file system of our own can be mounted here: full and read-only disks were not tried'
 fi
@@ -117,10 +117,10 @@ whole() {
     done
 }
 check 'kill -9 leaves no half entry' whole
-check 'and no half report' eval '[ ! -e killed.json ] || python3 -m json.tool killed.json'
-check 'the next run is right' eval 'exits 1 "$mxgen" check show --no-compile --cache killed --json killed.json && cmp killed.json none.json'
+check 'kill -9 leaves no half report' eval '[ ! -e killed.json ] || python3 -m json.tool killed.json'
+check 'the run after kill -9 gives the right report' eval 'exits 1 "$mxgen" check show --no-compile --cache killed --json killed.json && cmp killed.json none.json'
 sleep 0.2
-check 'no worker is left' eval '! pgrep -f "$work/programs/mxgen-check"'
+check 'kill -9 leaves no worker' eval '! pgrep -f "$work/programs/mxgen-check"'
 
 # Limits: of the files that the cache hashes, and of the memory of a worker
 truncate -s 3G sparse.mtlx
@@ -131,8 +131,8 @@ peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024
 print(f"{peak} MiB", file=sys.stderr)
 sys.exit(code if peak < int(sys.argv[1]) else 99)
 P
-check 'a document of 3 GiB' exits 1 python3 peak.py 200 "$mxgen" check sparse.mtlx --cache cache --no-compile --max-file-size 1
-check 'is too large, and nobody reads it' grep -q 'larger than 1 MiB.*\[file-too-large\]' out
+check 'a document of 3 GiB fails without being read' exits 1 python3 peak.py 200 "$mxgen" check sparse.mtlx --cache cache --no-compile --max-file-size 1
+check 'the error is file-too-large' grep -q 'larger than 1 MiB.*\[file-too-large\]' out
 python3 - <<'P'
 with open("heavy.mtlx", "w", encoding="ascii") as out:
     out.write('<materialx version="1.39"><position name="n0" type="vector3"/>')
@@ -144,9 +144,9 @@ P
 if [ -n "${SANITIZER:-}" ]; then
     skip 'a worker with a sanitizer has no limit of memory'
 else
-    check 'a document that needs more memory than a worker has' exits 1 "$mxgen" check heavy.mtlx show/m2.mtlx -j1 --no-compile --memory-limit 48 --json heavy.json
-    check 'is told' grep -q 'a worker needs more than 48 MiB of memory: .*\[check-memory\]' out
-    check 'and the next is checked' says heavy.json '[x["status"] for x in d]' "['failed', 'passed']"
+    check 'a document that needs more memory than a worker has fails' exits 1 "$mxgen" check heavy.mtlx show/m2.mtlx -j1 --no-compile --memory-limit 48 --json heavy.json
+    check 'the error is check-memory' grep -q 'a worker needs more than 48 MiB of memory: .*\[check-memory\]' out
+    check 'the document after it is checked' says heavy.json '[x["status"] for x in d]' "['failed', 'passed']"
 fi
 
 # A run that ends while a worker waits: for the other end of a pipe
@@ -167,8 +167,8 @@ for signal in TERM HUP KILL; do # a shell makes its background jobs ignore SIGIN
         is_running "$worker" || break
         sleep 0.05
     done
-    check "no worker is left by SIG$signal" eval '! is_running "$worker"'
-    check 'no report' test ! -e ended.json
+    check "SIG$signal leaves no worker" eval '! is_running "$worker"'
+    check 'a run that a signal ends leaves no report' test ! -e ended.json
     # no program can do anything about SIGKILL
     [ "$signal" = KILL ] || check "no half report is left by SIG$signal" test -z "$(find . -maxdepth 1 -name 'ended.json*')"
 done
@@ -181,61 +181,61 @@ report.json:
 -include report.d
 END
 check 'make runs the check' make -s
-check 'and not again' make -q
-check 'until an include changes' eval 'touch show/part.mtlx && ! make -q'
+check 'make does not run the check again' make -q
+check 'a changed include makes the check run again' eval 'touch show/part.mtlx && ! make -q'
 printf '[budget]\nmax-closures = 100\n' >show/mxgen.toml
 echo show/whole.mtlx >list
 "$mxgen" check show/whole.mtlx --no-compile --baseline base.json --update-baseline >/dev/null
-check 'a depfile names' exits 0 "$mxgen" check @list --library library --no-compile --baseline base.json --json r.json --depfile r.d
-for file in show/whole.mtlx show/part.mtlx show/mxgen.toml library/a.mtlx list base.json; do check "$file" grep -q "^ $file\( \|\$\)" r.d; done
+check 'a depfile can be written' exits 0 "$mxgen" check @list --library library --no-compile --baseline base.json --json r.json --depfile r.d
+for file in show/whole.mtlx show/part.mtlx show/mxgen.toml library/a.mtlx list base.json; do check "a depfile names $file" grep -q "^ $file\( \|\$\)" r.d; done
 rm show/mxgen.toml
-check 'a depfile without a report is refused' exits 2 "$mxgen" check show --depfile x.d
+check 'a depfile without a report is wrong usage' exits 2 "$mxgen" check show --depfile x.d
 
 # Shards
 rm -rf shards && mkdir shards
 for k in 1 2 3 4; do "$mxgen" check show --no-compile --shard $k/4 --json shards/$k.json >/dev/null; done
-check 'shards have all documents between them' is "$(cat shards/*.json | grep -c '^{"index"')" 15
-check 'they merge' exits 1 "$mxgen" check merge shards/4.json shards/2.json shards/1.json shards/3.json --json merged.json --junit merged.xml
-check 'into the same report' cmp merged.json none.json
-check 'of every kind' eval 'exits 1 "$mxgen" check show --no-compile --junit none.xml && cmp merged.xml none.xml'
-check 'a shard too few' exits 1 "$mxgen" check merge shards/[124].json
-check 'is told' grep -q 'shard 3 of 4 is missing \[shard-missing\]' err
-check 'with no other message' is "$(wc -l <err)" 1
-check 'the last shard is missing' exits 1 "$mxgen" check merge shards/[123].json
-check 'is told' grep -q 'shard 4 of 4 is missing \[shard-missing\]' err
-check 'two shards are missing' exits 1 "$mxgen" check merge shards/[24].json
-check 'are told at once' is "$(cat err)" 'error: shards 1, 3 of 4 are missing [shard-missing]'
-check 'a shard twice' exits 1 "$mxgen" check merge shards/*.json shards/2.json
-check 'is told once' is "$(cat err)" "error: 'shards/2.json' and 'shards/2.json' are both shard 2 of 4 [shard-twice]"
-check 'one twice and one missing' exits 1 "$mxgen" check merge shards/[124].json shards/2.json
-check 'are told, both' eval 'grep -q "shard 3 of 4 is missing" err && is "$(grep -c shard-twice err)" 1'
+check 'the shards have each document once' is "$(cat shards/*.json | grep -c '^{"index"')" 15
+check 'shards merge' exits 1 "$mxgen" check merge shards/4.json shards/2.json shards/1.json shards/3.json --json merged.json --junit merged.xml
+check 'merged shards give the report of one run' cmp merged.json none.json
+check 'merged shards give the JUnit report of one run' eval 'exits 1 "$mxgen" check show --no-compile --junit none.xml && cmp merged.xml none.xml'
+check 'a missing shard fails the merge' exits 1 "$mxgen" check merge shards/[124].json
+check 'the error names the missing shard' grep -q 'shard 3 of 4 is missing \[shard-missing\]' err
+check 'a missing shard is the only error' is "$(wc -l <err)" 1
+check 'a missing last shard fails the merge' exits 1 "$mxgen" check merge shards/[123].json
+check 'the error names the missing last shard' grep -q 'shard 4 of 4 is missing \[shard-missing\]' err
+check 'two missing shards fail the merge' exits 1 "$mxgen" check merge shards/[24].json
+check 'two missing shards are one error' is "$(cat err)" 'error: shards 1, 3 of 4 are missing [shard-missing]'
+check 'a shard that is given twice fails the merge' exits 1 "$mxgen" check merge shards/*.json shards/2.json
+check 'a shard that is given twice is one error' is "$(cat err)" "error: 'shards/2.json' and 'shards/2.json' are both shard 2 of 4 [shard-twice]"
+check 'a shard given twice and a missing one fail the merge' exits 1 "$mxgen" check merge shards/[124].json shards/2.json
+check 'a shard given twice and a missing one are two errors' eval 'grep -q "shard 3 of 4 is missing" err && is "$(grep -c shard-twice err)" 1'
 "$mxgen" check show --no-compile --shard 1/2 --json other.json >/dev/null
-check 'shards of two runs' exits 1 "$mxgen" check merge shards/2.json other.json
-check 'are told apart' grep -q '\[shard-other\]' err
+check 'shards of two runs fail the merge' exits 1 "$mxgen" check merge shards/2.json other.json
+check 'the error of two runs is shard-other' grep -q '\[shard-other\]' err
 "$mxgen" check show --no-compile --target essl --shard 3/4 --json other3.json >/dev/null
-check 'a shard with other targets' exits 1 "$mxgen" check merge shards/[124].json other3.json
-check 'is told, too' grep -q "'other3.json' and 'shards/1.json' are not shards of the same run \[shard-other\]" err
+check 'a shard with other targets fails the merge' exits 1 "$mxgen" check merge shards/[124].json other3.json
+check 'the error names the shard with other targets' grep -q "'other3.json' and 'shards/1.json' are not shards of the same run \[shard-other\]" err
 "$mxgen" check show --no-compile --json all.json >/dev/null
-check 'two whole reports' exits 1 "$mxgen" check merge all.json none.json
-check 'are no shards' grep -q '\[shard-other\]' err
-check 'one whole report is one run' eval 'exits 1 "$mxgen" check merge all.json --json all2.json && cmp all.json all2.json'
+check 'two whole reports fail the merge' exits 1 "$mxgen" check merge all.json none.json
+check 'the error of two whole reports is shard-other' grep -q '\[shard-other\]' err
+check 'one whole report merges into itself' eval 'exits 1 "$mxgen" check merge all.json --json all2.json && cmp all.json all2.json'
 head -c $(($(wc -c <shards/2.json) / 2)) shards/2.json >cut.json
-check 'half a shard' exits 1 "$mxgen" check merge shards/[134].json cut.json --json half.json
-check 'is told as well' grep -q '\[report-unreadable\]' err
-check 'and gives no report' test ! -e half.json
-check 'something else' exits 1 "$mxgen" check merge show/m1.mtlx
+check 'half a shard fails the merge' exits 1 "$mxgen" check merge shards/[134].json cut.json --json half.json
+check 'the error of half a shard is report-unreadable' grep -q '\[report-unreadable\]' err
+check 'half a shard leads to no report' test ! -e half.json
+check 'a document in place of a shard fails the merge' exits 1 "$mxgen" check merge show/m1.mtlx
 python3 -m json.tool shards/1.json >pretty.json
-check 'a report may have been formatted' exits 1 "$mxgen" check merge pretty.json shards/[234].json --json pretty_merged.json
-check 'and merges as well' cmp pretty_merged.json none.json
-check 'shards from 1 to N' eval 'exits 2 "$mxgen" check show --shard 0/4 && exits 2 "$mxgen" check show --shard 5/4 && exits 2 "$mxgen" check show --shard 1'
+check 'a shard may be formatted by others' exits 1 "$mxgen" check merge pretty.json shards/[234].json --json pretty_merged.json
+check 'a formatted shard gives the same report' cmp pretty_merged.json none.json
+check 'a shard must be one from 1 to N' eval 'exits 2 "$mxgen" check show --shard 0/4 && exits 2 "$mxgen" check show --shard 5/4 && exits 2 "$mxgen" check show --shard 1'
 check 'an empty shard passes' exits 0 "$mxgen" check show/m2.mtlx --no-compile --shard 2/2
 
 # GNU parallel over hosts: this one
 if command -v parallel >/dev/null; then
-    check 'GNU parallel' exits 1 "$examples/parallel.sh" 2/: 4 show --no-compile
-    check 'gives the same report' cmp report.json none.json
+    check 'GNU parallel runs the shards' exits 1 "$examples/parallel.sh" 2/: 4 show --no-compile
+    check 'GNU parallel gives the report of one run' cmp report.json none.json
     "$mxgen" check show --no-compile --baseline parallel.json --update-baseline >/dev/null
-    check 'against a baseline' env BASELINE=parallel.json "$examples/parallel.sh" 2/: 4 show --no-compile
+    check 'GNU parallel compares with a baseline' env BASELINE=parallel.json "$examples/parallel.sh" 2/: 4 show --no-compile
 else
     skip 'GNU parallel is not installed'
 fi

@@ -7,21 +7,21 @@ package=$(realpath "$1") root=$2 program=$(realpath "$3")
 command -v npm >/dev/null || { echo "skip: npm is not installed"; exit 77; }
 export npm_config_cache=$work/cache npm_config_offline=true npm_config_update_notifier=false npm_config_fund=false npm_config_audit=false
 
-check "npm packs it" exits 0 npm pack "$package"
+check "npm packs the package" exits 0 npm pack "$package"
 tar -tzf mxgen-*.tgz | sort >files
 (cd "$package" && ls | sed 's|^|package/|' | sort) >expected
 check "the package has its files and no other" diff expected files
-check "it has at most 1.2 MB" test "$(stat -c %s mxgen-*.tgz)" -le 1200000
+check "the package has at most 1.2 MB" test "$(stat -c %s mxgen-*.tgz)" -le 1200000
 mkdir app && cd app || exit 1
 echo '{ "type": "module" }' >package.json
-check "npm installs it" exits 0 npm install --no-save ../mxgen-*.tgz
-check "the tests pass with it" node "$root/tests/js/run.mjs" node_modules/mxgen "$root" "$program"
+check "npm installs the package" exits 0 npm install --no-save ../mxgen-*.tgz
+check "the tests pass with the installed package" node "$root/tests/js/run.mjs" node_modules/mxgen "$root" "$program"
 cp "$root/examples/shader.mjs" .
-check "the example" exits 0 node shader.mjs "$root/examples/marble.mtlx" essl
-check "writes a shader" grep -q '^void main' out
-check "and lists uniforms" grep -q '^// NG_marble/stone: vec3 ' out
-check "the example without a document" exits 1 node shader.mjs none.mtlx essl
-check "reports errors" grep -q 'error: .*file-missing' err
+check "the example runs" exits 0 node shader.mjs "$root/examples/marble.mtlx" essl
+check "the example writes a shader" grep -q '^void main' out
+check "the example lists uniforms" grep -q '^// NG_marble/stone: vec3 ' out
+check "the example fails without a document" exits 1 node shader.mjs none.mtlx essl
+check "the example reports errors" grep -q 'error: .*file-missing' err
 
 # TypeScript
 if command -v tsc >/dev/null; then
@@ -40,7 +40,7 @@ edit.add("noise2d", "n", "float").value("amplitude", 1, "float");
 export const text: string = edit.end().xml();
 export const first = (error: DocumentError): string => error.diagnostics.items[0].id;
 END
-    check "types of a program" exits 0 types right.ts
+    check "the types of a program are right" exits 0 types right.ts
     cat out
     # wrong LINE: what the compiler says to a line of TypeScript
     wrong() {

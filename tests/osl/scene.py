@@ -75,8 +75,9 @@ def place(source, case, probe):
 
 
 def without_modes(document, folder):
-    """A copy of a document whose images repeat, as the reference has them, whatever the document says."""
+    """A copy of a document whose images repeat, as the reference has them, whatever the document says; its includes stay where they are."""
     text = re.sub(r'(<input name="(?:[uv]addressmode|wrap[ST])" type="string" value=")\w+"', r'\1periodic"', document.read_text(encoding="utf-8"))
+    text = text.replace('<xi:include href="../', f'<xi:include href="{document.resolve().parent.parent}/')
     copy = folder / document.name
     copy.write_text(text, encoding="utf-8")
     return copy

@@ -17,13 +17,13 @@ unpacked() {
 
 mkdir source system
 git -C "$root" ls-files -z | (cd "$root" && xargs -0 cp --parents -t "$work/source")
-check "dpkg-buildpackage" env -C source dpkg-buildpackage -us -uc -b
+check "dpkg-buildpackage makes the packages" env -C source dpkg-buildpackage -us -uc -b
 for package in libmxgen0 libmxgen-dev mxgen python3-mxgen; do
-    check "package $package" ls "$package"_*.deb
+    check "$package is made" ls "$package"_*.deb
     check "$package unpacks" dpkg-deb -x "$package"_*.deb system
     dpkg-deb -c "$package"_*.deb | awk '$6 !~ /\/$/ { print $6 }' >>files
 done
-check "lintian" lintian --allow-root --fail-on error,warning ./*.changes
+check "lintian finds no fault" lintian --allow-root --fail-on error,warning ./*.changes
 sort files | uniq -d >twice
 check "no file is in two packages" cmp twice /dev/null
 check "the program runs" unpacked mxgen "$root/examples/gold.mtlx" -o program
@@ -33,7 +33,7 @@ flags=$(PKG_CONFIG_PATH=$(echo system/usr/lib/*/pkgconfig) pkg-config --cflags -
 # shellcheck disable=SC2086
 check "a program in C compiles" cc "$root/examples/c_minimal.c" -o c_minimal $flags
 cp "$root/examples/gold.mtlx" .
-check "and runs" unpacked ./c_minimal gold.mtlx
-check "it uses the shared library" sh -c 'objdump -p c_minimal | grep -q "NEEDED *libmxgen.so.0"'
+check "the program in C runs" unpacked ./c_minimal gold.mtlx
+check "the program in C uses the shared library" sh -c 'objdump -p c_minimal | grep -q "NEEDED *libmxgen.so.0"'
 check "the man page is there" ls system/usr/share/man/man1/mxgen.1.gz
 finish debian

@@ -93,47 +93,47 @@ picture() { "$render" look.mtlx --stage stage.usda --camera /a/down -q -s 16 "$@
 for mode in raster traced; do
     options=(--look L --mattes -o $mode.exr) tolerance=0.001
     [ $mode = traced ] && options+=(--path-trace --paths 4096) tolerance=0.1
-    check "$mode" exits 0 picture "${options[@]}"
-    check 'channels' test "$(python3 "$here/exr.py" $mode.exr)" = 'A B G R id is matte.000 matte.050 of base.B of base.G of base.R v'
+    check "a picture has AOVs: $mode" exits 0 picture "${options[@]}"
+    check 'the picture has a channel for each component of an AOV' test "$(python3 "$here/exr.py" $mode.exr)" = 'A B G R id is matte.000 matte.050 of base.B of base.G of base.R v'
     # the weights of the layers: top 0.4 * 0.5, base (1 - 0.2) * 0.5
-    check 'a float, by weights' reads $mode.exr v 0.5 0.9 1.8 $tolerance
-    check 'a colour that one layer has' reads $mode.exr 'of base.G' 0.5 0.9 0.08 $tolerance
-    check 'the matte of the base' reads $mode.exr matte.000 0.5 0.9 0.4 $tolerance
-    check 'the matte above' reads $mode.exr matte.050 0.5 0.9 0.2 $tolerance
+    check 'a float is blended by weights' reads $mode.exr v 0.5 0.9 1.8 $tolerance
+    check 'a colour that one layer has is blended by its weight' reads $mode.exr 'of base.G' 0.5 0.9 0.08 $tolerance
+    check 'the matte of the base is its weight' reads $mode.exr matte.000 0.5 0.9 0.4 $tolerance
+    check 'the matte of the layer above is its weight' reads $mode.exr matte.050 0.5 0.9 0.2 $tolerance
 done
-check 'an integer, of the greatest weight' reads raster.exr id 0.5 0.9 7 0
-check 'a boolean' reads raster.exr is 0.5 0.9 1 0
+check 'an integer is that of the greatest weight' reads raster.exr id 0.5 0.9 7 0
+check 'a boolean is that of the greatest weight' reads raster.exr is 0.5 0.9 1 0
 
 # A point on a floor beside a wall that is as wide as the sky: half of the light comes.
-check 'traced occlusion' exits 0 picture --look AO --path-trace --paths 64 -o ao.exr
-check 'half of the sky' reads ao.exr ao mean 0.5 0.02
-check 'also of a narrow cone' reads ao.exr narrow mean 0.5 0.02
-check 'what is far does not occlude' reads ao.exr near mean 1 0.001
-check 'a primvar' exits 0 picture --look AO -o primvar.exr
-check 'that is missing is 1' reads primvar.exr ao mean 1 0.001
+check 'occlusion is traced' exits 0 picture --look AO --path-trace --paths 64 -o ao.exr
+check 'a point beside a wall sees half of the sky' reads ao.exr ao mean 0.5 0.02
+check 'a narrow cone sees half of the sky' reads ao.exr narrow mean 0.5 0.02
+check 'a surface beyond the distance does not occlude' reads ao.exr near mean 1 0.001
+check 'occlusion may come from a primvar' exits 0 picture --look AO -o primvar.exr
+check 'a missing primvar is 1' reads primvar.exr ao mean 1 0.001
 sed 's|        double width = 400|&\n        float primvars:ambientocclusion = 0.25|' stage.usda >closed.usda
-check 'that the stage has' exits 0 "$render" look.mtlx --stage closed.usda --camera /a/down -q -s 16 --look AO -o primvar.exr
-check 'is read' reads primvar.exr ao mean 0.25 0.001
+check 'a stage may have the primvar of occlusion' exits 0 "$render" look.mtlx --stage closed.usda --camera /a/down -q -s 16 --look AO -o primvar.exr
+check 'the primvar of the stage is read' reads primvar.exr ao mean 0.25 0.001
 
-check 'colours by slot' exits 0 "$render" look.mtlx --stage stage.usda --camera /a/down -s 16 --look L --show slots -o slots.png
-check 'have a legend' grep -q '^slot 050: #' err
-check 'blended' exits 0 picture --look L --show weights -o weights.exr
-check 'by weight, with the opacity of the picture' reads weights.exr A 0.5 0.9 0.6 0.001
-check 'neither' exits 2 picture --look L --show layers -o x.png
-check 'mattes in PNG' exits 2 picture --look L --mattes -o x.png
-check 'tell why' grep -q 'only EXR files have channels' err
-check 'without a stage' exits 2 "$render" look.mtlx --show slots -o x.png
+check 'slots are shown' exits 0 "$render" look.mtlx --stage stage.usda --camera /a/down -s 16 --look L --show slots -o slots.png
+check 'the slots of a picture have a legend' grep -q '^slot 050: #' err
+check 'weights are shown' exits 0 picture --look L --show weights -o weights.exr
+check 'weights are blended with the opacity of the picture' reads weights.exr A 0.5 0.9 0.6 0.001
+check 'another view is wrong usage' exits 2 picture --look L --show layers -o x.png
+check 'mattes in PNG are wrong usage' exits 2 picture --look L --mattes -o x.png
+check 'the error says that EXR has channels' grep -q 'only EXR files have channels' err
+check 'slots without a stage are wrong usage' exits 2 "$render" look.mtlx --show slots -o x.png
 
 # The hash picks layers as often as their weights say: the mean of a picture is that of all layers, within 1 %.
 sed 's|<look name="L">|&<visibility geom="/a/wall" visible="false"/>|' look.mtlx >floor.mtlx
 for slots in blend stochastic; do
-    check "$slots" exits 0 "$render" floor.mtlx --stage stage.usda --camera /a/down -q --look L --mattes --slots $slots -s 192 -o $slots.exr
+    check "a picture of the floor is drawn: $slots" exits 0 "$render" floor.mtlx --stage stage.usda --camera /a/down -q --look L --mattes --slots $slots -s 192 -o $slots.exr
 done
 for channel in R v matte.000 matte.050; do
     mean=$(channel blend.exr $channel)
-    check "the mean of $channel" reads stochastic.exr $channel mean "$mean" "$(awk -v m="$mean" 'BEGIN { print m / 100 }')"
+    check "the mean of $channel is that of all layers" reads stochastic.exr $channel mean "$mean" "$(awk -v m="$mean" 'BEGIN { print m / 100 }')"
 done
-check 'and picks' test "$(md5sum <blend.exr)" != "$(md5sum <stochastic.exr)"
+check 'stochastic layers give another picture than blended ones' test "$(md5sum <blend.exr)" != "$(md5sum <stochastic.exr)"
 
 # The light of BSDFs. In even light a ball sends the albedo of a closure: that of the paint is its colour.
 write_white white.hdr
@@ -168,19 +168,19 @@ cat >lit.mtlx <<'EOF'
 EOF
 part() { of "$1 * $(channel "$2" A)"; } # NUMBER FILE: of the pixels that the ball covers
 for mode in '' '--path-trace --paths 64'; do
-    check "in even light $mode" exits 0 "$render" lit.mtlx -e M --environment white.hdr -m sphere -q -s 24 $mode -o even.exr
+    check "a ball in even light is drawn $mode" exits 0 "$render" lit.mtlx -e M --environment white.hdr -m sphere -q -s 24 $mode -o even.exr
     check 'the paint has its colour' reads even.exr paint.R mean "$(part 0.6 even.exr)" 0.005
-    check 'and its blue' reads even.exr paint.B mean "$(part 0.1 even.exr)" 0.001
-    check 'emission stays' reads even.exr glow.G mean "$(part 0.1 even.exr)" 0.001
+    check 'the paint has its blue' reads even.exr paint.B mean "$(part 0.1 even.exr)" 0.001
+    check 'emission does not depend on the light' reads even.exr glow.G mean "$(part 0.1 even.exr)" 0.001
     metal=$(channel even.exr metal.R)
-    check "a ball of metal $mode" exits 0 "$render" lit.mtlx -e SM --environment white.hdr -m sphere -q -s 24 $mode -o metal.exr
-    check 'has the light of the metal that the surface lacks' reads metal.exr R mean "$metal" 0.01
+    check "a ball of metal is drawn $mode" exits 0 "$render" lit.mtlx -e SM --environment white.hdr -m sphere -q -s 24 $mode -o metal.exr
+    check 'an AOV has the light of the metal that the surface lacks' reads metal.exr R mean "$metal" 0.01
 done
 # A layer has the weight of its mask.
 printf '#usda 1.0\ndef Sphere "ball"\n{\n}\n' >ball.usda
 for mode in '' '--slots stochastic' '--path-trace --paths 64'; do
-    check "in a stack $mode" exits 0 "$render" lit.mtlx --stage ball.usda --look Two --environment white.hdr -q -s 24 $mode -o two.exr
-    check 'the base has three quarters' reads two.exr base.R mean "$(part 0.45 two.exr)" 0.01
+    check "a ball with a stack is drawn $mode" exits 0 "$render" lit.mtlx --stage ball.usda --look Two --environment white.hdr -q -s 24 $mode -o two.exr
+    check 'the base has three quarters of the light' reads two.exr base.R mean "$(part 0.45 two.exr)" 0.01
 done
 # With light from other surfaces and from lights: the whole is the sum of its parts.
 sums() { # FILE WHOLE PART...
@@ -196,22 +196,22 @@ print(f"{whole} is off by {most}, of up to {max(numbers[whole])}")
 sys.exit(most > 0.002 or max(numbers[whole]) < 0.1)
 EOF
 }
-check 'a corner' exits 0 "$render" lit.mtlx --stage stage.usda --camera /a/down -q -s 24 --look One --path-trace --paths 32 -o corner.exr
-for channel in R G B; do check "is the sum, $channel" sums corner.exr $channel all.$channel glow.$channel; done
-check 'a ball under lights' exits 0 "$render" lit.mtlx -e M -q -s 24 --path-trace --paths 64 -o ball.exr
-check 'is the sum' sums ball.exr R all.R glow.R
-check 'a sphere under lights' exits 0 "$render" lit.mtlx -e M -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
+check 'a corner is traced' exits 0 "$render" lit.mtlx --stage stage.usda --camera /a/down -q -s 24 --look One --path-trace --paths 32 -o corner.exr
+for channel in R G B; do check "the light of the corner is the sum of its parts in $channel" sums corner.exr $channel all.$channel glow.$channel; done
+check 'a ball under lights is traced' exits 0 "$render" lit.mtlx -e M -q -s 24 --path-trace --paths 64 -o ball.exr
+check 'the light of the ball is the sum of its parts' sums ball.exr R all.R glow.R
+check 'a sphere under lights is traced' exits 0 "$render" lit.mtlx -e M -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
 metal=$(channel lights.exr metal.R)
-check 'of metal' exits 0 "$render" lit.mtlx -e SM -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
-check 'has the light of the metal that the surface lacks' reads lights.exr R mean "$metal" 0.01
+check 'a sphere of metal is traced' exits 0 "$render" lit.mtlx -e SM -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
+check 'an AOV has the traced light of the metal' reads lights.exr R mean "$metal" 0.01
 
 # What the look hides is not drawn.
 sed 's|<look name="L">|&<visibility geom="/a/floor" vistype="camera" visible="false"/>|' look.mtlx >hidden.mtlx
-check 'visibility' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L -o hidden.exr
-check 'hides' reads hidden.exr A 0.5 0.9 0 0
-check 'visibility in traced pictures' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L --path-trace --paths 4 -o hidden.exr
-check 'hides, too' reads hidden.exr A 0.5 0.9 0 0
-check 'all of it' eval 'sed -i "s|geom=\"/a/floor\" vistype=\"camera\"|geom=\"/\"|" hidden.mtlx; exits 1 "$render" hidden.mtlx --stage stage.usda -s 16 --look L -o no.exr && grep -q "empty-mesh" err'
+check 'a stage with visibility is drawn' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L -o hidden.exr
+check 'an invisible primitive is not drawn' reads hidden.exr A 0.5 0.9 0 0
+check 'a stage with visibility is traced' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L --path-trace --paths 4 -o hidden.exr
+check 'an invisible primitive is not traced' reads hidden.exr A 0.5 0.9 0 0
+check 'a stage without a visible primitive is an error' eval 'sed -i "s|geom=\"/a/floor\" vistype=\"camera\"|geom=\"/\"|" hidden.mtlx; exits 1 "$render" hidden.mtlx --stage stage.usda -s 16 --look L -o no.exr && grep -q "empty-mesh" err'
 
 # More AOVs than attachments: drawn again and again.
 {
@@ -221,11 +221,11 @@ check 'all of it' eval 'sed -i "s|geom=\"/a/floor\" vistype=\"camera\"|geom=\"/\
     done
     echo '<surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>'
 } >many.mtlx
-check 'ten AOVs' exits 0 "$render" many.mtlx -e M -m plane -q -s 8 -o many.exr
-check 'all of them' reads many.exr a10 0.5 0.5 10 0.001
-check 'the first' reads many.exr a1 0.5 0.5 1 0.001
+check 'a picture may have ten AOVs' exits 0 "$render" many.mtlx -e M -m plane -q -s 8 -o many.exr
+check 'the last of ten AOVs is drawn' reads many.exr a10 0.5 0.5 10 0.001
+check 'the first of ten AOVs is drawn' reads many.exr a1 0.5 0.5 1 0.001
 for view in slots classes; do
-    check "$view of what is not there" exits 2 "$render" look.mtlx --show $view -o no.png
-    check "is an error" grep -q "'--show' does not apply" err
+    check "--show $view without such a thing is wrong usage" exits 2 "$render" look.mtlx --show $view -o no.png
+    check "the error says that --show $view does not apply" grep -q "'--show' does not apply" err
 done
 finish aovs

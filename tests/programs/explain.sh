@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The example of every message: the wrong version reports the message, the right one does not. Also checks docs/messages.md.
-# Arguments: the program, the documentation, the root of the project.
+# The example of every message: the wrong version reports the message, the right one does not. The page of all messages.
+# Arguments: the program, the page, the root of the project.
 mxgen=$(realpath "$1")
-documentation=$(realpath "$2")
+page=$(realpath "$2")
 root=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
@@ -49,21 +49,21 @@ try() { # id
 
 ids=$("$mxgen" explain | sed 's/ .*//')
 for id in $ids; do
-    check "$id" try "$id"
+    check "the example of $id has its message" try "$id"
 done
 # What the programs print by themselves is explained as well
 printed=$(cd "$root" && grep -rhoE '(report_(error|warning)\([^"]*|\bfail(_as)?\([^"]*|\bid = |VK_ERROR_[A-Z_]+, )"[a-z]+(-[a-z]+)*"' program cli check compile doc render | grep -oE '"[^"]*"$' | tr -d '"' | sort -u)
 for id in $printed; do
     check "$id has an explanation" grep -qx "$id" <<<"$ids"
 done
-check 'there are some of these' test "$(wc -w <<<"$printed")" -ge 25
-check "there are some" test "$(wc -w <<<"$ids")" -ge 100
-check 'the examples of all' exits 0 "$mxgen" explain -o all
-check 'are those of each' eval 'diff <(ls all) <(ls examples) && diff all/type-mismatch/wrong/example.mtlx examples/type-mismatch/wrong/example.mtlx'
-check 'an unknown id' exits 2 "$mxgen" explain typ-mismatch
-check 'is compared' grep -q "did you mean 'type-mismatch'" err
-check 'one as Markdown' eval '"$mxgen" explain cycle --markdown | sed -n 2p | grep -qx "## cycle"'
-"$mxgen" explain --markdown >messages.md
-check 'docs/messages.md is what mxgen explain --markdown prints' diff messages.md "$documentation"
+check 'the programs print at least 25 ids' test "$(wc -w <<<"$printed")" -ge 25
+check "there are at least 100 ids" test "$(wc -w <<<"$ids")" -ge 100
+check 'the examples of all messages can be written' exits 0 "$mxgen" explain -o all
+check 'they are the examples of each message' eval 'diff <(ls all) <(ls examples) && diff all/type-mismatch/wrong/example.mtlx examples/type-mismatch/wrong/example.mtlx'
+check 'an unknown id is wrong usage' exits 2 "$mxgen" explain typ-mismatch
+check 'an unknown id has a suggestion' grep -q "did you mean 'type-mismatch'" err
+check 'a message can be printed as Markdown' eval '"$mxgen" explain cycle --markdown | sed -n 2p | grep -qx "## cycle"'
+check 'the page of messages has a section for each' eval 'diff <(sed -n "s/^## //p" "$page") <(echo "$ids")'
+check 'the table of the page links to each section' eval 'diff <(sed -n "s/^| \[\([a-z0-9-]*\)\](#\1) |.*/\1/p" "$page") <(echo "$ids")'
 
 finish explain

@@ -69,19 +69,19 @@ END
     echo '</materialx>'
 } >moments.mtlx
 front=(-m plane --camera 0,0,2.6,30 --environment none)
-check 'one' draw one.exr moments.mtlx One "${front[@]}"
+check 'the value one is drawn' draw one.exr moments.mtlx One "${front[@]}"
 for kind in Few Many Slanted Lobe Million Countless; do
-    check "the mean of $kind" draw mean.exr moments.mtlx "Mean$kind" "${front[@]}"
+    check "the mean of $kind is drawn" draw mean.exr moments.mtlx "Mean$kind" "${front[@]}"
     check "the mean of $kind is one" compare one.exr mean.exr 0.98 1.02
-    check "the square of $kind" draw "$kind.exr" moments.mtlx "Square$kind" "${front[@]}"
+    check "the square of $kind is drawn" draw "$kind.exr" moments.mtlx "Square$kind" "${front[@]}"
 done
 # 20 facets, 1 in 1257 of which has the slope: the square is near 1257 / 20 times the share of cells in a pixel
 check 'few facets glint' compare one.exr Few.exr 10 200
-check 'more of them glint less' compare one.exr Many.exr 1.05 2
+check 'more facets glint less' compare one.exr Many.exr 1.05 2
 # one part in 804 of them mirrors: the square is 1 + variance
 check '100,000 facets stray by 4 to 6 %, where OSL has the lobe' compare one.exr Lobe.exr 1.0012 1.0045
 check '1,000,000 facets stray by less than 2 %' compare one.exr Million.exr 1.0002 1.0004
-check 'countless ones do not' compare one.exr Countless.exr 0.999 1.001
+check 'countless facets do not stray' compare one.exr Countless.exr 0.999 1.001
 
 # Pictures
 paint() { # density
@@ -100,14 +100,14 @@ END
 }
 for density in 0 18 28; do
     paint "$density" | grep -v TABLE >"paint$density.mtlx"
-    check "paint of density $density" draw "paint$density.exr" "paint$density.mtlx" Paint -m sphere --environment none
+    check "paint of density $density is drawn" draw "paint$density.exr" "paint$density.mtlx" Paint -m sphere --environment none
 done
-check 'far away there is GGX' compare paint0.exr paint28.exr 0.98 1.02
-check 'near there is its mean' compare paint0.exr paint18.exr 0.85 1.15
-check 'glints are there' eval '! cmp -s paint0.exr paint18.exr'
-check 'traced' draw traced.exr paint28.mtlx Paint -m sphere -s 24 --path-trace --paths 64
-check 'traced without' draw traced0.exr paint0.mtlx Paint -m sphere -s 24 --path-trace --paths 64
-check 'is the same' compare traced0.exr traced.exr 0.98 1.02
+check 'paint from far away is GGX' compare paint0.exr paint28.exr 0.98 1.02
+check 'paint from near has the mean of GGX' compare paint0.exr paint18.exr 0.85 1.15
+check 'glints change the picture' eval '! cmp -s paint0.exr paint18.exr'
+check 'paint is traced' draw traced.exr paint28.mtlx Paint -m sphere -s 24 --path-trace --paths 64
+check 'paint is traced without glints' draw traced0.exr paint0.mtlx Paint -m sphere -s 24 --path-trace --paths 64
+check 'traced glints do not change the mean' compare traced0.exr traced.exr 0.98 1.02
 
 # Tints: an even one; one that follows the light; one that follows the view
 table() { # name, value of the texel at view x and light y, 0 to 31
@@ -121,19 +121,19 @@ table light 'y * 255 / 31'
 table view 'x * 255 / 31'
 paint 0 | grep -v TABLE >plain.mtlx
 for kind in plain even; do
-    check "the tint $kind" draw "$kind.exr" "$kind.mtlx" Paint -m sphere
+    check "a ball with the tint $kind is drawn" draw "$kind.exr" "$kind.mtlx" Paint -m sphere
 done
-check 'takes its part' compare plain.exr even.exr 0.39 0.41
+check 'an even tint takes its part' compare plain.exr even.exr 0.39 0.41
 for kind in plain light view; do
     for light in 0,0,-1 0.8,0,-0.6; do
         [ $kind != view ] || [ $light != 0,0,-1 ] || continue
-        check "$kind at $light" draw "$kind$light.exr" "$kind.mtlx" Paint "${front[@]}" --lights directional_light --set "u_lightData[0].direction=$light"
+        check "the tint $kind is drawn in light along $light" draw "$kind$light.exr" "$kind.mtlx" Paint "${front[@]}" --lights directional_light --set "u_lightData[0].direction=$light"
     done
 done
-check 'light along the normal' compare plain0,0,-1.exr light0,0,-1.exr 0.96 1
-check 'slanted light' compare plain0.8,0,-0.6.exr light0.8,0,-0.6.exr 0.57 0.63
-check 'the view is along the normal' compare plain0.8,0,-0.6.exr view0.8,0,-0.6.exr 0.93 1
-check 'traced with a tint' draw traced.exr even.mtlx Paint -m sphere -s 24 --path-trace --paths 64
-check 'takes its part, too' compare traced0.exr traced.exr 0.39 0.41
+check 'a tint has light along the normal' compare plain0,0,-1.exr light0,0,-1.exr 0.96 1
+check 'a tint has slanted light' compare plain0.8,0,-0.6.exr light0.8,0,-0.6.exr 0.57 0.63
+check 'a tint has the view along the normal' compare plain0.8,0,-0.6.exr view0.8,0,-0.6.exr 0.93 1
+check 'an even tint is traced' draw traced.exr even.mtlx Paint -m sphere -s 24 --path-trace --paths 64
+check 'a traced tint takes its part' compare traced0.exr traced.exr 0.39 0.41
 
 finish glints

@@ -22,9 +22,9 @@ for document in standard_surface_default open_pbr_default; do
             check "$folder compiles" exits 0 glslangValidator -V "$folder"/*.$stage -o $stage.spv
         done
         statistics_of vert.spv frag.spv
-        check "$folder: registers" test "$(ours VGPRs)" -le "$(($(theirs $document $interface vgprs) * ${registers[$interface]} / 100))"
-        check "$folder: waves per SIMD" test "$(ours 'Subgroups per SIMD')" -ge "$(theirs $document $interface subgroups_per_simd)"
-        check "$folder: inverse throughput" test "$(ours 'Inverse Throughput')" -le "$(($(theirs $document $interface inverse_throughput) * ${percent[$interface]} / 100))"
+        check "$folder takes few registers" test "$(ours VGPRs)" -le "$(($(theirs $document $interface vgprs) * ${registers[$interface]} / 100))"
+        check "$folder has enough waves per SIMD" test "$(ours 'Subgroups per SIMD')" -ge "$(theirs $document $interface subgroups_per_simd)"
+        check "$folder has a low inverse throughput" test "$(ours 'Inverse Throughput')" -le "$(($(theirs $document $interface inverse_throughput) * ${percent[$interface]} / 100))"
     done
 done
 
@@ -45,11 +45,11 @@ for stage in vert frag; do
     check 'a stack compiles' exits 0 glslangValidator -V stack/*.$stage -o $stage.spv
 done
 statistics_of vert.spv frag.spv
-check 'a stack: registers' test "$(ours VGPRs)" -le 184
+check 'a stack takes few registers' test "$(ours VGPRs)" -le 184
 check 'passes are generated' exits 0 "$mxgen" pipeline passes
 check 'a pass compiles' exits 0 glslangValidator -V passes/light_complex.comp -o pass.spv
 statistics_of pass.spv
-check 'light_complex: registers' test "$(ours VGPRs)" -le 160
+check 'light_complex takes few registers' test "$(ours VGPRs)" -le 160
 
 # One slab costs no more than a dielectric over a diffuse closure that conserves energy, too.
 cat >slab.mtlx <<'END'
@@ -86,7 +86,7 @@ for interface in complete reduced; do
         cp statistics $shader.statistics
     done
     for figure in 'Instructions' 'VGPRs' 'Inverse Throughput'; do
-        check "a slab against layers: $interface, $figure" test "$(sed -n "s/^$figure=//p" slab.statistics)" -le "$(sed -n "s/^$figure=//p" layers.statistics)"
+        check "a slab costs no more than layers: $interface, $figure" test "$(sed -n "s/^$figure=//p" slab.statistics)" -le "$(sed -n "s/^$figure=//p" layers.statistics)"
     done
 done
 finish gpu

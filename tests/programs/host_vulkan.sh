@@ -56,18 +56,18 @@ if grep -q 'failed: .*GPU\|failed: vkCreateInstance' err; then
 fi
 check 'a thousand variants share a program' grep -qx '0 unchanged, 0 with other values, 1000 with other shaders, 1 programs' out
 check 'the first ball is red' dominates 0 first.ppm 0
-check 'the last one is green' dominates 1 first.ppm 999
+check 'the last ball is green' dominates 1 first.ppm 999
 check 'a new value needs no program' grep -qx 'a uniform' out
-check 'and shows' dominates 2 value.ppm 0
-check 'only there' dominates 0 value.ppm 1
-check 'a misspelt input is told' grep -qx 'there is no S0/nothing' err
-check 'a value of another type is told' grep -q "component" err
+check 'the new value shows in its ball' dominates 2 value.ppm 0
+check 'the new value shows in no other ball' dominates 0 value.ppm 1
+check 'the host reports a misspelt input' grep -qx 'there is no S0/nothing' err
+check 'the host reports a value of another type' grep -q "component" err
 check 'a connection changes one program' grep -qx '998 unchanged, 1 with other values, 1 with other shaders, 2 programs' out
-check 'and shows' dominates 2 connected.ppm 1
+check 'the connection shows in its ball' dominates 2 connected.ppm 1
 check 'a connected input takes no value' grep -qx 'S1/base_color is connected' err
-check 'a faulty connection is told' grep -q "S1" err
-check 'a broken file is told' grep -q 'many.mtlx:.*xml-truncated' err
-check 'and the old document stays' cmp connected.ppm broken.ppm
-check 'the mended file shows' dominates 1 reloaded.ppm 0
-check 'with its own connections' dominates 0 reloaded.ppm 1
+check 'the host reports a faulty connection' grep -q "S1" err
+check 'the host reports a broken file' grep -q 'many.mtlx:.*xml-truncated' err
+check 'a broken file keeps the old document' cmp connected.ppm broken.ppm
+check 'a mended file shows' dominates 1 reloaded.ppm 0
+check 'a mended file has its own connections' dominates 0 reloaded.ppm 1
 finish host-vulkan

@@ -30,60 +30,60 @@ make() {
 }
 says() { grep -qE -- "$1" "out.d/$2"; }
 
-check 'binding numbers' make Glass --binding-set 2 --first-binding 5
-check 'of the private uniforms' says 'layout\(set = 2, binding = 5, std140\) uniform PrivateUniforms' Glass.frag
-check 'of the public uniforms' says 'layout\(set = 2, binding = 6, std140\) uniform PublicUniforms' Glass.frag
-check 'of the lights' says 'layout\(set = 2, binding = 7, std140\) uniform LightData_block' Glass.frag
-check 'of the first texture' says 'layout\(set = 2, binding = 8\) uniform sampler2D' Glass.frag
-check 'in the vertex stage' says 'layout\(set = 2, binding = 5, std140\) uniform PrivateUniforms' Glass.vert
-check 'in the reflection' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"set\":2,\"binding\":6"'
-check 'not without sets' exits 2 "$mxgen" glass.mtlx --target glsl --binding-set 1 --stdout
+check 'a set and a first binding are accepted' make Glass --binding-set 2 --first-binding 5
+check 'the private uniforms have the first binding' says 'layout\(set = 2, binding = 5, std140\) uniform PrivateUniforms' Glass.frag
+check 'the public uniforms have the next binding' says 'layout\(set = 2, binding = 6, std140\) uniform PublicUniforms' Glass.frag
+check 'the lights have the next binding' says 'layout\(set = 2, binding = 7, std140\) uniform LightData_block' Glass.frag
+check 'the first texture has the next binding' says 'layout\(set = 2, binding = 8\) uniform sampler2D' Glass.frag
+check 'the vertex stage has the same bindings' says 'layout\(set = 2, binding = 5, std140\) uniform PrivateUniforms' Glass.vert
+check 'the reflection has the bindings' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"set\":2,\"binding\":6"'
+check 'a set without sets in the target is wrong usage' exits 2 "$mxgen" glass.mtlx --target glsl --binding-set 1 --stdout
 
-check 'refraction' make Glass
-check 'shows the environment' says 'refract' Glass.frag
-check 'transmission as opacity' make Glass --transmission opacity
-check 'shows no environment behind' eval '! says "ggx_refraction" Glass.frag'
-check 'but lowers alpha' says 'out1 = vec4\(opacity_grey \* color, opacity\);' Glass.frag
-check 'by the transmitted part' says 'float opacity = opacity_grey \* \(1.0 - clamp\(dot\(S_transmission_color' Glass.frag
-check 'also without an environment' make Glass --transmission opacity --environment none
-check 'it lowers alpha' says 'out1 = vec4\(opacity_grey \* color, opacity\);' Glass.frag
-check 'a mirror' make Mirror --transmission opacity
-check 'transmits nothing' says 'out1 = vec4\(Mirror_opacity \* color, Mirror_opacity\);' Mirror.frag
-check 'a clear pane' make Pane --transmission opacity --interface reduced
-check 'is invisible' says 'out1 = vec4\(.*0.0\);' Pane.frag
+check 'glass is generated with refraction' make Glass
+check 'refraction shows the environment' says 'refract' Glass.frag
+check 'transmission may be opacity' make Glass --transmission opacity
+check 'transmission as opacity shows no environment behind' eval '! says "ggx_refraction" Glass.frag'
+check 'transmission as opacity lowers alpha' says 'out1 = vec4\(opacity_grey \* color, opacity\);' Glass.frag
+check 'the transmitted part lowers alpha' says 'float opacity = opacity_grey \* \(1.0 - clamp\(dot\(S_transmission_color' Glass.frag
+check 'transmission may be opacity without an environment' make Glass --transmission opacity --environment none
+check 'transmission as opacity lowers alpha without an environment' says 'out1 = vec4\(opacity_grey \* color, opacity\);' Glass.frag
+check 'a mirror may have transmission as opacity' make Mirror --transmission opacity
+check 'a mirror transmits nothing' says 'out1 = vec4\(Mirror_opacity \* color, Mirror_opacity\);' Mirror.frag
+check 'a clear pane may have transmission as opacity' make Pane --transmission opacity --interface reduced
+check 'a clear pane is invisible' says 'out1 = vec4\(.*0.0\);' Pane.frag
 
-check 'opaque' make Glass --transparency opaque
-check 'keeps the colour' says 'out1 = vec4\(color, 1.0\);' Glass.frag
-check 'and discards nothing' eval '! says discard Glass.frag'
-check 'reflection says so' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"transparent\":false"'
-check 'a cut-out' make Glass --transparency mask
-check 'discards' says discard Glass.frag
-check 'and keeps the colour' says 'out1 = vec4\(color, 1.0\);' Glass.frag
-check 'reflection says mask' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"alpha\":\"mask\""'
-check 'always blended' make Mirror --transparency blend
-check 'reflection says blend' eval 'tr -d " \n" <out.d/Mirror.json | grep -q "\"alpha\":\"blend\""'
+check 'a surface can be opaque' make Glass --transparency opaque
+check 'an opaque surface keeps its colour' says 'out1 = vec4\(color, 1.0\);' Glass.frag
+check 'an opaque surface discards nothing' eval '! says discard Glass.frag'
+check 'the reflection says that the surface is opaque' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"transparent\":false"'
+check 'a surface can be a cut-out' make Glass --transparency mask
+check 'a cut-out discards' says discard Glass.frag
+check 'a cut-out keeps its colour' says 'out1 = vec4\(color, 1.0\);' Glass.frag
+check 'the reflection says that alpha is a mask' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"alpha\":\"mask\""'
+check 'a surface can always be blended' make Mirror --transparency blend
+check 'the reflection says that alpha is blended' eval 'tr -d " \n" <out.d/Mirror.json | grep -q "\"alpha\":\"blend\""'
 
-check 'an encoded colour' make Picture --encode srgb
-check 'has both parts of the curve' eval 'says "12.92" Picture.frag && says "1.055 - vec3\(0.055\)" Picture.frag && says "0.0031308" Picture.frag'
-check 'an encoded surface' make Glass --encode srgb
-check 'has the curve, too' says '12.92' Glass.frag
-check 'vectors' make Vectors --encode srgb
-check 'are no colours' eval '! says 12.92 Vectors.frag'
+check 'colours can be encoded' make Picture --encode srgb
+check 'the encoding has both parts of the curve' eval 'says "12.92" Picture.frag && says "1.055 - vec3\(0.055\)" Picture.frag && says "0.0031308" Picture.frag'
+check 'a surface can be encoded' make Glass --encode srgb
+check 'an encoded surface has the curve' says '12.92' Glass.frag
+check 'vectors are accepted with an encoding' make Vectors --encode srgb
+check 'vectors are not encoded' eval '! says 12.92 Vectors.frag'
 
-check 'textures from the top' make Picture --texture-origin top
-check 'have v flipped' says 'texture\(wood_file, vec2\(vd.texcoord_0.x, 1.0 - vd.texcoord_0.y\)\)' Picture.frag
-check 'tiles from the top' exits 0 "$mxgen" "$tiles" --target vulkan --texture-origin top -o out.d
-check 'count upwards all the same' eval 'says "floor\(" "$(cd out.d && ls *.frag | head -1)"'
+check 'textures can begin at the top' make Picture --texture-origin top
+check 'textures from the top have v flipped' says 'texture\(wood_file, vec2\(vd.texcoord_0.x, 1.0 - vd.texcoord_0.y\)\)' Picture.frag
+check 'tiles can begin at the top' exits 0 "$mxgen" "$tiles" --target vulkan --texture-origin top -o out.d
+check 'tiles count upwards from the top, too' eval 'says "floor\(" "$(cd out.d && ls *.frag | head -1)"'
 
-check 'reserved names' make Glass --reserved S_transmission,out1,opacity_grey
-check 'get numbers' eval 'says "float S_transmission_2;" Glass.frag && says "out vec4 out1_2;" Glass.frag && ! says " opacity_grey " Glass.frag'
+check 'names of the host can be reserved' make Glass --reserved S_transmission,out1,opacity_grey
+check 'reserved names get numbers' eval 'says "float S_transmission_2;" Glass.frag && says "out vec4 out1_2;" Glass.frag && ! says " opacity_grey " Glass.frag'
 
-check 'a shadow map' make Glass --shadow-map
-check 'is bound by its name' eval 'says "mat4 u_shadowMatrix;" Glass.frag && says "uniform sampler2D u_shadowMap;" Glass.frag'
-check 'serves the first light' eval 'says "occlusion = 1.0;" Glass.frag && says "float occlusion = " Glass.frag'
-check 'ambient occlusion' make Glass --occlusion-map
-check 'is bound by its name, too' eval 'says "float u_ambOccGain;" Glass.frag && says "texture\(u_ambOccMap, vd.texcoord_0\).x" Glass.frag'
-check 'not without lighting' exits 2 "$mxgen" glass.mtlx --target osl --shadow-map --stdout
+check 'a shadow map is accepted' make Glass --shadow-map
+check 'the shadow map is bound by its name' eval 'says "mat4 u_shadowMatrix;" Glass.frag && says "uniform sampler2D u_shadowMap;" Glass.frag'
+check 'the shadow map serves the first light' eval 'says "occlusion = 1.0;" Glass.frag && says "float occlusion = " Glass.frag'
+check 'an occlusion map is accepted' make Glass --occlusion-map
+check 'the occlusion map is bound by its name' eval 'says "float u_ambOccGain;" Glass.frag && says "texture\(u_ambOccMap, vd.texcoord_0\).x" Glass.frag'
+check 'a shadow map without lighting is wrong usage' exits 2 "$mxgen" glass.mtlx --target osl --shadow-map --stdout
 
 # The names that ShaderGraph::create and finalize of MaterialX 1.39 give to the sockets of a graph.
 cat >names.mtlx <<'XML'
@@ -107,54 +107,54 @@ cat >names.mtlx <<'XML'
 </materialx>
 XML
 uniforms() { exits 0 "$mxgen" names.mtlx --element "$1" --target glsl --stdout "${@:2}" && sed -n 's/^uniform [a-z0-9]* \([a-zA-Z0-9_]*\) =.*/\1/p' out >names; }
-check 'all inputs' uniforms M --publish all
+check 'all inputs can be published' uniforms M --publish all
 for name in color_mix_fg color_mix_bg color_mix_mix dim_in1 dim_in2 diffuse_roughness specular SR_specular_color_cm_in coat_IOR; do
-    check "have MaterialX's names: $name" grep -qx "$name" names
+    check "published inputs have MaterialX's names: $name" grep -qx "$name" names
 done
-check 'the interface' uniforms M
+check 'the inputs of the interface are published' uniforms M
 for name in NG_tint SR_diffuse_roughness SR_specular_color; do
-    check "has the names of paths: $name" grep -qx "$name" names
+    check "inputs of the interface have the names of paths: $name" grep -qx "$name" names
 done
-check 'and no inputs of nodes inside' eval '! grep -q "dim_\|color_mix" names'
-check 'a graph' uniforms NG/out --publish all
-check 'has its inputs' eval 'grep -qx tint names && grep -qx color_mix_bg names'
-check 'authored inputs of all nodes' uniforms M --publish all --interface authored
-check 'are those in the document' eval 'grep -qx dim_in1 names && ! grep -qx dim_in2 names'
+check 'inputs of nodes inside are not published' eval '! grep -q "dim_\|color_mix" names'
+check 'the inputs of a graph can be published' uniforms NG/out --publish all
+check 'a graph has its inputs' eval 'grep -qx tint names && grep -qx color_mix_bg names'
+check 'authored inputs of all nodes can be published' uniforms M --publish all --interface authored
+check 'authored inputs are those in the document' eval 'grep -qx dim_in1 names && ! grep -qx dim_in2 names'
 
-check 'a function' make Glass --form function --prefix pane_ --rename u_viewPosition=eye,normalWorld=Nw,surface=pane
-check 'has its name' says '^pane_Surface pane\(vec3 positionWorld, vec3 Nw' Glass.frag
-check 'and a prefix' says '^    float pane_S_base;' Glass.frag
-check 'also before functions' says '^float pane_mx_fresnel_dielectric' Glass.frag
-check 'reads a name of the host' says 'eye - positionWorld' Glass.frag
-check 'and does not declare it' eval '! says "vec3 eye;" Glass.frag'
-check 'asks for the lights' says '^void mxg_light\(int i, vec3 P, out vec3 L, out vec3 radiance\);' Glass.frag
-check 'has no vertex stage' eval '! [ -e out.d/Glass.vert ]'
-check 'is in the reflection' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"function\":\"pane\",\"functionType\":\"pane_Surface\""'
-check 'without lights' make Glass --form function --lights none
-check 'asks for none' eval '! says mxg_light Glass.frag'
-check 'a prefix without a function' make Glass --prefix pane_ --rename out1=host_color
-check 'is in all names' eval 'says "pane_VertexData" Glass.frag && says "pane_VertexData" Glass.vert && says "vec4 host_color" Glass.frag'
+check 'a function is generated' make Glass --form function --prefix pane_ --rename u_viewPosition=eye,normalWorld=Nw,surface=pane
+check 'the function has its name' says '^pane_Surface pane\(vec3 positionWorld, vec3 Nw' Glass.frag
+check 'uniforms have the prefix' says '^    float pane_S_base;' Glass.frag
+check 'functions have the prefix' says '^float pane_mx_fresnel_dielectric' Glass.frag
+check 'the shader reads a name of the host' says 'eye - positionWorld' Glass.frag
+check 'the shader does not declare a name of the host' eval '! says "vec3 eye;" Glass.frag'
+check 'the function asks for the lights' says '^void mxg_light\(int i, vec3 P, out vec3 L, out vec3 radiance\);' Glass.frag
+check 'a function has no vertex stage' eval '! [ -e out.d/Glass.vert ]'
+check 'the reflection names the function' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"function\":\"pane\",\"functionType\":\"pane_Surface\""'
+check 'a function may be without lights' make Glass --form function --lights none
+check 'a function without lights asks for none' eval '! says mxg_light Glass.frag'
+check 'a prefix goes without a function' make Glass --prefix pane_ --rename out1=host_color
+check 'the prefix is in all names' eval 'says "pane_VertexData" Glass.frag && says "pane_VertexData" Glass.vert && says "vec4 host_color" Glass.frag'
 for options in '--form function --max-lights 8' '--form function --integrator scatter' '--form function --shadow-map' \
     '--form function --lights point_light' '--integrator scatter --shadow-map' '--integrator scatter --occlusion-map' \
     '--integrator scatter --transmission opacity' '--integrator scatter --encode srgb' '--integrator scatter --transparency mask' \
     '--integrator scatter --sample-filter narrow'; do
     # shellcheck disable=SC2086
-    check "no effect: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "option-without-effect" err'
+    check "options without effect are an error: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "option-without-effect" err'
 done
 for options in '--prefix 7up' '--prefix a__b' '--prefix gl_' '--rename u_viewPosition' '--rename =eye' '--rename a=b,c=b' '--rename a=b,a=c' \
     '--rename out1=uniform' '--rename out1=a-b'; do
     # shellcheck disable=SC2086
-    check "no name: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "bad-option" err'
+    check "bad names are an error: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "bad-option" err'
 done
-check 'the default has an effect' exits 0 "$mxgen" glass.mtlx --target glsl --integrator scatter --transmission refraction --lights none --stdout
-check 'not in OSL' exits 2 "$mxgen" glass.mtlx --target osl --form function --stdout
+check 'the default of an option may be given' exits 0 "$mxgen" glass.mtlx --target glsl --integrator scatter --transmission refraction --lights none --stdout
+check 'a function of OSL is wrong usage' exits 2 "$mxgen" glass.mtlx --target osl --form function --stdout
 
 if [ -n "$compile" ]; then
     for options in '--binding-set 2 --first-binding 5' '--transmission opacity --transparency blend' '--transparency mask --encode srgb' \
         '--form function' '--form function --prefix a_ --rename normalWorld=N' '--prefix a_' '--texture-origin top --occlusion-map' '--shadow-map --reserved main,mx_square,color' '--transparency opaque'; do
         case $options in --binding*) targets=vulkan,hlsl ;; *) targets=glsl,vulkan,essl,essl310,hlsl ;; esac
         # shellcheck disable=SC2086
-        check "compiles with $options" exits 0 "$compile" glass.mtlx "$tiles" --targets $targets --interfaces complete,reduced $options
+        check "a shader compiles with $options" exits 0 "$compile" glass.mtlx "$tiles" --targets $targets --interfaces complete,reduced $options
     done
 else
     skip 'without glslang no shader is compiled'

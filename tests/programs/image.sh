@@ -69,10 +69,10 @@ compare() {
 
 for options in '' '--interface reduced' '--environment prefiltered' '--environment none --lights directional_light' '--layering two-sided' \
     '--integrator path' '--target vulkan --interface authored'; do
-    check "models $options" compare models.mtlx --target glsl $options
+    check "the shaders of models.mtlx are the same with $options" compare models.mtlx --target glsl $options
 done
 for document in "$root"/examples/*.mtlx "$root"/bench/standard_surface_default.mtlx; do
-    check "${document##*/}" compare "$document" --target glsl
+    check "the shaders of ${document##*/} are the same" compare "$document" --target glsl
 done
 
 finish image

@@ -14,7 +14,7 @@ here=$(cd "$(dirname "$0")" && pwd)
     done
     echo '</materialx>'
 } >many.mtlx
-check 'undisturbed' exits 0 "$mxgen" many.mtlx --reflect -o whole --depfile whole.d
+check 'an undisturbed run writes all files' exits 0 "$mxgen" many.mtlx --reflect -o whole --depfile whole.d
 start=$(date +%s%N)
 "$mxgen" many.mtlx --reflect -o timed >/dev/null 2>&1
 duration=$((($(date +%s%N) - start) / 1000000))
@@ -37,12 +37,12 @@ for round in $(seq 200); do
     fi
     killed=$((killed + 1))
     while read -r file; do
-        check "round $round: $file is whole" cmp "made/$file" "whole/$file"
+        check "$file is whole in round $round" cmp "made/$file" "whole/$file"
     done < <(cd made 2>/dev/null && find . -type f \( -name '*.frag' -o -name '*.vert' -o -name '*.json' \))
     [ ! -e made.d ] || check "round $round: depfile" eval 'sed "s|made/|whole/|g" made.d | cmp - whole.d'
 done
-check 'some were killed' test "$killed" -ge 5
-check 'a later run is not disturbed by what was left' exits 0 "$mxgen" many.mtlx --reflect -o made
-check 'and writes everything' eval 'for file in whole/*; do cmp "$file" "made/${file#whole/}" || exit 1; done'
+check 'some runs were killed' test "$killed" -ge 5
+check 'a run after a killed one is not disturbed' exits 0 "$mxgen" many.mtlx --reflect -o made
+check 'a run after a killed one writes everything' eval 'for file in whole/*; do cmp "$file" "made/${file#whole/}" || exit 1; done'
 
 finish kill

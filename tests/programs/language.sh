@@ -11,7 +11,7 @@ for target in glsl essl essl310 vulkan hlsl osl; do
         skip 'without oslc no OSL is compiled'
         continue
     fi
-    check "$target" exits 0 "$compile" "${documents[@]}" --targets "$target"
-    check "$target: all outputs with three interfaces" test "$(grep -c "	$target	" out)" -eq $((3 * outputs))
+    check "the functions compile for $target" exits 0 "$compile" "${documents[@]}" --targets "$target"
+    check "each output compiles with three interfaces for $target" test "$(grep -c "	$target	" out)" -eq $((3 * outputs))
 done
 finish language-compile

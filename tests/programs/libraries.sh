@@ -32,26 +32,26 @@ draws() {
     shift
     exits 0 "$mxgen" document.mtlx --interface reduced -o made "$@" && grep -F "vec4($value, $value, $value, 1.0)" made/o.frag
 }
-check '`file` from the folder above a library' draws 0.5 --library vendor/folder
-check 'a part of the library' exits 1 "$mxgen" document.mtlx --library vendor/folder/maker -o made
-check 'which lacks a file' grep -q "defs.mtlx:3:.* error: .*folder/maker/glsl/ash.glsl.*\[missing-source-file\]" err
-check '--source-path' draws 0.5 --library vendor/folder/maker --source-path vendor
-check 'the later of two libraries' draws 0.75 --library vendor/folder/maker --library vendor/folder/changes --source-path vendor
-check 'names both' grep -q "'IM_ash' of 'vendor/folder/changes/defs.mtlx' replaces 'IM_ash' of 'vendor/folder/maker/defs.mtlx'" err
-check 'in the other order' draws 0.5 --library vendor/folder/changes/defs.mtlx --library vendor/folder/maker --source-path vendor
-check 'a library twice' draws 0.5 --library vendor/folder/maker --library vendor/folder/maker --source-path vendor
-check 'replaces nothing' test "$(grep -c replaced-implementation err)" = 0
+check 'a file of source is found from the folder above a library' draws 0.5 --library vendor/folder
+check 'a part of the library fails alone' exits 1 "$mxgen" document.mtlx --library vendor/folder/maker -o made
+check 'the error names the missing file of source' grep -q "defs.mtlx:3:.* error: .*folder/maker/glsl/ash.glsl.*\[missing-source-file\]" err
+check '--source-path finds the file' draws 0.5 --library vendor/folder/maker --source-path vendor
+check 'the later of two libraries wins' draws 0.75 --library vendor/folder/maker --library vendor/folder/changes --source-path vendor
+check 'a message names both implementations' grep -q "'IM_ash' of 'vendor/folder/changes/defs.mtlx' replaces 'IM_ash' of 'vendor/folder/maker/defs.mtlx'" err
+check 'the order of libraries counts' draws 0.5 --library vendor/folder/changes/defs.mtlx --library vendor/folder/maker --source-path vendor
+check 'a library may be given twice' draws 0.5 --library vendor/folder/maker --library vendor/folder/maker --source-path vendor
+check 'a library that is given twice replaces nothing' test "$(grep -c replaced-implementation err)" = 0
 
 # Implementations for targets that mxgen does not have are left aside, which `library list` says.
-check 'library list' exits 0 "$mxgen" library list ash vendor/folder
-check 'of foreign targets' grep -q 'note: 1 implementations are for .*: genmsl (1) \[foreign-implementations\]' err
-check 'library list --quiet' exits 0 "$mxgen" library list ash vendor/folder --quiet
-check 'says no note' test ! -s err
-check 'other commands do not say it' draws 0.75 --library vendor/folder/maker --library vendor/folder/changes --source-path vendor
-check 'no note' test "$(grep -c foreign-implementations err)" = 0
-check 'an image keeps it' exits 0 "$mxgen" library pack vendor/folder/maker --source-path vendor -o maker.mxlib
-check 'library list of an image' exits 0 "$mxgen" library list ash maker.mxlib
-check 'of foreign targets' grep -q 'genmsl (1) \[foreign-implementations\]' err
+check 'library list is accepted' exits 0 "$mxgen" library list ash vendor/folder
+check 'library list notes implementations for foreign targets' grep -q 'note: 1 implementations are for .*: genmsl (1) \[foreign-implementations\]' err
+check 'library list --quiet is accepted' exits 0 "$mxgen" library list ash vendor/folder --quiet
+check 'library list --quiet prints no note' test ! -s err
+check 'two libraries generate a document' draws 0.75 --library vendor/folder/maker --library vendor/folder/changes --source-path vendor
+check 'a generation prints no note about foreign targets' test "$(grep -c foreign-implementations err)" = 0
+check 'a library is packed' exits 0 "$mxgen" library pack vendor/folder/maker --source-path vendor -o maker.mxlib
+check 'an image is listed' exits 0 "$mxgen" library list ash maker.mxlib
+check 'an image keeps the note about foreign targets' grep -q 'genmsl (1) \[foreign-implementations\]' err
 
 # A broken implementation is an error of the nodes that need it; the rest of its library works.
 cat >partly.mtlx <<'END'
@@ -72,14 +72,14 @@ cat >partly.mtlx <<'END'
 END
 while read -r node code place id; do
     echo "<materialx version='1.39'><$node name='n' type='float'/><output name='o' type='float' nodename='n'/></materialx>" >"$node.mtlx"
-    check "a library with faults: <$node>" exits "$code" "$mxgen" "$node.mtlx" --library partly.mtlx -o "made-$node"
-    check 'each fault is a warning' test "$(grep -c 'warning: .*\[broken-implementation\]' err)" = 4
-    check 'with the place of the fault' grep -q '^partly.mtlx:5:68: note: expected an expression' err
+    check "a library with faults ends with $code for <$node>" exits "$code" "$mxgen" "$node.mtlx" --library partly.mtlx -o "made-$node"
+    check 'each fault of the library is a warning' test "$(grep -c 'warning: .*\[broken-implementation\]' err)" = 4
+    check 'a note has the place of the fault' grep -q '^partly.mtlx:5:68: note: expected an expression' err
     if [ "$code" = 0 ]; then
-        check 'nothing else is said' eval '! grep -q error: err'
+        check 'a node without the fault has no error' eval '! grep -q error: err'
     else
-        check 'the fault is an error' grep -q "^partly.mtlx:$place: error: .*\[$id\]" err
-        check 'with the place of the use' grep -q "^$node.mtlx:1:27: note: 'n' needs it here" err
+        check 'a fault that a node needs is an error' grep -q "^partly.mtlx:$place: error: .*\[$id\]" err
+        check 'a note has the place of the use' grep -q "^$node.mtlx:1:27: note: 'n' needs it here" err
     fi
 done <<'END'
 good 0
@@ -88,10 +88,10 @@ lost 1 7:[0-9]* missing-source-file
 graph 1 10:[0-9]* dangling-nodename
 same 1 10:[0-9]* dangling-nodename
 END
-check 'no image has faults' exits 1 "$mxgen" library pack partly.mtlx -o partly.mxlib
-check 'which it says' grep -q '^error: an image has no faulty implementations' err
-check 'and writes nothing' test ! -e partly.mxlib
-check 'an error on demand' exits 1 "$mxgen" good.mtlx --library partly.mtlx -o made-strict -Werror=broken-implementation
+check 'a library with faults gives no image' exits 1 "$mxgen" library pack partly.mtlx -o partly.mxlib
+check 'the error says that images have no faults' grep -q '^error: an image has no faulty implementations' err
+check 'no image is written' test ! -e partly.mxlib
+check 'the warning can be made an error' exits 1 "$mxgen" good.mtlx --library partly.mtlx -o made-strict -Werror=broken-implementation
 
 # Included documents, too.
 cat >documents/outer.mtlx <<'END'
@@ -101,17 +101,17 @@ cat >documents/outer.mtlx <<'END'
 END
 mkdir -p elsewhere/shared
 echo '<materialx version="1.39"><constant name="a" type="float"><input name="value" type="float" value="0.125"/></constant></materialx>' >elsewhere/shared/ash.mtlx
-check 'an include that is elsewhere' exits 1 "$mxgen" documents/outer.mtlx -o made
-check 'is missing' grep -q 'outer.mtlx:2:.*include-missing' err
-check 'an include of a search path' exits 0 "$mxgen" documents/outer.mtlx -o made --interface reduced --source-path elsewhere
-check 'is read' grep -qF 'vec4(0.125, 0.125, 0.125, 1.0)' made/o.frag
+check 'an include in another folder fails' exits 1 "$mxgen" documents/outer.mtlx -o made
+check 'the error is include-missing' grep -q 'outer.mtlx:2:.*include-missing' err
+check '--source-path finds an include' exits 0 "$mxgen" documents/outer.mtlx -o made --interface reduced --source-path elsewhere
+check 'the include is read' grep -qF 'vec4(0.125, 0.125, 0.125, 1.0)' made/o.frag
 mkdir -p documents/shared
 sed 's/0.125/0.75/' elsewhere/shared/ash.mtlx >documents/shared/ash.mtlx
-check 'a file beside the document' exits 0 "$mxgen" documents/outer.mtlx -o made --interface reduced --source-path elsewhere
-check 'comes first' grep -qF 'vec4(0.75, 0.75, 0.75, 1.0)' made/o.frag
+check 'a file beside the document is accepted' exits 0 "$mxgen" documents/outer.mtlx -o made --interface reduced --source-path elsewhere
+check 'a file beside the document comes first' grep -qF 'vec4(0.75, 0.75, 0.75, 1.0)' made/o.frag
 rm documents/shared/ash.mtlx && mkdir documents/shared/ash.mtlx
-check 'an include that cannot be read' exits 1 "$mxgen" documents/outer.mtlx -o made --source-path elsewhere
-check 'is not looked for elsewhere' grep -q 'outer.mtlx:2:' err
+check 'an include that cannot be read fails' exits 1 "$mxgen" documents/outer.mtlx -o made --source-path elsewhere
+check 'an unreadable include is not looked for elsewhere' grep -q 'outer.mtlx:2:' err
 
 # Source for genglsl is read as portable where it can be: functions of MaterialX's generators, words as numbers, implicit inputs, tokens of
 # textures. So it folds.
@@ -150,11 +150,11 @@ cat >portable.mtlx <<'END'
   <read name="c" type="float"><input name="file" type="filename" value="x.png"/></read><output name="read" type="float" nodename="c"/>
 </materialx>
 END
-check 'source for genglsl' exits 0 "$mxgen" portable.mtlx --interface reduced --library portable -o made
-check 'functions of the generators fold' grep -qF 'vec4(0.25, 0.25, 0.25, 1.0)' made/rest.frag
-check 'a word is a number, and inputs are implicit' grep -qF 'vec4(0.5, 0.5, 0.5, 1.0)' made/pick.frag
-check 'tokens of textures' grep -q 'texture(.*vec2(0.25))' made/read.frag
-check 'without a copied function' test "$(grep -c 'void read' made/read.frag)" = 0
+check 'source for genglsl is generated' exits 0 "$mxgen" portable.mtlx --interface reduced --library portable -o made
+check "functions of MaterialX's generators fold" grep -qF 'vec4(0.25, 0.25, 0.25, 1.0)' made/rest.frag
+check 'a word is a number and inputs are implicit' grep -qF 'vec4(0.5, 0.5, 0.5, 1.0)' made/pick.frag
+check 'tokens of textures are replaced' grep -q 'texture(.*vec2(0.25))' made/read.frag
+check 'no function is copied' test "$(grep -c 'void read' made/read.frag)" = 0
 
 # Operators and materials that only foreign targets implement are mxgen's own.
 cat >operators.mtlx <<'END'
@@ -178,10 +178,10 @@ cat >material.mtlx <<'END'
   <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
 </materialx>
 END
-check 'operators without implementations' exits 0 "$mxgen" material.mtlx --no-builtin-library --library operators.mtlx -o made
+check 'operators without implementations are generated' exits 0 "$mxgen" material.mtlx --no-builtin-library --library operators.mtlx -o made
 sed 's/<surface name="s" type="surfaceshader"/<other name="s" type="surfaceshader"/' material.mtlx >other.mtlx
-check 'other nodes without implementations' exits 1 "$mxgen" other.mtlx --no-builtin-library --library operators.mtlx -o made
-check 'are an error' grep -q 'missing-implementation' err
+check 'other nodes without implementations fail' exits 1 "$mxgen" other.mtlx --no-builtin-library --library operators.mtlx -o made
+check 'the error is missing-implementation' grep -q 'missing-implementation' err
 
 # Only what needs adjacent pixels counts as a derivative, function by function; several outputs have an expression each.
 cat >near.glsl <<'END'
@@ -219,7 +219,7 @@ cat >near.mtlx <<'END'
   </nodegraph>
 </materialx>
 END
-check 'derivatives of source' exits 0 "$mxgen" inspect near.mtlx --ir --trust
+check 'source with derivatives is inspected' exits 0 "$mxgen" inspect near.mtlx --ir --trust
 cat >callees <<'END'
 callee "ND_near" verbatim 0 derivative
 callee "ND_far" verbatim 1
@@ -227,6 +227,6 @@ callee "ND_inline" verbatim 2 derivative
 callee "ND_both" verbatim 3
 callee "ND_both" verbatim 4 derivative
 END
-check 'are those of the functions that have them' diff <(grep '^callee' out) callees
+check 'derivatives are those of the functions that have them' diff <(grep '^callee' out) callees
 
 finish libraries

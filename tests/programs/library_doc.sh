@@ -13,25 +13,25 @@ every_definition() {
     [ -s names ] && comm -23 names told >missing && [ ! -s missing ] || { cat missing; return 1; }
 }
 
-check 'both pages' exits 0 "$mxgen" library doc -o both
+check 'the reference is written' exits 0 "$mxgen" library doc -o both
 check 'the page has every definition' every_definition both/index.html
 check 'Markdown has every definition' every_definition both/index.md
 check 'a second run gives the same bytes' eval '"$mxgen" library doc -o again && diff -r both again'
-check '--html alone' eval '"$mxgen" library doc --html -o html && test "$(ls html)" = index.html && cmp html/index.html both/index.html'
-check '--markdown alone' eval '"$mxgen" library doc --markdown -o md && test "$(ls md)" = index.md'
+check '--html writes the page only' eval '"$mxgen" library doc --html -o html && test "$(ls html)" = index.html && cmp html/index.html both/index.html'
+check '--markdown writes Markdown only' eval '"$mxgen" library doc --markdown -o md && test "$(ls md)" = index.md'
 if command -v xmllint >/dev/null; then
     check 'the page is well-formed' xmllint --noout --nonet both/index.html
 else
     skip 'there is no xmllint'
 fi
 check 'ids are unique' eval '! grep -o " id=\"[^\"]*\"" both/index.html | sort | uniq -d | grep .'
-check 'nothing is loaded from elsewhere' eval '! grep -Eq "(src|href)=\"[a-z]+:|@import|url\(" both/index.html'
+check 'the page loads nothing from elsewhere' eval '! grep -Eq "(src|href)=\"[a-z]+:|@import|url\(" both/index.html'
 check 'every link within the page has its end' eval \
     'grep -o "<a href=\"#[^\"]*" both/index.html | sed "s/.*#//" | sort -u | while read -r id; do grep -q " id=\"$id\"" both/index.html || exit 1; done'
-check 'ranges' grep -q '| `specular_IOR` | float | `1.5` | from 0, usually 1 to 3 |' both/index.md
-check 'values with names' grep -q '| `operationorder` | integer | `0` | SRT = 0, TRS = 1 |' both/index.md
-check 'units' grep -q '| `thinfilm_thickness` | float | `0` | from 0, usually up to 2000; in nanometer |' both/index.md
-check 'older versions tell what differs' eval 'grep -A5 "^Version 1.0.0 differs from 1.0.1" both/index.md | grep -q "^| .base. | float | .0.8. |"'
+check 'inputs have their ranges' grep -q '| `specular_IOR` | float | `1.5` | from 0, usually 1 to 3 |' both/index.md
+check 'values have their names' grep -q '| `operationorder` | integer | `0` | SRT = 0, TRS = 1 |' both/index.md
+check 'inputs have their units' grep -q '| `thinfilm_thickness` | float | `0` | from 0, usually up to 2000; in nanometer |' both/index.md
+check 'an older version has what differs' eval 'grep -A5 "^Version 1.0.0 differs from 1.0.1" both/index.md | grep -q "^| .base. | float | .0.8. |"'
 
 # Definitions of one's own, on the library that is built in
 cat >own.mtlx <<'X_'
@@ -51,20 +51,20 @@ cat >own.mtlx <<'X_'
   <implementation name="IM_osl_float" nodedef="ND_osl_float" target="essl" sourcecode="1.0"/>
 </materialx>
 X_
-check 'a library of its own' exits 0 "$mxgen" library doc own.mtlx -o own
-check 'tells its own nodes only' eval '[ "$(grep -c "^### " own/index.md)" -eq 3 ]'
+check 'a library of a user has a reference' exits 0 "$mxgen" library doc own.mtlx -o own
+check 'the reference has the nodes of that library only' eval '[ "$(grep -c "^### " own/index.md)" -eq 3 ]'
 check 'text is escaped' eval 'grep -qF "Less &lt; more | &quot;all&quot;." own/index.html && grep -qF "Less \\< more \\| " own/index.md'
-check 'ranges of its own' grep -q '| `count` | float | `4` | 1 to 9 |' own/index.md
-check 'a node without implementation says so' eval 'grep -A3 "^### orphan" own/index.md | grep -q "not implemented"'
-check 'a node of one target says so' eval 'grep -A3 "^### only" own/index.md | grep -q "only essl"'
-check 'a file that is missing' exits 1 "$mxgen" library doc none.mtlx -o none
+check 'the library of a user has its ranges' grep -q '| `count` | float | `4` | 1 to 9 |' own/index.md
+check 'the reference marks a node without implementation' eval 'grep -A3 "^### orphan" own/index.md | grep -q "not implemented"'
+check 'the reference marks a node of one target' eval 'grep -A3 "^### only" own/index.md | grep -q "only essl"'
+check 'a library that is missing fails' exits 1 "$mxgen" library doc none.mtlx -o none
 
 touch file
-check 'a folder that cannot be' exits 1 "$mxgen" library doc -o file/sub
-check 'is output-failed' grep -q '\[output-failed\]' err
-check 'a full disk' exits 1 bash -c "trap '' XFSZ; ulimit -f 1; exec '$mxgen' library doc -o full"
-check 'is output-failed too' grep -q '\[output-failed\]' err
-check 'no half-written page stays' test -z "$(ls full)"
+check 'a folder that cannot be made fails' exits 1 "$mxgen" library doc -o file/sub
+check 'the error of such a folder is output-failed' grep -q '\[output-failed\]' err
+check 'a full disk fails' exits 1 bash -c "trap '' XFSZ; ulimit -f 1; exec '$mxgen' library doc -o full"
+check 'the error of a full disk is output-failed' grep -q '\[output-failed\]' err
+check 'a full disk leaves no half-written page' test -z "$(ls full)"
 
 export MESA_SHADER_CACHE_DISABLE=true
 if [ -z "$render" ]; then
@@ -82,12 +82,12 @@ else
   </nodegraph>
 </materialx>
 X_
-    check 'pictures' exits 0 "$mxgen" library doc own.mtlx second.mtlx --pictures -o drawn
-    check 'of a pattern and a closure' eval 'file() { head -c 4 "$1" | grep -q PNG; }; file drawn/pictures/own.png && file drawn/pictures/second.png'
-    check 'the pages show them' eval 'grep -q "src=\"pictures/own.png\"" drawn/index.html && grep -q "](pictures/second.png)" drawn/index.md'
-    check 'nodes that cannot be pictured have none' test ! -e drawn/pictures/orphan.png
-    check 'without a device there are pages' exits 1 env VK_DRIVER_FILES=/none VK_ICD_FILENAMES=/none "$mxgen" library doc own.mtlx --pictures -o dark
-    check 'without pictures' eval 'test -s dark/index.html && ! grep -q "<img" dark/index.html'
+    check 'the reference can have pictures' exits 0 "$mxgen" library doc own.mtlx second.mtlx --pictures -o drawn
+    check 'a pattern and a closure have pictures' eval 'file() { head -c 4 "$1" | grep -q PNG; }; file drawn/pictures/own.png && file drawn/pictures/second.png'
+    check 'the pages show the pictures' eval 'grep -q "src=\"pictures/own.png\"" drawn/index.html && grep -q "](pictures/second.png)" drawn/index.md'
+    check 'a node that cannot be drawn has no picture' test ! -e drawn/pictures/orphan.png
+    check 'a run without a device fails' exits 1 env VK_DRIVER_FILES=/none VK_ICD_FILENAMES=/none "$mxgen" library doc own.mtlx --pictures -o dark
+    check 'a run without a device writes pages without pictures' eval 'test -s dark/index.html && ! grep -q "<img" dark/index.html'
 fi
 
 finish library-doc

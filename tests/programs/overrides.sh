@@ -47,29 +47,29 @@ echo /a >stage.txt
 generate() { "$mxgen" look.mtlx --look L --stage stage.txt --target vulkan --interface reduced --environment none -o out.d; }
 # gives WHAT COLOUR: the shader of /a has this colour, without a message.
 gives() {
-    check "$1" exits 0 generate
-    check "$1: no message" test ! -s err
+    check "a shader is generated: $1" exits 0 generate
+    check "no message is printed: $1" test ! -s err
     local name
     name=$(python3 -c "import json; print(json.load(open('out.d/bindings.json'))['primitives'][0]['stack'])")
-    check "$1: $2" eval "sed -n '/^void main/,\$p' out.d/$name.frag >main; grep -qF 'out1 = $2;' main || { cat main; false; }"
+    check "the colour is $2: $1" eval "sed -n '/^void main/,\$p' out.d/$name.frag >main; grep -qF 'out1 = $2;' main || { cat main; false; }"
 }
 # complains WHAT CODE ID TEXT: once.
 complains() {
-    check "$1" exits "$2" generate
-    check "$1: one $3" test "$(grep -c "\[$3\]" err)" = 1
-    check "$1: $4" grep -qF "$4" err
+    check "the run ends with $2: $1" exits "$2" generate
+    check "one $3 is printed: $1" test "$(grep -c "\[$3\]" err)" = 1
+    check "the message names $4: $1" grep -qF "$4" err
 }
 
 document '' "$(layer 000 red)"
-gives 'no override' 'vec4(1.0, 0.0, 0.0, 1.0)'
+gives 'a material without override stays as it is' 'vec4(1.0, 0.0, 0.0, 1.0)'
 
 # ---- By name ----
 document "$(constant NG color3 '0, 1, 0' "'emission_color'")" "$(layer 000 red)" "$(override 000::010 NG)"
 gives 'an output drives the input of its name' 'vec4(0.0, 1.0, 0.0, 1.0)'
 document "$(constant NG color3 '0, 1, 0' "'emission_color'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
-gives 'also in the place of a connection' 'vec4(0.0, 1.0, 0.0, 1.0)'
+gives 'an output drives an input that is connected' 'vec4(0.0, 1.0, 0.0, 1.0)'
 document "$(constant NG float 0.5 "'gain'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
-gives 'interfaces of all graphs' 'vec4(0.5, 0.0, 0.5, 1.0)'
+gives 'an output drives the interfaces of all graphs' 'vec4(0.5, 0.0, 0.5, 1.0)'
 # The graph and the shader have an input `emission`; the graph wins, so the shader stays at 1.
 inner="<nodegraph name='NG_in'>$(input emission float 0)<combine3 name='k' type='color3'><input name='in1' type='float' interfacename='emission'/></combine3>
   <output name='out' type='color3' nodename='k'/></nodegraph>
@@ -78,7 +78,7 @@ inner="<nodegraph name='NG_in'>$(input emission float 0)<combine3 name='k' type=
 document "$inner $(constant NG float 0.5 "'emission'")" "$(layer 000 in)" "$(override 000::010 NG)"
 gives 'an interface comes before shaders' 'vec4(0.5, 0.0, 0.0, 1.0)'
 document "$(constant NG float 0.5 "'emission'")" "$(layer 000 red)" "$(override 000::010 NG)"
-gives 'shaders, where no interface has the name' 'vec4(0.5, 0.0, 0.0, 1.0)'
+gives 'an output drives shaders where no interface has the name' 'vec4(0.5, 0.0, 0.0, 1.0)'
 masked="<nodegraph name='NG_in'>$(input mask float 1)<combine3 name='k' type='color3'><input name='in1' type='float' interfacename='mask'/></combine3>
   <output name='out' type='color3' nodename='k'/></nodegraph>
   <surface_unlit name='s_in' type='surfaceshader'><input name='emission_color' type='color3' nodegraph='NG_in' output='out'/></surface_unlit>
@@ -92,13 +92,13 @@ gives 'each material has a mask' 'vec4(0.25, 0.0, 0.0, 0.25)'
 document "$(constant NG float 0.5 "'x' overrides='NG_two/gain'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
 gives 'overrides= names one input' 'vec4(1.0, 0.0, 0.5, 1.0)'
 document "$(constant NG color3 '0, 1, 0' "'x' overrides='s_pattern/emission_color'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
-gives 'of a shader' 'vec4(0.0, 1.0, 0.0, 1.0)'
+gives 'overrides= names an input of a shader' 'vec4(0.0, 1.0, 0.0, 1.0)'
 document "$(constant NG float 0.25 "'x' overrides='pattern/mask'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
-gives 'of the material' 'vec4(0.25, 0.0, 0.25, 0.25)'
+gives 'overrides= names an input of the material' 'vec4(0.25, 0.0, 0.25, 0.25)'
 document "$(constant NG color3 '0, 1, 0' "'x' overrides='NG_two/tint/value'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
-gives 'of a node inside a graph' 'vec4(1.0, 1.0, 0.0, 1.0)'
+gives 'overrides= names an input of a node inside a graph' 'vec4(1.0, 1.0, 0.0, 1.0)'
 document "$(constant NG float 0.5 "'x' overrides='NG_one/gain'" "'gain' overrides='NG_two/gain'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
-gives 'two outputs, two inputs; the name of an output says nothing then' 'vec4(0.5, 0.0, 0.5, 1.0)'
+gives 'two outputs drive two inputs, whatever their names are' 'vec4(0.5, 0.0, 0.5, 1.0)'
 document "$(constant NG float 0.5 "'gain' overrides='NG_three/gain'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
 complains 'a path to nothing' 0 override-unmatched "'NG_three/gain'"
 document "$(constant NG float 0.5 "'x' overrides='NG_one/tint/value'")" "$(layer 000 pattern)" "$(override 000::010 NG)"
@@ -109,25 +109,25 @@ more="$(constant low color3 '0, 1, 0' "'emission_color'") $(constant high color3
 document "$more" "$(layer 000 red)" "$(override 000::020 high)" "$(override 000::010 low)"
 gives 'the highest override wins, whatever the order' 'vec4(0.0, 0.0, 1.0, 1.0)'
 document "$more" "$(layer 000 red)" "$(override 000::020 half)" "$(override 000::010 low)"
-gives 'for each input by itself' 'vec4(0.0, 0.5, 0.0, 1.0)'
+gives 'the highest override wins for each input by itself' 'vec4(0.0, 0.5, 0.0, 1.0)'
 document "$more" "$(layer 000 red)" "$(override 000::010 low)" "$(layer 010 red)"
-gives 'another slot has its own' 'vec4(1.0, 0.0, 0.0, 1.0)'
+gives 'another slot has overrides of its own' 'vec4(1.0, 0.0, 0.0, 1.0)'
 
 # ---- Materials as overrides ----
 green=$(surface green "$(input emission_color color3 '0, 1, 0')")
 document "$green" "$(layer 000 red)" "$(layer 000::010 green)"
-gives 'a material: the inputs that its shader has in the document' 'vec4(0.0, 1.0, 0.0, 1.0)'
+gives 'a material overrides by the inputs that its shader has in the document' 'vec4(0.0, 1.0, 0.0, 1.0)'
 dim=$(surface dim "$(input emission float 0.5)")
 document "$dim" "$(layer 000 red)" "$(layer 000::010 dim)"
-gives 'and not its defaults' 'vec4(0.5, 0.0, 0.0, 1.0)'
+gives 'a material does not override by defaults' 'vec4(0.5, 0.0, 0.0, 1.0)'
 document "$green" "$(layer 000 pattern)" "$(layer 000::010 green)"
-gives 'over a connection' 'vec4(0.0, 1.0, 0.0, 1.0)'
+gives 'a material overrides a connection' 'vec4(0.0, 1.0, 0.0, 1.0)'
 document "<surface_unlit name='s_blue' type='surfaceshader'>$(input emission_color color3 '0, 0, 1')</surface_unlit>
   <substance name='part' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s_blue'/>$(input mask float 0.25)</substance>" \
     "$(layer 000 red)" "$(layer 000::010 part)"
-gives "a material's own inputs, too" 'vec4(0.0, 0.0, 0.25, 0.25)'
+gives "a material overrides by its own inputs" 'vec4(0.0, 0.0, 0.25, 0.25)'
 document "$green" "$(layer 000 pattern)" "$(layer 000::010 pattern)" "$(layer 000::020 red)"
-gives 'a connection of an overriding material, and a value above it' 'vec4(1.0, 0.0, 0.0, 1.0)'
+gives 'a value wins over the connection of a material below it' 'vec4(1.0, 0.0, 0.0, 1.0)'
 document "<surface name='s_wrong' type='surfaceshader'>$(input opacity float 0.5)</surface>
   <displacement name='d' type='displacementshader'>$(input displacement float 1)</displacement>
   <surfacematerial name='wrong' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s_wrong'/></surfacematerial>
@@ -136,39 +136,39 @@ document "<surface name='s_wrong' type='surfaceshader'>$(input opacity float 0.5
     "$(layer 000 std)" "$(layer 000::010 wrong)"
 complains 'a material whose input has another type' 1 override-type 's_std/opacity'
 document "$(surface odd "$(input gain float 0.5)")" "$(layer 000 red)" "$(layer 000::010 odd)"
-check 'an input that no node has' exits 0 generate
-check 'is a warning' grep -q override-unmatched err
+check 'an input that no node has is generated' exits 0 generate
+check 'an input that no node has is a warning' grep -q override-unmatched err
 
 # ---- Displacement, vertical layers ----
 document "<displacement name='d' type='displacementshader'>$(input displacement float 1)$(input scale float 2)</displacement>
   <substance name='moved' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s_red'/>
     <input name='displacementshader' type='displacementshader' nodename='d'/></substance>
   $(constant NG float 3 "'scale'")" "$(layer 000 moved)" "$(override 000::010 NG)"
-check 'a displacement' exits 0 generate
-check 'has its input driven' eval 'grep -rqF "3.0" out.d/*.vert && ! grep -qF "2.0 *" out.d/*.vert'
+check 'a displacement is generated' exits 0 generate
+check 'an override drives the displacement' eval 'grep -rqF "3.0" out.d/*.vert && ! grep -qF "2.0 *" out.d/*.vert'
 dim=$(surface dim "$(input emission float 0.5) $(input emission_color color3 '1, 0, 0')") # light of both adds up
 document "$more $dim" "$(layer 000 red)" "$(layer '000|010' dim)" "$(override '000|010::x' low)"
-gives 'an override of a vertical layer' 'vec4(1.0, 0.5, 0.0, 1.0)'
+gives 'an override drives a vertical layer' 'vec4(1.0, 0.5, 0.0, 1.0)'
 document "$more $dim" "$(layer 000 red)" "$(layer '000|010' dim)" "$(override 000::x low)"
-gives 'one of the slot does not reach it' 'vec4(0.5, 1.0, 0.0, 1.0)'
+gives 'an override of the slot does not drive its vertical layer' 'vec4(0.5, 1.0, 0.0, 1.0)'
 
 # ---- Variants ----
 variants="<variantset name='V'><variant name='green'>$(input emission_color color3 '0, 1, 0')</variant><variant name='blue'>$(input emission_color color3 '0, 0, 1')</variant></variantset>"
 pick() { echo "<variantassign name='v$2' variantset='V' variant='$1'/>"; }
 document "$variants" "$(pick green 1)" "$(layer 000 red)"
-gives 'a variant of the look' 'vec4(0.0, 1.0, 0.0, 1.0)'
+gives 'a variant of the look applies' 'vec4(0.0, 1.0, 0.0, 1.0)'
 document "$variants" "$(pick green 1)" "<materialassign material='red' geom='/a'>$(pick blue 2)</materialassign>"
-gives 'one inside the assignment wins' 'vec4(0.0, 0.0, 1.0, 1.0)'
+gives 'a variant inside the assignment wins' 'vec4(0.0, 0.0, 1.0, 1.0)'
 document "$variants" "<materialassign material='red' geom='/a'>$(pick blue 2)</materialassign>" "$(pick green 1)"
-gives 'wherever that of the look stands' 'vec4(0.0, 0.0, 1.0, 1.0)'
+gives 'a variant inside the assignment wins wherever that of the look stands' 'vec4(0.0, 0.0, 1.0, 1.0)'
 document "$variants" "<materialassign material='red' geom='/a'>$(pick blue 2)$(pick green 3)</materialassign>"
-gives 'of two inside the later wins' 'vec4(0.0, 1.0, 0.0, 1.0)'
+gives 'the later of two variants inside wins' 'vec4(0.0, 1.0, 0.0, 1.0)'
 document "$variants $more" "<materialassign material='red' geom='/a'>$(pick blue 2)</materialassign>" "$(override 000::010 low)"
 gives 'an override wins over both' 'vec4(0.0, 1.0, 0.0, 1.0)'
 document "$variants" "<materialassign material='red' geom='/a'>$(pick blue 2)</materialassign>" "<materialassign material='red' geom='/a/b'/>"
 printf '/a\n/a/b\n' >stage.txt
-check 'an assignment without the variant' exits 0 generate
-check 'has a shader of its own' test "$(grep -l 'vec4(1.0, 0.0, 0.0, 1.0)' out.d/*.frag | wc -l)" -ge 1
+check 'an assignment without the variant is generated' exits 0 generate
+check 'the assignment without the variant has a shader of its own' test "$(grep -l 'vec4(1.0, 0.0, 0.0, 1.0)' out.d/*.frag | wc -l)" -ge 1
 echo /a >stage.txt
 document "$variants <look name='P'>$(pick green 1)$(layer 000 red)</look>" "$(pick blue 2)"
 sed -i "s|<look name='L'>|<look name='L' inherit='P'>|" look.mtlx

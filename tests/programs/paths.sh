@@ -18,7 +18,7 @@ compare() {
     check "$name is drawn" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --size 64 $samples ${4:-} -o drawn.exr
     # shellcheck disable=SC2086
     check "$name is traced" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --path-trace --paths 64 --size 64 ${5:-} -o traced.exr
-    check "$name agrees" near "$("$mean_ratio" drawn.exr traced.exr)" "$expected" 0.03
+    check "the means of $name agree" near "$("$mean_ratio" drawn.exr traced.exr)" "$expected" 0.03
 }
 
 # leaf NAME NODES [OF-WHAT-IS-DRAWN] [OF-WHAT-IS-TRACED] [LIGHTS]: a surface of the BSDF "bsdf".
@@ -111,7 +111,7 @@ compare shrunk 1 ball.mtlx
 mv traced.exr shrunk.exr
 sed -i 's/value="-0.2"/value="0"/' ball.mtlx
 compare 'not displaced' 1 ball.mtlx
-check 'what shrinks covers less: 0.8 squared, and a little less in perspective' near "$("$mean_ratio" shrunk.exr traced.exr)" 0.62 0.03
+check 'a ball that shrinks covers 0.8 squared, and a little less in perspective' near "$("$mean_ratio" shrunk.exr traced.exr)" 0.62 0.03
 
 # Derivatives along the screen: a slope that glows in the colour of its normal (flat, it were 1.7 times as bright), and bumps.
 cat >slope.mtlx <<'XML'
@@ -146,10 +146,10 @@ cat >clear.mtlx <<'XML'
 XML
 compare glow 1 clear.mtlx
 sed -i 's/"opacity" type="float" value="1"/"opacity" type="float" value="0"/' clear.mtlx
-check 'what is clear is traced' exits 0 "$render" clear.mtlx -m sphere --path-trace --paths 4 --size 8 -o clear.ppm --background none
-check 'and not there' test "$(tail -c 192 clear.ppm | od -An -tu1 -v | tr -d ' 0\n')" = ''
-check 'no paths' exits 2 "$render" clear.mtlx --path-trace --paths 0 -o x.png
-check 'no turntable of paths' exits 2 "$render" clear.mtlx --path-trace --turntable 2 -o x.png
+check 'a clear ball is traced' exits 0 "$render" clear.mtlx -m sphere --path-trace --paths 4 --size 8 -o clear.ppm --background none
+check 'a clear ball is invisible' test "$(tail -c 192 clear.ppm | od -An -tu1 -v | tr -d ' 0\n')" = ''
+check 'no paths are wrong usage' exits 2 "$render" clear.mtlx --path-trace --paths 0 -o x.png
+check 'a turntable of paths is wrong usage' exits 2 "$render" clear.mtlx --path-trace --turntable 2 -o x.png
 
 examples=$materials/resources/Materials/Examples
 [ -d "$examples" ] || { skip "there is no folder $examples"; finish paths; }

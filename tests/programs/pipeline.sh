@@ -7,19 +7,19 @@ source "$scripts/common.sh"
 
 # ---- passes ----
 
-check "passes" "$mxgen" pipeline passes
+check "the passes are generated" "$mxgen" pipeline passes
 for name in classify compose light_simple light_single light_complex light_special show light_rays; do
-    check "$name" test -s "passes/$name.comp" -a -s "passes/$name.json"
+    check "the pass $name has a shader and a reflection" test -s "passes/$name.comp" -a -s "passes/$name.json"
 done
-check "no pass that the options do not ask for" test ! -e passes/diffuse.comp -a ! -e passes/diffuse.json -a ! -e passes/blur.comp
-check "passes for OpenGL" "$mxgen" pipeline gl --target glsl
-check "few lights" "$mxgen" pipeline few --max-lights 1 --environment none
+check "a pass that the options do not ask for is not there" test ! -e passes/diffuse.comp -a ! -e passes/diffuse.json -a ! -e passes/blur.comp
+check "passes are generated for OpenGL" "$mxgen" pipeline gl --target glsl
+check "passes are generated for one light" "$mxgen" pipeline few --max-lights 1 --environment none
 same() { cmp -s "$1/classify.comp" "$2/classify.comp"; }
-check "what lights nothing does not depend on lights" same passes few
-check "lighting does" bash -c '! cmp -s passes/light_simple.comp few/light_simple.comp'
-check "names and inputs of a host" "$mxgen" pipeline named --uniform '**' --rename positionWorld=pw --prefix x_
-check "do not change passes" diff -r passes named
-check "no folder is bad usage" exits 2 "$mxgen" pipeline
+check "a pass that lights nothing does not depend on lights" same passes few
+check "a pass that lights depends on lights" bash -c '! cmp -s passes/light_simple.comp few/light_simple.comp'
+check "passes are generated with names and inputs of a host" "$mxgen" pipeline named --uniform '**' --rename positionWorld=pw --prefix x_
+check "names and inputs of a host do not change passes" diff -r passes named
+check "a run without a folder is wrong usage" exits 2 "$mxgen" pipeline
 
 # Compiles all passes of a folder with glslang's own program, where there is one.
 compiles() {
@@ -34,9 +34,9 @@ if command -v glslangValidator >/dev/null; then
     "$mxgen" pipeline blurred --rough-refraction blur >/dev/null
     "$mxgen" pipeline soft --rough-refraction blur --sss diffusion >/dev/null
     for folder in passes few shadow spread blurred soft; do
-        check "$folder compile" compiles "$folder" "-V -o code.spv"
+        check "the passes compile: $folder" compiles "$folder" "-V -o code.spv"
     done
-    check "gl compile" compiles gl ""
+    check "the passes for OpenGL compile" compiles gl ""
 else
     skip "no glslangValidator"
 fi
@@ -52,7 +52,7 @@ disassembled() {
     done
 }
 if command -v glslangValidator >/dev/null && command -v spirv-dis >/dev/null; then
-    check "the JSON is what the passes are" python3 "$scripts/pass_layouts.py" $(disassembled passes spread soft)
+    check "the reflection has what the passes have" python3 "$scripts/pass_layouts.py" $(disassembled passes spread soft)
 else
     skip "no glslangValidator or spirv-dis"
 fi
@@ -60,7 +60,7 @@ fi
 # ---- materials ----
 
 number() { sed -n "s/.*\"$2\": \([0-9]*\).*/\1/p" "$1" | head -1; }
-check "materials" "$mxgen" "$examples/deferred.mtlx" --target vulkan --pipeline deferred --interface reduced --reflect -o materials
+check "materials are generated" "$mxgen" "$examples/deferred.mtlx" --target vulkan --pipeline deferred --interface reduced --reflect -o materials
 fits() {
     local file
     for file in materials/[!L]*.json materials/Lantern.json materials/Lacquered.json passes/[!l]*.json \
@@ -68,37 +68,37 @@ fits() {
         [ "$(number "$file" layout)" = "$(number passes/show.json layout)" ] || { echo "$file"; return 1; }
     done
 }
-check "one layout in all reflections" fits
+check "all reflections have one layout" fits
 "$mxgen" pipeline float --storage float >/dev/null
 other_layout() { [ "$(number float/show.json layout)" != "$(number passes/show.json layout)" ]; }
 check "another storage has another layout" other_layout
 "$mxgen" pipeline spread --sss diffusion >/dev/null
 "$mxgen" pipeline blurred --rough-refraction blur >/dev/null
-check "a material for it" "$mxgen" "$examples/frosted.mtlx" --target vulkan --pipeline deferred --rough-refraction blur --reflect -o frosted
-check "of its layout" eval '[ "$(number frosted/Frosted.json layout)" = "$(number blurred/show.json layout)" ]'
-check "values are blurred forward" "$mxgen" "$examples/frosted.mtlx" --target vulkan --rough-refraction blur -o forward
-check "by derivatives" grep -q 'dFdx(vd.positionWorld)' forward/Frosted.frag
-check "and in a path tracer" "$mxgen" "$examples/frosted.mtlx" --target vulkan --integrator scatter --rough-refraction blur -o traced
-check "by ray differentials" grep -q 'vd.dx_texcoord_0' traced/Frosted.frag
-check "not without the option" eval '"$mxgen" "$examples/frosted.mtlx" --target vulkan -o sharp && ! grep -q "dFdx" sharp/Frosted.frag'
-check "blur, too" eval '[ "$(number blurred/show.json layout)" != "$(number passes/show.json layout)" ]'
-check "diffusion, too" eval '[ "$(number spread/show.json layout)" != "$(number passes/show.json layout)" ]'
-check "and has an image" eval 'grep -q "\"scattered\"" spread/light_single.json && ! grep -q "\"scattered\"" passes/light_single.json'
-check "and has an image" eval 'grep -q "\"below\"" blurred/light_complex.json && ! grep -q "\"below\"" blurred/light_single.json'
+check "a material is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --pipeline deferred --rough-refraction blur --reflect -o frosted
+check "a material for blur has the layout of its passes" eval '[ "$(number frosted/Frosted.json layout)" = "$(number blurred/show.json layout)" ]'
+check "a forward shader is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --rough-refraction blur -o forward
+check "a forward shader blurs values by derivatives" grep -q 'dFdx(vd.positionWorld)' forward/Frosted.frag
+check "a path tracer is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --integrator scatter --rough-refraction blur -o traced
+check "a path tracer blurs values by ray differentials" grep -q 'vd.dx_texcoord_0' traced/Frosted.frag
+check "nothing is blurred without the option" eval '"$mxgen" "$examples/frosted.mtlx" --target vulkan -o sharp && ! grep -q "dFdx" sharp/Frosted.frag'
+check "blur has another layout" eval '[ "$(number blurred/show.json layout)" != "$(number passes/show.json layout)" ]'
+check "diffusion has another layout" eval '[ "$(number spread/show.json layout)" != "$(number passes/show.json layout)" ]'
+check "diffusion has an image" eval 'grep -q "\"scattered\"" spread/light_single.json && ! grep -q "\"scattered\"" passes/light_single.json'
+check "blur has an image" eval 'grep -q "\"below\"" blurred/light_complex.json && ! grep -q "\"below\"" blurred/light_single.json'
 words() { [ "$(number "materials/$1.json" words)" = "$2" ]; }
-check "words of Plain" words Plain 3
-check "words of Lacquered" words Lacquered 10
-check "words of Pearly" words Pearly 11
-check "words of Glittering" words Glittering 15
-check "a tint is the number of a table" python3 -c 'import json
+check "Plain stores 3 words" words Plain 3
+check "Lacquered stores 10 words" words Lacquered 10
+check "Pearly stores 11 words" words Pearly 11
+check "Glittering stores 15 words" words Glittering 15
+check "a tint is stored as the number of a table" python3 -c 'import json
 blocks = {block["name"]: block["variables"] for block in json.load(open("materials/Pearly.json"))["blocks"]}
 number, = [v for v in blocks["PublicUniforms"] if v.get("documentType") == "filename"]
 assert (number["type"], number["path"], number["file"]) == ("int", "pearl/specular_lut", "pearl.png"), number
 tables = [v for block in json.load(open("passes/light_special.json"))["blocks"] for v in block["variables"] if v["name"] == "u_tints"]
 assert len(tables) == 1 and tables[0]["semantic"] == "tints", tables'
-check "of one pass alone" eval '! grep -q u_tints passes/light_complex.comp'
+check "one pass alone reads the tints" eval '! grep -q u_tints passes/light_complex.comp'
 check "a cut-out has a depth pass" bash -c 'test -s materials/Lantern.depth.frag && grep -q discard materials/Lantern.depth.frag'
-check "an opaque material has none" test ! -e materials/Plain.depth.frag
+check "an opaque material has no depth pass" test ! -e materials/Plain.depth.frag
 check "positions are invariant" grep -q 'invariant gl_Position' materials/Plain.vert
 
 # A stack of eight layers of slabs.
@@ -116,7 +116,7 @@ check "positions are invariant" grep -q 'invariant gl_Position' materials/Plain.
     echo '</look></materialx>'
 } >eight.mtlx
 echo /a >eight.txt
-check "a stack of eight layers" "$mxgen" eight.mtlx --stage eight.txt --look L --target vulkan --pipeline deferred --reflect -o eight
+check "a stack of eight layers is generated" "$mxgen" eight.mtlx --stage eight.txt --look L --target vulkan --pipeline deferred --reflect -o eight
 
 # ---- other materials, as slabs ----
 
@@ -129,20 +129,20 @@ cat >models.mtlx <<'X'
 X
 as_slabs() { "$mxgen" models.mtlx --target vulkan --pipeline deferred --reflect -o models "$@" >out 2>&1; }
 check "a model without --slabs is an error" exits 1 as_slabs -e Paint
-check "and says so" grep -q closure-not-stored out
-check "a model" as_slabs -e Paint --interface reduced --slabs
-check "takes the bytes of one slab" eval '[ "$(number models/Paint.json words)" = 3 ] && ! grep -q drawn-forward out'
-check "with all inputs" as_slabs -e Paint --slabs --transparency opaque
-check "its glass is compiled in" python3 -c 'import json
+check "the error is closure-not-stored" grep -q closure-not-stored out
+check "a model is generated as slabs" as_slabs -e Paint --interface reduced --slabs
+check "a model as slabs takes the bytes of one slab" eval '[ "$(number models/Paint.json words)" = 3 ] && ! grep -q drawn-forward out'
+check "a model with all inputs is generated as slabs" as_slabs -e Paint --slabs --transparency opaque
+check "the glass of the model is compiled in" python3 -c 'import json
 reflection = json.load(open("models/Paint.json"))
 assert reflection["deferred"]["words"] > 3, reflection["deferred"]
 compiled = {item["path"] for item in reflection["compiledInputs"]}
 assert {"Paint/transmission", "Paint/thin_walled"} <= compiled and "Paint/specular_roughness" not in compiled, compiled'
-check "glass" as_slabs -e Glass --interface reduced --slabs
-check "is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction' is no slab" out
-check "and lights itself" eval '! grep -q mx_word0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
-check "glass in a budget" as_slabs -e Glass --interface reduced --max-slabs 4
-check "is stored" eval 'grep -q mx_word0 models/Glass.frag && ! grep -q drawn-forward out'
+check "glass is generated" as_slabs -e Glass --interface reduced --slabs
+check "a message says that glass is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction' is no slab" out
+check "glass lights itself" eval '! grep -q mx_word0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
+check "glass in a budget is generated" as_slabs -e Glass --interface reduced --max-slabs 4
+check "glass in a budget is stored" eval 'grep -q mx_word0 models/Glass.frag && ! grep -q drawn-forward out'
 cat >absent.mtlx <<'X'
 <materialx version="1.39">
   <oren_nayar_diffuse_bsdf name="none" type="BSDF"><input name="weight" type="float" value="0"/></oren_nayar_diffuse_bsdf>
@@ -156,10 +156,10 @@ stores_red() {
         grep -q 'mx_store_closure(stored, vec3(0.75, 0.125, 0.25)' absent/SR.frag
 }
 check "a top of weight 0 hides nothing" stores_red
-check "but all with --layering occluding" eval '! stores_red --layering occluding && test -s absent/SR.frag'
-check "what only glows" as_slabs -e Flat --interface reduced
-check "passes do not become slabs" "$mxgen" pipeline slabs --slabs --max-slabs 1
-check "but stay as they are" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'
+check "a top of weight 0 hides all with --layering occluding" eval '! stores_red --layering occluding && test -s absent/SR.frag'
+check "a material that only glows is generated" as_slabs -e Flat --interface reduced
+check "options of slabs are accepted for passes" "$mxgen" pipeline slabs --slabs --max-slabs 1
+check "options of slabs do not change passes" eval 'cmp -s slabs/light_complex.comp passes/light_complex.comp'
 
 # ---- payloads of rays ----
 
@@ -178,20 +178,20 @@ print(head + open(source).read() + out + f"void main() {{ payload = surface({arg
 X
 }
 for material in Paint Glass Flat; do
-    check "payload of $material" payload $material vulkan
-    check "has 64 bytes" eval '[ "$(number rays/$material.json words)" = 16 ] && [ "$(grep -c "uint word_" rays/$material.frag)" = 16 ]'
-    check "fits the pass over rays" eval '[ "$(number rays/$material.json layout)" = "$(number passes/light_rays.json layout)" ]'
+    check "a payload is generated: $material" payload $material vulkan
+    check "a payload has 64 bytes: $material" eval '[ "$(number rays/$material.json words)" = 16 ] && [ "$(grep -c "uint word_" rays/$material.frag)" = 16 ]'
+    check "a payload has the layout of the pass over rays: $material" eval '[ "$(number rays/$material.json layout)" = "$(number passes/light_rays.json layout)" ]'
     if command -v glslangValidator >/dev/null; then
         wrap rchit rays/$material.frag rays/$material.json >hit.rchit
-        check "is for hit shaders" glslangValidator -V --target-env vulkan1.2 -o code.spv hit.rchit
+        check "a payload compiles in a hit shader: $material" glslangValidator -V --target-env vulkan1.2 -o code.spv hit.rchit
     fi
 done
-check "a payload for OpenGL" payload Paint glsl
+check "a payload is generated for OpenGL" payload Paint glsl
 if command -v glslangValidator >/dev/null; then
     wrap comp rays/Paint.frag rays/Paint.json >hit.comp
-    check "compiles" glslangValidator hit.comp
+    check "a payload compiles for OpenGL" glslangValidator hit.comp
 fi
-check "one slab of many" eval '"$mxgen" "$examples/slabs.mtlx" -e WrappedSilk --form payload --target vulkan --stdout -q >wrapped &&
+check "a material of many slabs gives a payload of one" eval '"$mxgen" "$examples/slabs.mtlx" -e WrappedSilk --form payload --target vulkan --stdout -q >wrapped &&
     [ "$(grep -c "stored = mx_store_closure" wrapped)" = 1 ]'
 
 # ---- what is an error ----
@@ -207,11 +207,11 @@ reports() {
     shift
     exits 1 "$@" && grep -q "\[$id\]" err
 }
-check "a payload for HLSL" reports options-clash "$mxgen" models.mtlx -e Paint --form payload --target hlsl -o other
-check "a payload of a path tracer" reports option-without-effect "$mxgen" models.mtlx -e Paint --form payload --integrator path --target vulkan
+check "a payload for HLSL is an error" reports options-clash "$mxgen" models.mtlx -e Paint --form payload --target hlsl -o other
+check "a payload of a path tracer is an error" reports option-without-effect "$mxgen" models.mtlx -e Paint --form payload --integrator path --target vulkan
 echo '<materialx version="1.39"><constant name="c" type="color3"/></materialx>' >value.mtlx
-check "a payload of a value" reports not-renderable "$mxgen" value.mtlx -e c --form payload --target vulkan -o other
-check "a closure that is no slab" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --pipeline deferred -o other
+check "a payload of a value is an error" reports not-renderable "$mxgen" value.mtlx -e c --form payload --target vulkan -o other
+check "a closure that is no slab is an error" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --pipeline deferred -o other
 {
     echo '<materialx version="1.39"><slab name="s0" type="BSDF"/>'
     for i in {1..16}; do
@@ -223,10 +223,10 @@ check "a closure that is no slab" reports closure-not-stored "$mxgen" other.mtlx
 } >many.mtlx
 sed 's/"sN"/"s16"/' many.mtlx >seventeen.mtlx
 sed 's/"sN"/"s15"/' many.mtlx >sixteen.mtlx
-check "17 slabs" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --target vulkan --pipeline deferred -o many
-check "16 slabs" "$mxgen" sixteen.mtlx -e SR --target vulkan --pipeline deferred -o many
+check "17 slabs are an error" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --target vulkan --pipeline deferred -o many
+check "16 slabs are stored" "$mxgen" sixteen.mtlx -e SR --target vulkan --pipeline deferred -o many
 warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --pipeline deferred -o milky 2>&1 | grep -q drawn-forward; }
-check "a transparent surface is told" warns
+check "a message says that a transparent surface is drawn forward" warns
 cat >aov.mtlx <<'X'
 <materialx version="1.39">
   <slab name="matter" type="BSDF"/>
@@ -236,11 +236,11 @@ cat >aov.mtlx <<'X'
 </materialx>
 X
 aovs_are_told() { "$mxgen" aov.mtlx --target vulkan --interface reduced --pipeline deferred -o aovs "$@" 2>&1 | grep -q "drawn forward: it has AOVs"; }
-check "AOVs are told" aovs_are_told
-check "and may be left out" exits 1 aovs_are_told --aovs none
+check "a message says that AOVs are drawn forward" aovs_are_told
+check "nothing is drawn forward without AOVs" exits 1 aovs_are_told --aovs none
 for target in essl essl310 hlsl osl; do
-    check "no passes for $target" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --pipeline deferred -o no
+    check "passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --pipeline deferred -o no
 done
-check "no passes for OpenGL 3.3" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
+check "passes for OpenGL 3.3 are an error" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
 
 finish pipeline

@@ -89,16 +89,16 @@ sum() {
         awk -F, -v c="$channel" '{ for (i = 1 + c; i <= NF; i += 3) s += $i } END { printf "%d\n", s * 1000 }'
 }
 
-check 'red is red' test "$(sum 1 --set SR/base_color=0.8,0,0)" -gt "$((3 * $(sum 2 --set SR/base_color=0.8,0,0) / 2))"
-check 'green is green' test "$(sum 2 --set SR/base_color=0,0.8,0)" -gt "$((3 * $(sum 1 --set SR/base_color=0,0.8,0) / 2))"
-check 'emission adds' test "$(sum 1 --set SR/emission=1)" -gt "$(($(sum 1) + 15000))"
+check 'a red base is red' test "$(sum 1 --set SR/base_color=0.8,0,0)" -gt "$((3 * $(sum 2 --set SR/base_color=0.8,0,0) / 2))"
+check 'a green base is green' test "$(sum 2 --set SR/base_color=0,0.8,0)" -gt "$((3 * $(sum 1 --set SR/base_color=0,0.8,0) / 2))"
+check 'emission adds light' test "$(sum 1 --set SR/emission=1)" -gt "$(($(sum 1) + 15000))"
 check 'a reduced shader has no uniforms' exits 1 "$render" plain.mtlx --scene grid --interface reduced --set SR/base_color=1,0,0
-check 'a picture' exits 0 "$render" plain.mtlx -o ball.png --size 48x32
-check 'is a PNG of that size' test "$(od -An -tx1 -j16 -N8 ball.png | tr -d ' ')" = 0000003000000020
-check 'the same bytes again' eval '"$render" plain.mtlx -o again.png --size 48x32 && cmp ball.png again.png'
-check 'a missing texture' exits 1 "$render" textured.mtlx -o lost.png
-check 'names the file' grep -q "none.png.*\[missing-texture\]" err
-check 'its place, and a way out' eval 'grep -Eq "^textured.mtlx:[0-9]+:[0-9]+: warning: .*none.png" err && grep -q -- "--missing-texture checker" err'
+check 'a picture is drawn' exits 0 "$render" plain.mtlx -o ball.png --size 48x32
+check 'the picture is a PNG of the size that was asked for' test "$(od -An -tx1 -j16 -N8 ball.png | tr -d ' ')" = 0000003000000020
+check 'a second picture has the same bytes' eval '"$render" plain.mtlx -o again.png --size 48x32 && cmp ball.png again.png'
+check 'a missing texture fails the run' exits 1 "$render" textured.mtlx -o lost.png
+check 'the error names the missing file' grep -q "none.png.*\[missing-texture\]" err
+check 'the error has a place and names the option for checkers' eval 'grep -Eq "^textured.mtlx:[0-9]+:[0-9]+: warning: .*none.png" err && grep -q -- "--missing-texture checker" err'
 cat >several.mtlx <<'X'
 <materialx version="1.39">
   <image name="x" type="color3"><input name="file" type="filename" value="gone.png"/></image>
@@ -116,95 +116,95 @@ cat >several.mtlx <<'X'
 </materialx>
 X
 echo 'no picture' >broken.png
-check 'several missing textures' exits 1 "$render" several.mtlx -e M -o lost.png
-check 'are told together, each once' eval 'test "$(grep -c "there is no file" err)" -eq 2 && test "$(grep -c "gone.png. \[" err)" -eq 1'
-check 'with the way out at the end' eval "tail -n 1 err | grep -q \"M: 2 texture files cannot be read; '--missing-texture checker' draws checkers in their place\""
-check 'those of other materials are not' eval '! grep -q unread.png err'
-check "a user's file in the place of one" exits 1 "$render" several.mtlx -e M -o lost.png --set z/file=broken.png
-check 'is told with its input' grep -q "error: cannot read 'broken.png' for 'z/file': .*\[missing-texture\]" err
-check 'and not the file that it replaces' eval '! grep -q "lost.png. \[" err && grep -q "gone.png. \[" err'
-check 'users'"'"' files in the place of all' exits 1 "$render" several.mtlx -e M -o lost.png --set x/file=broken.png --set y/file=broken.png --set z/file=broken.png
-check 'are told, and no others' eval 'test "$(grep -c "cannot read .broken.png" err)" -eq 3 && grep -q "3 texture files" err && ! grep -q "there is no file" err'
-check 'checkers for all of them' exits 0 "$render" several.mtlx -e M -o lost.png --size 8 --missing-texture checker --set z/file=broken.png
-check 'are warnings' eval 'test "$(grep -c "warning: " err)" -eq 2 && ! grep -q "error: " err'
-check 'which --quiet drops' eval 'exits 0 "$render" several.mtlx -e M -o lost.png --size 8 --missing-texture checker --quiet && test ! -s err'
+check 'several missing textures fail the run' exits 1 "$render" several.mtlx -e M -o lost.png
+check 'each missing file is named once' eval 'test "$(grep -c "there is no file" err)" -eq 2 && test "$(grep -c "gone.png. \[" err)" -eq 1'
+check 'the last line counts the files and names the option for checkers' eval "tail -n 1 err | grep -q \"M: 2 texture files cannot be read; '--missing-texture checker' draws checkers in their place\""
+check 'missing files of other materials are not named' eval '! grep -q unread.png err'
+check "a broken file of the user fails the run" exits 1 "$render" several.mtlx -e M -o lost.png --set z/file=broken.png
+check "the error names the input of the user's file" grep -q "error: cannot read 'broken.png' for 'z/file': .*\[missing-texture\]" err
+check 'the file that the user replaces is not named' eval '! grep -q "lost.png. \[" err && grep -q "gone.png. \[" err'
+check 'broken files in place of all textures fail the run' exits 1 "$render" several.mtlx -e M -o lost.png --set x/file=broken.png --set y/file=broken.png --set z/file=broken.png
+check "the errors name the user's files only" eval 'test "$(grep -c "cannot read .broken.png" err)" -eq 3 && grep -q "3 texture files" err && ! grep -q "there is no file" err'
+check 'checkers stand for all missing textures' exits 0 "$render" several.mtlx -e M -o lost.png --size 8 --missing-texture checker --set z/file=broken.png
+check 'missing textures are warnings then' eval 'test "$(grep -c "warning: " err)" -eq 2 && ! grep -q "error: " err'
+check '--quiet drops these warnings' eval 'exits 0 "$render" several.mtlx -e M -o lost.png --size 8 --missing-texture checker --quiet && test ! -s err'
 rm -f lost.png
-check 'a misspelt input' exits 1 "$render" plain.mtlx --set SR/base_colr=1,0,0 -o lost.png
-check 'is compared' grep -q "did you mean 'SR/base_color'" err
-check 'leaves no picture' test ! -e lost.png
+check 'a misspelt input fails the run' exits 1 "$render" plain.mtlx --set SR/base_colr=1,0,0 -o lost.png
+check 'a misspelt input has a suggestion' grep -q "did you mean 'SR/base_color'" err
+check 'a run that fails leaves no picture' test ! -e lost.png
 quarter='1,0,0,1,0,0,0,1,0,0,1,0'
 half="$quarter,$quarter"
 missing='0.400000006,0.400000006,0.400000006,0.400000006,0.400000006,0.400000006,0,0,1,0,0,1'
-check 'tiles by <UDIM>, the default where one is missing' \
+check 'tiles by <UDIM> are read, and the default stands for a missing one' \
     test "$("$render" tiles.mtlx --scene grid)" = "NG/out,$half,$missing,$missing"
-check 'another frame of all of them' test "$("$render" tiles.mtlx --scene grid --frame 43 | tr ',' '\n' | sort -u | tr '\n' ' ')" = \
+check 'another frame reads other tiles' test "$("$render" tiles.mtlx --scene grid --frame 43 | tr ',' '\n' | sort -u | tr '\n' ' ')" = \
     '0.400000006 1 NG/out '
 check 'a frame that is out of range shows the default' \
     test "$("$render" tiles.mtlx --scene grid --frame 44 | tr ',' '\n' | sort -u | tr '\n' ' ')" = '0.400000006 NG/out '
-check 'a box blur' all_near NG/o_box 0.03
-check 'a gaussian blur' all_near NG/o_gaussian 0.01
-check 'a missing tile of a frame' exits 1 "$render" tiles.mtlx --scene grid --frame 34
-check 'names its file' grep -q "t.1001.0031.ppm" err
+check 'a box blur has its mean' all_near NG/o_box 0.03
+check 'a gaussian blur has its mean' all_near NG/o_gaussian 0.01
+check 'a missing tile of a frame fails the run' exits 1 "$render" tiles.mtlx --scene grid --frame 34
+check 'the error names the file of the tile' grep -q "t.1001.0031.ppm" err
 # Found out before anything is drawn: the document is not even read
 for place in missing/ball.png ball.xyz . ; do
-    check "a picture that cannot be written: $place" exits 1 "$render" none.mtlx -o "$place" --size 8
-    check 'is output-failed' eval 'grep -q "\[output-failed\]" err && ! grep -q none.mtlx err'
+    check "a picture that cannot be written fails the run: $place" exits 1 "$render" none.mtlx -o "$place" --size 8
+    check 'the error is output-failed before the document is read' eval 'grep -q "\[output-failed\]" err && ! grep -q none.mtlx err'
 done
-check 'an ending of no format' eval '! "$render" plain.mtlx -o ball.xyz 2>err; grep -q "ball.xyz.: unknown image format" err'
-check 'a copy, too' exits 1 "$render" none.mtlx -o x.png --copy missing/x.png
-check 'a value that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/base_color=abc
-check 'is bad-value' grep -q '\[bad-value\]' err
-check 'an input that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/none=1
-check 'is no-uniform' grep -q '\[no-uniform\]' err
-check 'a size that is none' exits 2 "$render" plain.mtlx -o x.png --size 0
+check 'an ending of no format is an error' eval '! "$render" plain.mtlx -o ball.xyz 2>err; grep -q "ball.xyz.: unknown image format" err'
+check 'a copy that cannot be written fails the run' exits 1 "$render" none.mtlx -o x.png --copy missing/x.png
+check 'a bad value of --set fails the run' exits 1 "$render" plain.mtlx -o x.png --set SR/base_color=abc
+check 'the error of a bad value is bad-value' grep -q '\[bad-value\]' err
+check 'an unknown input of --set fails the run' exits 1 "$render" plain.mtlx -o x.png --set SR/none=1
+check 'the error of an unknown input is no-uniform' grep -q '\[no-uniform\]' err
+check 'a size of 0 is wrong usage' exits 2 "$render" plain.mtlx -o x.png --size 0
 # The driver loses the device: while it sends textures, and while it draws or traces.
 for lost in 1 2; do
     for how in '' '--path-trace --paths 64'; do
         # shellcheck disable=SC2086
         LD_PRELOAD=$lost_device LOST_DEVICE=$lost exits 1 "$render" plain.mtlx -m sphere --size 8 $how -o lost.png >lost.log
-        check "a device that is lost $lost $how" test "$(wc -c <lost.log)" = 0
-        check 'is told' grep -q '\[device-lost\]' err
-        check 'and nothing is written' test ! -e lost.png
+        check "a lost device does not crash the program: $lost $how" test "$(wc -c <lost.log)" = 0
+        check 'the error of a lost device is device-lost' grep -q '\[device-lost\]' err
+        check 'a lost device writes nothing' test ! -e lost.png
     done
 done
-check 'no driver' eval 'VK_DRIVER_FILES=/none VK_ICD_FILENAMES=/none exits 1 "$render" plain.mtlx -o x.png && grep -q "mesa-vulkan-drivers.*\[no-device\]" err'
-check 'leaves nothing behind' test -z "$(ls -A | grep -E '^x.png|tmp')"
+check 'a machine without a driver is an error that names a package' eval 'VK_DRIVER_FILES=/none VK_ICD_FILENAMES=/none exits 1 "$render" plain.mtlx -o x.png && grep -q "mesa-vulkan-drivers.*\[no-device\]" err'
+check 'failed runs leave no files' test -z "$(ls -A | grep -E '^x.png|tmp')"
 
 # corner FILE: the last pixel of a PPM.
 corner() { od -An -tu1 -j"$(($(wc -c <"$1") - 3))" -N3 "$1" | tr -s ' '; }
 # pixels FILE: a line for each pixel of a PPM below 100x100.
 pixels() { tail -c "+$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -tu1 -v -w3 | tr -s ' '; }
 
-check 'a checker for a missing texture' exits 0 "$render" textured.mtlx -m plane --missing-texture checker -o checker.ppm --size 24
-check 'is told' grep -q 'warning: .*none.png.*\[missing-texture\]' err
-check 'is magenta and black' test "$(pixels checker.ppm | awk '!$2 && $1 == $3 { if ($1 > 150) m++; if ($1 < 100) b++ } END { print (m > 9 && b > 9) }')" = 1
-check 'a texture that is no picture' exits 1 "$render" textured.mtlx --set NG/image/file=broken.png -o x.png
-check 'is missing-texture, too' grep -q 'broken.png.*\[missing-texture\]' err
-check 'a picture beyond the device' exits 1 "$render" plain.mtlx -o x.png --size 16384
-check 'is size-limit' grep -q '\[size-limit\]' err
-check 'no progress in a pipe' eval 'exits 0 "$render" plain.mtlx plain.mtlx -o x.png --size 8 && test ! -s err'
+check 'a checker may stand for a missing texture' exits 0 "$render" textured.mtlx -m plane --missing-texture checker -o checker.ppm --size 24
+check 'the missing texture of a checker is a warning' grep -q 'warning: .*none.png.*\[missing-texture\]' err
+check 'the checker is magenta and black' test "$(pixels checker.ppm | awk '!$2 && $1 == $3 { if ($1 > 150) m++; if ($1 < 100) b++ } END { print (m > 9 && b > 9) }')" = 1
+check 'a texture that is no picture fails the run' exits 1 "$render" textured.mtlx --set NG/image/file=broken.png -o x.png
+check 'the error of such a texture is missing-texture' grep -q 'broken.png.*\[missing-texture\]' err
+check 'a picture that is too large for the device fails the run' exits 1 "$render" plain.mtlx -o x.png --size 16384
+check 'the error of such a picture is size-limit' grep -q '\[size-limit\]' err
+check 'a pipe gets no progress' eval 'exits 0 "$render" plain.mtlx plain.mtlx -o x.png --size 8 && test ! -s err'
 rm -f x.png
 
 # Meshes
 for mesh in ball sphere plane cube cloth; do
-    check "the $mesh" exits 0 "$render" plain.mtlx -m $mesh -o $mesh.ppm --size 24 --background none
-    check "the $mesh is in the middle" test "$(pixels $mesh.ppm | awk '$1 + $2 + $3 > 60 { n++ } END { print (n > 60) }')" = 1
+    check "the mesh $mesh is drawn" exits 0 "$render" plain.mtlx -m $mesh -o $mesh.ppm --size 24 --background none
+    check "the mesh $mesh is in the middle" test "$(pixels $mesh.ppm | awk '$1 + $2 + $3 > 60 { n++ } END { print (n > 60) }')" = 1
 done
-check 'shapes differ' test "$(md5sum ball.ppm sphere.ppm plane.ppm cube.ppm cloth.ppm | cut -c -32 | sort -u | wc -l)" = 5
+check 'the meshes have different pictures' test "$(md5sum ball.ppm sphere.ppm plane.ppm cube.ppm cloth.ppm | cut -c -32 | sort -u | wc -l)" = 5
 printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' >bare.obj
-check 'a mesh without normals and texture coordinates' exits 0 "$render" plain.mtlx -m bare.obj -o bare.ppm --size 16
+check 'a mesh without normals and texture coordinates is drawn' exits 0 "$render" plain.mtlx -m bare.obj -o bare.ppm --size 16
 for part in normals 'texture coordinates' tangents; do
     check "$part are made, with a note" grep -q "note: the mesh 'bare.obj' has no $part" err
 done
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
-check 'a mesh without area' exits 1 "$render" plain.mtlx -m flat.obj -o x.png
-check 'is empty-mesh' grep -q '\[empty-mesh\]' err
-check 'a mesh that is missing' exits 1 "$render" plain.mtlx -m none.obj -o x.png
-check 'is bad-mesh' grep -q "none.obj.*\[bad-mesh\]" err
-check 'a shape that is none' exits 1 "$render" plain.mtlx -m bal -o x.png
-check 'says which there are' grep -q "'bal': write ball, .*\[bad-mesh\]" err
+check 'a mesh without area fails the run' exits 1 "$render" plain.mtlx -m flat.obj -o x.png
+check 'the error of such a mesh is empty-mesh' grep -q '\[empty-mesh\]' err
+check 'a mesh that is missing fails the run' exits 1 "$render" plain.mtlx -m none.obj -o x.png
+check 'the error of a missing mesh is bad-mesh' grep -q "none.obj.*\[bad-mesh\]" err
+check 'an unknown shape fails the run' exits 1 "$render" plain.mtlx -m bal -o x.png
+check 'the error lists the shapes' grep -q "'bal': write ball, .*\[bad-mesh\]" err
 echo 'v x' >junk.gltf
-check 'a mesh that is none' exits 1 "$render" plain.mtlx -m junk.gltf -o x.png
+check 'a file that is no mesh fails the run' exits 1 "$render" plain.mtlx -m junk.gltf -o x.png
 positions=AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA
 cat >triangle.gltf <<X
 { "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "mesh": 0 } ],
@@ -213,27 +213,27 @@ cat >triangle.gltf <<X
   "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
   "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [ -1, -1, 0 ], "max": [ 1, 1, 0 ] } ] }
 X
-check 'a mesh of glTF' exits 0 "$render" plain.mtlx -m triangle.gltf -o triangle.ppm --size 16 --background none
-check 'shows a triangle' test "$(pixels triangle.ppm | awk '$1 { n++ } END { print (n > 20 && n < 120) }')" = 1
+check 'a mesh of glTF is drawn' exits 0 "$render" plain.mtlx -m triangle.gltf -o triangle.ppm --size 16 --background none
+check 'the mesh of glTF is a triangle' test "$(pixels triangle.ppm | awk '$1 { n++ } END { print (n > 20 && n < 120) }')" = 1
 
 # Camera, environment, formats
-check 'a camera' exits 0 "$render" plain.mtlx -m cube --camera 0,0,4,40 -o front.ppm --size 24
-check 'elsewhere' exits 0 "$render" plain.mtlx -m cube --camera 40,30,4,40 -o side.ppm --size 24
-check 'sees another picture' eval '! cmp -s front.ppm side.ppm'
-check 'a camera that is none' exits 2 "$render" plain.mtlx --camera 1 -o x.png
-check 'a camera from the zenith' exits 2 "$render" plain.mtlx --camera 0,90 -o x.png
+check 'a camera may stand in front' exits 0 "$render" plain.mtlx -m cube --camera 0,0,4,40 -o front.ppm --size 24
+check 'a camera may stand elsewhere' exits 0 "$render" plain.mtlx -m cube --camera 40,30,4,40 -o side.ppm --size 24
+check 'another camera sees another picture' eval '! cmp -s front.ppm side.ppm'
+check 'a camera of one number is wrong usage' exits 2 "$render" plain.mtlx --camera 1 -o x.png
+check 'a camera in the zenith is wrong usage' exits 2 "$render" plain.mtlx --camera 0,90 -o x.png
 printf 'PF\n2 1\n-1.0\n' >red.pfm
 for i in 1 2; do printf '\000\000\200\077\000\000\000\000\000\000\000\000' >>red.pfm; done
-check 'an environment from a file' exits 0 "$render" plain.mtlx --environment red.pfm -o red.ppm --size 8 -m sphere
-check 'lights the ball in red' test "$(pixels red.ppm | sed -n 37p | awk '{ print ($1 > 100 && $2 < 60 && $3 < 60) }')" = 1
-check 'an environment behind the ball' exits 0 "$render" plain.mtlx --environment red.pfm --background environment -o red.ppm --size 8 -m sphere
-check 'shows in the corners' test "$(corner red.ppm)" = ' 203 0 0'
-check 'a file and a mode' exits 0 "$render" plain.mtlx --environment red.pfm --environment none -o none.ppm --size 8 -m sphere
-check 'without light' test "$(pixels none.ppm | sed -n 37p)" = ' 0 0 0'
-check 'an environment that is missing' exits 1 "$render" plain.mtlx --environment none.exr -o x.png
-check 'is bad-environment' grep -q 'none.exr.*\[bad-environment\]' err
-check 'EXR' exits 0 "$render" plain.mtlx -o ball.exr --size 8
-check 'is EXR' test "$(od -An -tx1 -N4 ball.exr | tr -d ' ')" = 762f3101
+check 'an environment may be a file' exits 0 "$render" plain.mtlx --environment red.pfm -o red.ppm --size 8 -m sphere
+check 'a red environment lights the ball in red' test "$(pixels red.ppm | sed -n 37p | awk '{ print ($1 > 100 && $2 < 60 && $3 < 60) }')" = 1
+check 'an environment may be the background' exits 0 "$render" plain.mtlx --environment red.pfm --background environment -o red.ppm --size 8 -m sphere
+check 'the background shows in the corners' test "$(corner red.ppm)" = ' 203 0 0'
+check 'a file and a mode of the environment go together' exits 0 "$render" plain.mtlx --environment red.pfm --environment none -o none.ppm --size 8 -m sphere
+check 'the mode none gives no light' test "$(pixels none.ppm | sed -n 37p)" = ' 0 0 0'
+check 'an environment that is missing fails the run' exits 1 "$render" plain.mtlx --environment none.exr -o x.png
+check 'the error of a missing environment is bad-environment' grep -q 'none.exr.*\[bad-environment\]' err
+check 'a picture may be EXR' exits 0 "$render" plain.mtlx -o ball.exr --size 8
+check 'the picture is EXR' test "$(od -An -tx1 -N4 ball.exr | tr -d ' ')" = 762f3101
 
 cat >metal.mtlx <<'X'
 <?xml version="1.0"?>
@@ -251,17 +251,17 @@ agree() {
         END { printf "mean %.2f, worst %.2f percent\n", s / n / 2.55, sqrt(m) / 2.55; exit !(s * s < (2.55 * n) ^ 2 && sqrt(m) < 25.5) }'
 }
 metal() { "$render" metal.mtlx -m sphere --lights none --size 48 "$@"; }
-check 'importance sampling' metal --environment importance --samples 256 -o importance.ppm
-check 'a prefiltered map' metal --environment prefiltered -o prefiltered.ppm
-check 'agrees' agree importance.ppm prefiltered.ppm
-check 'baked' exits 0 "$render" --bake-environment sky -o baked
-check 'to three files' test -s baked/radiance.exr -a -s baked/irradiance.exr -a -s baked/albedo.exr
-check 'is used' metal --environment prefiltered --environment baked -o baked.ppm
-check 'and the same' cmp prefiltered.ppm baked.ppm
-check 'a baked map for importance sampling' metal --environment baked --samples 256 -o baked.ppm
-check 'agrees, too' agree importance.ppm baked.ppm
-check 'nothing to bake' exits 1 "$render" --bake-environment none.exr -o nothing
-check 'a folder that is not baked' eval 'mkdir bare; exits 1 "$render" metal.mtlx --environment bare -o x.png && grep -q "\[bad-environment\]" err'
+check 'a metal is drawn by importance sampling' metal --environment importance --samples 256 -o importance.ppm
+check 'a metal is drawn by a prefiltered map' metal --environment prefiltered -o prefiltered.ppm
+check 'both pictures agree' agree importance.ppm prefiltered.ppm
+check 'an environment can be baked' exits 0 "$render" --bake-environment sky -o baked
+check 'a baked environment is three files' test -s baked/radiance.exr -a -s baked/irradiance.exr -a -s baked/albedo.exr
+check 'a metal is drawn by a baked environment' metal --environment prefiltered --environment baked -o baked.ppm
+check 'a baked environment gives the same picture' cmp prefiltered.ppm baked.ppm
+check 'a baked environment serves importance sampling' metal --environment baked --samples 256 -o baked.ppm
+check 'its picture agrees with that of the sky' agree importance.ppm baked.ppm
+check 'an environment that is missing cannot be baked' exits 1 "$render" --bake-environment none.exr -o nothing
+check 'a folder that is not baked is an error' eval 'mkdir bare; exits 1 "$render" metal.mtlx --environment bare -o x.png && grep -q "\[bad-environment\]" err'
 
 # Displacement: a ball that grows by a quarter is one seen from nearer; a plane that rises to the right is a tilted one.
 displaced() { # NAME NODES
@@ -284,13 +284,13 @@ displaced ramp '<texcoord name="uv" type="vector2"/><separate2 name="st" type="m
   <range name="height" type="float"><input name="in" type="float" nodename="st" output="outx"/>
     <input name="outlow" type="float" value="-0.4"/><input name="outhigh" type="float" value="0.4"/></range>'
 printf 'v -0.8 -0.8 -0.4\nv 0.8 -0.8 0.4\nv 0.8 0.8 0.4\nv -0.8 0.8 -0.4\nf 1 2 3 4\n' >tilted.obj
-check 'a displaced ball' exits 0 "$render" grown.mtlx -m sphere --lights none --size 48 --camera 25,16,5 -o grown.ppm
-check 'a ball from nearer' metal --camera 25,16,4 -o nearer.ppm
-check 'agrees with it' agree grown.ppm nearer.ppm
-check 'a displaced plane' exits 0 "$render" ramp.mtlx -m plane --lights none --size 48 --camera 10,10,4.8 -o ramp.ppm
-check 'a tilted plane' exits 0 "$render" metal.mtlx -m tilted.obj --lights none --size 48 --camera 10,10,4 -o tilted.ppm
-check 'agrees with it' agree ramp.ppm tilted.ppm
-check 'but not with a flat one' eval 'metal -m plane --camera 10,10,4.8 -o flat.ppm && ! agree ramp.ppm flat.ppm'
+check 'a displaced ball is drawn' exits 0 "$render" grown.mtlx -m sphere --lights none --size 48 --camera 25,16,5 -o grown.ppm
+check 'a nearer ball is drawn' metal --camera 25,16,4 -o nearer.ppm
+check 'a ball that grows agrees with a nearer one' agree grown.ppm nearer.ppm
+check 'a displaced plane is drawn' exits 0 "$render" ramp.mtlx -m plane --lights none --size 48 --camera 10,10,4.8 -o ramp.ppm
+check 'a tilted plane is drawn' exits 0 "$render" metal.mtlx -m tilted.obj --lights none --size 48 --camera 10,10,4 -o tilted.ppm
+check 'a plane that rises agrees with a tilted one' agree ramp.ppm tilted.ppm
+check 'a plane that rises differs from a flat one' eval 'metal -m plane --camera 10,10,4.8 -o flat.ppm && ! agree ramp.ppm flat.ppm'
 
 # Volumes. In a white room one that scatters only is not to be seen: what it takes it gives back.
 printf 'PF\n2 1\n-1.0\n\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077' >white.pfm
@@ -317,14 +317,14 @@ in_room() { # NAME ENVIRONMENT
 # middle FILE: the green of a pixel in the middle, as light (the inverse of sRGB), over that of white.
 middle() { pixels "$1" | sed -n 529p | awk '{ printf "%.3f", ($2 / 203) ^ 2.2 }'; }
 volume milk '0,0,0' '3,3,3' '0,0,0'
-check 'a volume that scatters only' in_room milk white.pfm
-check 'is not seen in a white room' test "$(pixels milk.ppm | awk '{ for (i = 1; i < 4; i++) if ($i < 202 || $i > 204) n++ } END { print n + 0 }')" = 0
+check 'a volume that only scatters is drawn' in_room milk white.pfm
+check 'a volume that only scatters is invisible in a white room' test "$(pixels milk.ppm | awk '{ for (i = 1; i < 4; i++) if ($i < 202 || $i > 204) n++ } END { print n + 0 }')" = 0
 volume ink '1,1,1' '0,0,0' '0,0,0'
-check 'a volume that absorbs' in_room ink white.pfm
-check 'by the law of Beer: half of 1, over 2' near "$(middle ink.ppm)" 0.368 0.02
+check 'a volume that absorbs is drawn' in_room ink white.pfm
+check 'a volume absorbs by the law of Beer' near "$(middle ink.ppm)" 0.368 0.02
 volume glow '0,0,0' '0,0,0' '0,0.5,0'
-check 'a volume that emits' in_room glow red.pfm
-check 'for all of the way: half of 0.5, over 2' near "$(middle glow.ppm)" 0.5 0.02
+check 'a volume that emits is drawn' in_room glow red.pfm
+check 'a volume emits along the whole way' near "$(middle glow.ppm)" 0.5 0.02
 
 # Transparency: half of white over black, in any order of triangles; a mask hides what is behind it.
 sheet() { # NAME OPACITY
@@ -353,27 +353,27 @@ near='v -1 -1 0.1\nv 1 -1 0.1\nv 1 1 0.1\nv -1 1 0.1\n' far='v -1 -1 -0.1\nv 1 -
 printf "$near${far}f 1 2 3 4\nf 5 6 7 8\n" >near_first.obj
 printf "$near${far}f 5 6 7 8\nf 1 2 3 4\n" >far_first.obj
 for mesh in near_first far_first; do
-    check "$mesh" exits 0 "$render" half.mtlx -m $mesh.obj --camera 0,0,3 --size 8 -o $mesh.ppm -q
+    check "two sheets are drawn: $mesh" exits 0 "$render" half.mtlx -m $mesh.obj --camera 0,0,3 --size 8 -o $mesh.ppm -q
 done
 check 'the order of triangles does not matter' cmp near_first.ppm far_first.ppm
 # Red at one half over blue at one half: twice as much red, before sRGB.
 check 'the near sheet is above' test "$(pixels near_first.ppm | sed -n 36p | awk '{ print ($1 > $3 + 20 && $3 > $2 + 20) }')" = 1
-check 'a mask' exits 0 "$render" mask.mtlx -m plane --camera 0,0,3 --size 16 --background none -o mask.ppm
-check 'is half a plane' test "$(pixels mask.ppm | awk '!$1 && !$2 && $3 == 203 { n++ } END { print n }')" = 128
+check 'a mask is drawn' exits 0 "$render" mask.mtlx -m plane --camera 0,0,3 --size 16 --background none -o mask.ppm
+check 'a mask hides half of the plane' test "$(pixels mask.ppm | awk '!$1 && !$2 && $3 == 203 { n++ } END { print n }')" = 128
 
 # Many pictures
-check 'a turntable' exits 0 "$render" plain.mtlx -m cube --turntable 4 -o turn.ppm --size 8
-check 'has pictures by number' test -s turn.0000.ppm -a -s turn.0001.ppm -a -s turn.0003.ppm -a ! -e turn.0004.ppm
+check 'a turntable is drawn' exits 0 "$render" plain.mtlx -m cube --turntable 4 -o turn.ppm --size 8
+check 'the pictures of a turntable are numbered' test -s turn.0000.ppm -a -s turn.0001.ppm -a -s turn.0003.ppm -a ! -e turn.0004.ppm
 check 'a quarter turn shows another side' eval '! cmp -s turn.0000.ppm turn.0001.ppm'
 mkdir -p materials/deep
 cp plain.mtlx materials/a.mtlx
 sed 's/0.8, 0.8, 0.8/0.8, 0, 0/; s/"M"/"Red"/' plain.mtlx >materials/deep/b.mtlx
-check 'a sheet of a folder' exits 0 "$render" materials -o sheet.ppm --size 32
-check 'has room for two' test "$(sed -n 2p sheet.ppm)" = '76 51'
+check 'a folder gives a sheet' exits 0 "$render" materials -o sheet.ppm --size 32
+check 'a sheet has room for two pictures' test "$(sed -n 2p sheet.ppm)" = '76 51'
 sed 's/standard_surface/none/' plain.mtlx >materials/c.mtlx
-check 'a sheet with a faulty document' exits 1 "$render" materials -o sheet3.ppm --size 32
-check 'is drawn nevertheless' test -s sheet3.ppm
-check 'an empty folder' eval 'mkdir empty; exits 1 "$render" empty -o x.png && grep -q "\[nothing-to-render\]" err'
+check 'a sheet with a faulty document fails the run' exits 1 "$render" materials -o sheet3.ppm --size 32
+check 'a sheet with a faulty document is drawn' test -s sheet3.ppm
+check 'a folder without documents is an error' eval 'mkdir empty; exits 1 "$render" empty -o x.png && grep -q "\[nothing-to-render\]" err'
 cat >look.mtlx <<'X'
 <?xml version="1.0"?>
 <materialx version="1.39">
@@ -385,13 +385,13 @@ cat >look.mtlx <<'X'
   <look name="both"><materialassign name="b" material="M1" geom="/a"/><materialassign name="c" material="M2" geom="/b"/></look>
 </materialx>
 X
-check 'a look' exits 0 "$render" look.mtlx --look blue -o look.ppm --size 16 -m sphere
-check 'is blue' test "$(pixels look.ppm | sed -n 136p | awk '{ print ($3 > 2 * $1) }')" = 1
-check 'a look of two' exits 0 "$render" look.mtlx --look both -o both.ppm --size 16
-check 'is a sheet' test "$(sed -n 2p both.ppm | cut -d ' ' -f 1)" = 44
-check 'a look that is none' exits 1 "$render" look.mtlx --look green -o x.png
-check 'is no-look' grep -q '\[no-look\]' err
-check 'nothing is left behind' test -z "$(ls -A | grep -E '^x\.|tmp-')"
+check 'a look with one material is drawn' exits 0 "$render" look.mtlx --look blue -o look.ppm --size 16 -m sphere
+check 'the material of the look is blue' test "$(pixels look.ppm | sed -n 136p | awk '{ print ($3 > 2 * $1) }')" = 1
+check 'a look with two materials is drawn' exits 0 "$render" look.mtlx --look both -o both.ppm --size 16
+check 'a look with two materials is a sheet' test "$(sed -n 2p both.ppm | cut -d ' ' -f 1)" = 44
+check 'an unknown look fails the run' exits 1 "$render" look.mtlx --look green -o x.png
+check 'the error of an unknown look is no-look' grep -q '\[no-look\]' err
+check 'these runs leave no files' test -z "$(ls -A | grep -E '^x\.|tmp-')"
 
 # ratio_is A B EXPECTED: the means of two pictures, within 1 percent.
 ratio_is() { awk -v a="$("$mean_ratio" "$1" "$2")" -v b="$3" 'BEGIN { print a; exit !(a > b * 0.99 && a < b * 1.01) }'; }
@@ -406,11 +406,11 @@ cat >rough.mtlx <<'X'
   </standard_surface>
 </materialx>
 X
-check 'albedo by a fit' exits 0 "$render" rough.mtlx -q -m sphere --size 16 -o fit.exr
-check 'albedo by the table' exits 0 "$render" rough.mtlx -q -m sphere --size 16 --albedo table -o table.exr
-check 'they agree' ratio_is table.exr fit.exr 1
-check 'they are two' eval '! cmp -s table.exr fit.exr'
-check 'by the table of a baked environment' exits 0 "$render" rough.mtlx -q -m sphere --size 16 --environment baked --albedo table -o baked.exr
+check 'the albedo may come from a fit' exits 0 "$render" rough.mtlx -q -m sphere --size 16 -o fit.exr
+check 'the albedo may come from a table' exits 0 "$render" rough.mtlx -q -m sphere --size 16 --albedo table -o table.exr
+check 'fit and table agree' ratio_is table.exr fit.exr 1
+check 'fit and table are two pictures' eval '! cmp -s table.exr fit.exr'
+check 'the table may come from a baked environment' exits 0 "$render" rough.mtlx -q -m sphere --size 16 --environment baked --albedo table -o baked.exr
 
 # A light made of nodes: what it sends to a white plane at a distance of 10 is its intensity over 100 pi, times cos^3 away from the middle;
 # half of that distance four times as much; nothing where the cone looks away.
@@ -437,12 +437,12 @@ lit far bulb 10
 lit near bulb 5
 lit spot spot 10 0,0,-1
 lit away spot 10 0,0,1
-check 'a plane that glows' exits 0 "$render" light.mtlx -e G -q --scene plane --size 8 -o glow.exr
+check 'a plane that glows is drawn' exits 0 "$render" light.mtlx -e G -q --scene plane --size 8 -o glow.exr
 check 'a light falls off with the square of the distance' ratio_is far.exr glow.exr 0.990
-check 'and is brighter when it is near' ratio_is near.exr glow.exr 3.848
-check 'in its cone' ratio_is spot.exr far.exr 1
-check 'and not behind' test "$("$mean_ratio" away.exr glow.exr)" = 0.0000
-check 'no such member' exits 1 "$render" light.mtlx -e S --lights bulb=1 --set 'u_lightData[0].colour=1' -o x.png
-check 'is told' grep -q no-uniform err
+check 'a light is brighter when it is near' ratio_is near.exr glow.exr 3.848
+check 'a light has its whole intensity in its cone' ratio_is spot.exr far.exr 1
+check 'a light sends nothing behind its cone' test "$("$mean_ratio" away.exr glow.exr)" = 0.0000
+check 'an unknown member of a light fails the run' exits 1 "$render" light.mtlx -e S --lights bulb=1 --set 'u_lightData[0].colour=1' -o x.png
+check 'the error of an unknown member is no-uniform' grep -q no-uniform err
 
 finish render

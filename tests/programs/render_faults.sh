@@ -10,8 +10,8 @@ for i in 1 2; do printf '\000\000\200\077\000\000\000\000\000\000\000\000' >>red
 # An option that does not apply is an error: the option, and the option or fact that excludes it.
 while IFS='|' read -r option other; do
     # shellcheck disable=SC2086
-    check "--$option with $other" exits 2 "$render" $other "--$option"
-    check 'does not apply' grep -q "option '--${option%%=*}' does not apply: " err
+    check "--$option with $other is wrong usage" exits 2 "$render" $other "--$option"
+    check "the error says that --${option%%=*} does not apply" grep -q "option '--${option%%=*}' does not apply: " err
 done <<'X'
 environment=red.pfm|plain.mtlx -o x.png --scene sphere
 mesh=cube|plain.mtlx -o x.png --scene plane
@@ -42,13 +42,13 @@ mesh=cube|--bake-environment sky -o baked
 paths=2|--bake-environment sky -o baked
 lights=none|--bake-environment sky -o baked
 X
-check 'documents have no environment to bake' exits 2 "$render" plain.mtlx --bake-environment sky -o baked
+check 'a document with --bake-environment is wrong usage' exits 2 "$render" plain.mtlx --bake-environment sky -o baked
 for count in '--samples 0' '--samples 65537' '--frame 99999999999' '--paths 0 --path-trace' '--bounces 65 --path-trace' '--picks 0 --path-trace' \
     '--layer-sample 1' '--layer-sample -0.1' '--layer-sample x' '--layer-sample nan' '--turntable 0' '--turntable 10001' '--camera nan,0' '--camera 0,0,inf' '--size nan'; do
     # shellcheck disable=SC2086
-    check "out of range: $count" exits 2 "$render" plain.mtlx -o x.png $count
+    check "a number out of range is wrong usage: $count" exits 2 "$render" plain.mtlx -o x.png $count
 done
-check 'and nothing is written' eval '! ls x.png y.png x.exr baked 2>/dev/null | grep -q .'
+check 'wrong usage writes nothing' eval '! ls x.png y.png x.exr baked 2>/dev/null | grep -q .'
 
 # The file promises 65,536 x 4 pixels of 1,000 channels. OpenImageIO throws where it finds no memory for them, which depends on the
 # limit; an exception that leaves the reader would abort the program.
@@ -71,7 +71,7 @@ if [ -n "${SANITIZER:-}" ]; then
     skip 'a program with a sanitizer maps terabytes: its memory has no limit'
 else
     for kilobytes in $(seq 700000 100000 2000000); do
-        check "an image in $kilobytes KB of memory" exits 1 bash -c "ulimit -v $kilobytes && '$mean_ratio' channels.exr channels.exr"
+        check "an image of 1,000 channels is an error in $kilobytes KB of memory" exits 1 bash -c "ulimit -v $kilobytes && '$mean_ratio' channels.exr channels.exr"
     done
 fi
 
@@ -89,37 +89,37 @@ for name, count in ("largest", 4096), ("larger", 4097):
             out.write(f"v {math.cos(2 * math.pi * i / count):.6f} {math.sin(2 * math.pi * i / count):.6f} 0\n")
         out.write("f " + " ".join(str(i + 1) for i in range(count)) + "\n")
 P
-check 'a face of 4096 corners' exits 0 "$render" plain.mtlx -m largest.obj -o face.png --size 8
-check 'one more' exits 1 "$render" plain.mtlx -m larger.obj -o x.png --size 8
-check 'is refused' grep -q "more than 4096 corners \[bad-mesh\]" err
+check 'a face of 4096 corners is drawn' exits 0 "$render" plain.mtlx -m largest.obj -o face.png --size 8
+check 'a face of 4097 corners fails' exits 1 "$render" plain.mtlx -m larger.obj -o x.png --size 8
+check 'the error gives the limit of corners' grep -q "more than 4096 corners \[bad-mesh\]" err
 printf 'v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >nan.obj
-check 'a corner that is nowhere' exits 1 "$render" plain.mtlx -m nan.obj -o x.png --size 8
-check 'is told' grep -q "NaN or infinite \[bad-mesh\]" err
+check 'a corner that is NaN fails' exits 1 "$render" plain.mtlx -m nan.obj -o x.png --size 8
+check 'the error says that a corner is NaN or infinite' grep -q "NaN or infinite \[bad-mesh\]" err
 
 # Images that promise too much, never end, or have no values
-check 'a header of 400,000,000 pixels' exits 1 "$render" huge_window.mtlx --set i/file=huge_window.exr -o x.png --size 8
-check 'is a texture that cannot be read' grep -q "100000000 x 4 pixels; the limit is .*\[missing-texture\]" err
-check 'as an environment' exits 1 "$render" plain.mtlx --environment huge_window.exr -o x.png --size 8
-check 'is refused, too' grep -q "100000000 x 4 pixels; the limit is .*\[bad-environment\]" err
+check 'a texture of 400,000,000 pixels fails' exits 1 "$render" huge_window.mtlx --set i/file=huge_window.exr -o x.png --size 8
+check 'the error gives the limit of pixels of a texture' grep -q "100000000 x 4 pixels; the limit is .*\[missing-texture\]" err
+check 'an environment of 400,000,000 pixels fails' exits 1 "$render" plain.mtlx --environment huge_window.exr -o x.png --size 8
+check 'the error gives the limit of pixels of an environment' grep -q "100000000 x 4 pixels; the limit is .*\[bad-environment\]" err
 mkfifo pipe
 for file in /dev/zero pipe; do
-    check "no file as an environment: $file" exits 1 timeout 60 "$render" plain.mtlx --environment $file -o x.png --size 8
-    check 'is refused' grep -q "it is not a regular file \[bad-environment\]" err
-    check 'as a texture' exits 1 timeout 60 "$render" huge_window.mtlx --set i/file=$file -o x.png --size 8
-    check 'is refused' grep -q "it is not a regular file.*\[missing-texture\]" err
-    check 'as a mesh' exits 1 timeout 60 "$render" plain.mtlx -m "$(realpath $file)" -o x.png --size 8
-    check 'is refused' grep -q "it is not a file \[bad-mesh\]" err
+    check "an environment that is no file fails: $file" exits 1 timeout 60 "$render" plain.mtlx --environment $file -o x.png --size 8
+    check 'the error says that the environment is no file' grep -q "it is not a regular file \[bad-environment\]" err
+    check "a texture that is no file fails: $file" exits 1 timeout 60 "$render" huge_window.mtlx --set i/file=$file -o x.png --size 8
+    check 'the error says that the texture is no file' grep -q "it is not a regular file.*\[missing-texture\]" err
+    check "a mesh that is no file fails: $file" exits 1 timeout 60 "$render" plain.mtlx -m "$(realpath $file)" -o x.png --size 8
+    check 'the error says that the mesh is no file' grep -q "it is not a file \[bad-mesh\]" err
 done
 for value in nan inf 1e99 -nan 0.5,nan; do
-    check "a value of $value" exits 1 "$render" plain.mtlx -o x.png --set "SR/base=$value"
-    check 'is bad-value' grep -q '\[bad-value\]' err
+    check "a value of $value fails" exits 1 "$render" plain.mtlx -o x.png --set "SR/base=$value"
+    check "the error of $value is bad-value" grep -q '\[bad-value\]' err
 done
-check 'nothing is written' test ! -e x.png
+check 'faults of values write nothing' test ! -e x.png
 for value in nan inf; do
-    check "an environment with $value" exits 0 "$render" plain.mtlx --environment $value.pfm -o x.exr --size 8
-    check 'is told' grep -q "warning: the environment '$value.pfm' has pixels that are NaN.*\[bad-pixels\]" err
-    check 'a texture, too' exits 0 "$render" huge_window.mtlx --set i/file=$value.pfm -o x.png --size 8
-    check 'is told' grep -q "warning: the texture '$value.pfm' has pixels that are NaN.*\[bad-pixels\]" err
+    check "an environment with $value is drawn" exits 0 "$render" plain.mtlx --environment $value.pfm -o x.exr --size 8
+    check "a warning names the environment with $value" grep -q "warning: the environment '$value.pfm' has pixels that are NaN.*\[bad-pixels\]" err
+    check "a texture with $value is drawn" exits 0 "$render" huge_window.mtlx --set i/file=$value.pfm -o x.png --size 8
+    check "a warning names the texture with $value" grep -q "warning: the texture '$value.pfm' has pixels that are NaN.*\[bad-pixels\]" err
 done
 cat >hot.mtlx <<'X'
 <materialx version="1.39">
@@ -132,9 +132,9 @@ cat >hot.mtlx <<'X'
 X
 for how in '' '--path-trace --paths 2'; do
     # shellcheck disable=SC2086
-    check "a picture of infinite light $how" exits 1 "$render" hot.mtlx -o hot.png --size 8 $how
-    check 'is told' grep -q "'M': [0-9]* of 64 pixels are NaN or infinite, the first at .*\[bad-pixels\]" err
-    check 'and written, because it shows where' test -s hot.png
+    check "a picture of infinite light fails $how" exits 1 "$render" hot.mtlx -o hot.png --size 8 $how
+    check 'the error counts the pixels that are NaN or infinite' grep -q "'M': [0-9]* of 64 pixels are NaN or infinite, the first at .*\[bad-pixels\]" err
+    check 'the picture is written to show where they are' test -s hot.png
     rm -f hot.png
 done
 # A picture that would be written over an input, or over another picture
@@ -144,9 +144,9 @@ cp plain.mtlx part.png
 while IFS='|' read -r file options; do
     cp "$file" before
     # shellcheck disable=SC2086
-    check "one file: $options" exits 1 "$render" $options --size 8
-    check 'is told' grep -q '\[output-clash\]' err
-    check 'and kept' cmp "$file" before
+    check "a picture may not replace an input: $options" exits 1 "$render" $options --size 8
+    check "the error is output-clash: $options" grep -q '\[output-clash\]' err
+    check "the input is unchanged: $options" cmp "$file" before
 done <<'X'
 map.png|plain.mtlx --environment map.png -o map.png
 map.png|plain.mtlx --environment map.png -o y.png --copy map.png
@@ -158,10 +158,10 @@ part.png|including.mtlx -o part.png
 part.png|including.mtlx plain.mtlx -o part.png
 plain.mtlx|plain.mtlx -o y.png --copy y.png
 X
-check 'and nothing is written' test ! -e y.png
+check 'clashes write no other picture' test ! -e y.png
 awk '{ print } /<surfacematerial/ { for (i = 2; i <= 15; i++) { line = $0; sub(/"M"/, "\"M" i "\"", line); print line } }' plain.mtlx >many.mtlx
-check 'a document of 15 materials' exits 0 "$render" many.mtlx -o x.png --size 8
-check 'says which it draws' grep -q "^note: 'M' is rendered, the first of 15 elements; -e PATH" err
-check 'unless one is asked for' eval 'exits 0 "$render" many.mtlx -e M12 -o x.png --size 8 && ! grep -q note: err'
+check 'a document of 15 materials is drawn' exits 0 "$render" many.mtlx -o x.png --size 8
+check 'a note names the element that is drawn' grep -q "^note: 'M' is rendered, the first of 15 elements; -e PATH" err
+check 'an element that is asked for has no note' eval 'exits 0 "$render" many.mtlx -e M12 -o x.png --size 8 && ! grep -q note: err'
 
 finish render-faults

@@ -39,34 +39,34 @@ cat >old.mtlx <<'END'
   </material>
 </materialx>
 END
-check 'upgrade' exits 0 "$mxgen" upgrade old.mtlx -o new.mtlx
-check 'it is of version 1.39' grep -q 'version="1.39"' new.mtlx
-check 'comments stay' test "$(grep -c -- '<!--' new.mtlx)" = 4
-check 'it is valid' exits 0 "$mxgen" validate new.mtlx --verbose
-check 'without another upgrade' eval '! grep -q upgraded err'
+check 'an old document is upgraded' exits 0 "$mxgen" upgrade old.mtlx -o new.mtlx
+check 'the upgraded document has version 1.39' grep -q 'version="1.39"' new.mtlx
+check 'the upgrade keeps comments' test "$(grep -c -- '<!--' new.mtlx)" = 4
+check 'the upgraded document is valid' exits 0 "$mxgen" validate new.mtlx --verbose
+check 'the upgraded document needs no upgrade' eval '! grep -q upgraded err'
 "$mxgen" old.mtlx -o from_old -q && "$mxgen" new.mtlx -o from_new -q
-check 'it gives the same shader' cmp from_old/M.frag from_new/M.frag
+check 'the upgraded document gives the same shader' cmp from_old/M.frag from_new/M.frag
 check 'a second upgrade changes nothing' exits 0 "$mxgen" upgrade new.mtlx --check
-check 'remarks tell the changes' eval '"$mxgen" upgrade old.mtlx --verbose 2>&1 >/dev/null | grep -q upgraded'
+check '--verbose notes the changes' eval '"$mxgen" upgrade old.mtlx --verbose 2>&1 >/dev/null | grep -q upgraded'
 
-check '--check tells' exits 1 "$mxgen" format old.mtlx new.mtlx --check
-check 'which document would change' grep -q "'old.mtlx' would change \[would-change\]" err
-check 'and no other' eval '! grep -q new.mtlx err'
+check '--check fails for a document that would change' exits 1 "$mxgen" format old.mtlx new.mtlx --check
+check 'the error names the document that would change' grep -q "'old.mtlx' would change \[would-change\]" err
+check 'the error names no other document' eval '! grep -q new.mtlx err'
 cp old.mtlx copy.mtlx
-check '--in-place' exits 0 "$mxgen" format copy.mtlx new.mtlx --in-place
-check 'nothing is left to do' exits 0 "$mxgen" format copy.mtlx new.mtlx --check
-check 'standard input' eval '"$mxgen" format - <old.mtlx | cmp - copy.mtlx'
+check '--in-place is accepted' exits 0 "$mxgen" format copy.mtlx new.mtlx --in-place
+check 'a formatted document passes --check' exits 0 "$mxgen" format copy.mtlx new.mtlx --check
+check 'a document may come from standard input' eval '"$mxgen" format - <old.mtlx | cmp - copy.mtlx'
 
-check 'a missing file' exits 1 "$mxgen" format none.mtlx
-check 'is told' grep -q file-missing err
+check 'a file that is missing fails' exits 1 "$mxgen" format none.mtlx
+check 'the error is file-missing' grep -q file-missing err
 echo '<materialx version="1.39"><add name="a"' >cut.mtlx
 cp cut.mtlx before.mtlx
-check 'a truncated file' exits 1 "$mxgen" format cut.mtlx --in-place
-check 'stays' cmp cut.mtlx before.mtlx
-check 'is told' grep -q 'cut.mtlx:' err
-check 'two places' exits 2 "$mxgen" format old.mtlx -o a --in-place
-check 'two documents, one place' exits 2 "$mxgen" format old.mtlx new.mtlx -o a
-check 'a check that writes' exits 2 "$mxgen" format old.mtlx --check -o a
-check 'no place' exits 2 "$mxgen" format - --in-place
-check 'no document' exits 2 "$mxgen" format
+check 'a truncated file fails' exits 1 "$mxgen" format cut.mtlx --in-place
+check 'a truncated file stays as it is' cmp cut.mtlx before.mtlx
+check 'the error names the truncated file' grep -q 'cut.mtlx:' err
+check '-o with --in-place is wrong usage' exits 2 "$mxgen" format old.mtlx -o a --in-place
+check 'two documents with -o are wrong usage' exits 2 "$mxgen" format old.mtlx new.mtlx -o a
+check '--check with -o is wrong usage' exits 2 "$mxgen" format old.mtlx --check -o a
+check 'standard input with --in-place is wrong usage' exits 2 "$mxgen" format - --in-place
+check 'a run without a document is wrong usage' exits 2 "$mxgen" format
 finish rewrite

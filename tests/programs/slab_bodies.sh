@@ -72,37 +72,37 @@ operator() {
 # all FILE: the light, and what is seen through.
 all() { of "($(channel "$1" R) + $(channel "$1" G) + $(channel "$1" B)) / 3 + 1 - $(channel "$1" A)"; }
 for element in SWhite SCoated SMixed SHalf; do
-    check "$element in even light" trace even.exr $element --paths 128
-    check "and no light is lost: $element" near "$(all even.exr)" 1 0.01
+    check "$element is traced in even light" trace even.exr $element --paths 128
+    check "$element loses no light" near "$(all even.exr)" 1 0.01
 done
 
 # The disk of the ball, by paper.
-check 'paper' trace paper.exr SPaper --paths 64
+check 'paper is traced' trace paper.exr SPaper --paths 64
 disk=$(channel paper.exr A)
 # Parallel light through a ball of the radius 1 with the extinction t: the mean over the disk of exp(-2 t cos) is (1 - (1 + 2 t) exp(-2 t)) / (2 t²).
 # clear T: what is not seen through.
 clear() { of "1 - (1 - (1 + 2 * $1) * exp(-2 * $1)) / (2 * $1 * $1)"; }
-check 'a clear ball' trace clear.exr SClear --paths 256
-check 'is as opaque as its chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clear 1)" 0.01
-check 'a smaller one' trace clear.exr SClear --paths 256 --distance-unit millimeter
-check 'has shorter chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clear 0.1)" 0.01
+check 'a clear ball is traced' trace clear.exr SClear --paths 256
+check 'a clear ball is as opaque as its chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clear 1)" 0.01
+check 'a smaller clear ball is traced' trace clear.exr SClear --paths 256 --distance-unit millimeter
+check 'a smaller ball has shorter chords' near "$(of "$(channel clear.exr A) / $disk")" "$(clear 0.1)" 0.01
 
 # light FILE PIXEL COLOUR: of a picture for display, as linear light (IEC 61966-2-1).
 light() {
     tail -c $((3 * (24 * 24 - $2))) "$1" | od -An -tu1 -N3 | awk -v n="$3" '{ c = $n / 255; print (c > 0.04045 ? ((c + 0.055) / 1.055) ^ 2.4 : c / 12.92) }'
 }
-check 'a ball of a colour before white' trace tinted.ppm STinted --paths 1024 --background environment
+check 'a coloured ball is traced before white' trace tinted.ppm STinted --paths 1024 --background environment
 for i in 1 2 3; do
     way=$(echo '10 2 1' | cut -d' ' -f$i)
-    check "is seen through in colour: $i" near "$(of "$(light tinted.ppm 300 $i) / $(light tinted.ppm 0 $i)")" "$(of "exp(-2 / $way)")" 0.03
+    check "a coloured ball is seen through in its colour: $i" near "$(of "$(light tinted.ppm 300 $i) / $(light tinted.ppm 0 $i)")" "$(of "exp(-2 / $way)")" 0.03
 done
 
-check 'a thick ball' trace thick.exr SThick --paths 256
-check 'reflects its albedo: red' near "$(of "$(channel thick.exr R) / $disk")" 0.8 0.015
-check "green" near "$(of "$(channel thick.exr G) / $disk")" 0.5 0.015
-check "blue" near "$(of "$(channel thick.exr B) / $disk")" 0.2 0.015
-check 'the lobe of rasters' trace thick.exr SThick --paths 64 --as-drawn
-check 'reflects it, too' near "$(of "$(channel thick.exr R) / $disk")" 0.8 0.01
+check 'a thick ball is traced' trace thick.exr SThick --paths 256
+check 'a thick ball reflects its red albedo' near "$(of "$(channel thick.exr R) / $disk")" 0.8 0.015
+check "a thick ball reflects its green albedo" near "$(of "$(channel thick.exr G) / $disk")" 0.5 0.015
+check "a thick ball reflects its blue albedo" near "$(of "$(channel thick.exr B) / $disk")" 0.2 0.015
+check 'a thick ball is traced with the lobe of rasters' trace thick.exr SThick --paths 64 --as-drawn
+check 'the lobe of rasters reflects the red albedo' near "$(of "$(channel thick.exr R) / $disk")" 0.8 0.01
 
 # A plate with a lamp behind it. plate DEPTH: from z = -DEPTH to 0.
 plate() {
@@ -118,7 +118,7 @@ behind() {
 }
 thin=$(behind 0.2) wide=$(behind 0.8)
 check 'a thin plate shines through' awk -v a="$thin" 'BEGIN { exit !(a > 0.05) }'
-check 'more than a thick one' awk -v a="$thin" -v b="$wide" 'BEGIN { print a, b; exit !(b > 0.005 && b < 0.6 * a) }'
+check 'a thin plate shines through more than a thick one' awk -v a="$thin" -v b="$wide" 'BEGIN { print a, b; exit !(b > 0.005 && b < 0.6 * a) }'
 
 # Objects of other shaders inside a body, and in its shadow.
 # sphere NAME RADIUS [Z]
@@ -140,21 +140,21 @@ head='#usda 1.0
  metersPerUnit = 0.01
 )'
 { echo "$head"; sphere outer 1; sphere inner 0.5; } >inside.usda
-check 'paper in a white body' stage inside.exr inside.usda inside --size 16 --paths 64
-check 'and no light is lost' near "$(all inside.exr)" 1 0.01
+check 'paper is traced in a white body' stage inside.exr inside.usda inside --size 16 --paths 64
+check 'paper in a white body loses no light' near "$(all inside.exr)" 1 0.01
 { echo "$head"; sphere outer 1; sphere middle 0.7; sphere inner 0.4; } >three.usda
-check 'three white bodies inside each other' stage three.exr three.usda scattering --size 16 --paths 64
-check 'and no light is lost' near "$(all three.exr)" 1 0.01
+check 'three white bodies inside each other are traced' stage three.exr three.usda scattering --size 16 --paths 64
+check 'three white bodies lose no light' near "$(all three.exr)" 1 0.01
 # through FILE: the opacity in the middle.
 through() { python3 "$exr" "$1" A 0.5 0.5; }
-check 'three clear ones' stage three.exr three.usda absorbing --size 17 --paths 2048
-check 'are as opaque as their chords' near "$(through three.exr)" "$(of '1 - exp(-0.6 / 1 - 0.6 / 2 - 0.8 / 4)')" 0.01
+check 'three clear bodies inside each other are traced' stage three.exr three.usda absorbing --size 17 --paths 2048
+check 'three clear bodies are as opaque as their chords' near "$(through three.exr)" "$(of '1 - exp(-0.6 / 1 - 0.6 / 2 - 0.8 / 4)')" 0.01
 # Light leaves the first one inside the second.
 { echo "$head"; sphere outer 1 1; sphere middle 1; } >overlap.usda
-check 'two that overlap' stage overlap.exr overlap.usda absorbing --size 17 --paths 2048
-check 'are as opaque as the ways, in the second where both are' near "$(through overlap.exr)" "$(of '1 - exp(-1 / 1 - 2 / 2)')" 0.01
-check 'two white ones' stage overlap.exr overlap.usda scattering --size 16 --paths 64
-check 'lose no light' near "$(all overlap.exr)" 1 0.01
+check 'two clear bodies that overlap are traced' stage overlap.exr overlap.usda absorbing --size 17 --paths 2048
+check 'light in both bodies goes through the second' near "$(through overlap.exr)" "$(of '1 - exp(-1 / 1 - 2 / 2)')" 0.01
+check 'two white bodies that overlap are traced' stage overlap.exr overlap.usda scattering --size 16 --paths 64
+check 'two white bodies that overlap lose no light' near "$(all overlap.exr)" 1 0.01
 {
     echo "$head"
     cube outer 1
@@ -183,9 +183,9 @@ def Camera "camera"
 }
 USDA
 } >shadow.usda
-check 'the shadow of clear blocks inside each other' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 17 --paths 16
+check 'the shadow of clear blocks inside each other is traced' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 17 --paths 16
 shadow=$(python3 "$exr" shadow.exr R 0.5 0.5)
-check 'and without it' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 17 --paths 16 --distance-unit nanometer
-check 'is that of the ways through them' near "$(of "$shadow / $(python3 "$exr" shadow.exr R 0.5 0.5)")" "$(of 'exp(-0.4 / 1 - 0.4 / 2 - 0.2 / 4)')" 0.01
+check 'the place without the shadow is traced' exits 0 "$render" bodies.mtlx --stage shadow.usda --look absorbing -q --path-trace -o shadow.exr --camera /camera --size 17 --paths 16 --distance-unit nanometer
+check 'the shadow is that of the ways through the blocks' near "$(of "$shadow / $(python3 "$exr" shadow.exr R 0.5 0.5)")" "$(of 'exp(-0.4 / 1 - 0.4 / 2 - 0.2 / 4)')" 0.01
 
 finish slab_bodies

@@ -24,7 +24,7 @@ compare() {
     check "$2 is drawn" exits 0 "$render" "$examples/$1.mtlx" -e "$2" -q -m "$3" --lights none --size 48 --samples 128 -o drawn.exr
     # shellcheck disable=SC2086 # arguments, divided by spaces
     check "$2 is traced" trace traced.exr "$examples/$1.mtlx" "$2" -m "$3" --lights none --size 48 --paths 64 ${4:-}
-    check "$2 agrees" near "$("$mean_ratio" traced.exr drawn.exr)" 1 0.03
+    check "the mean of $2 is the same drawn and traced" near "$("$mean_ratio" traced.exr drawn.exr)" 1 0.03
 }
 compare slabs CoatedMetal sphere    # opaque below a clear coat
 compare slabs CarPaint sphere
@@ -77,16 +77,16 @@ cat >white.mtlx <<'XML'
 </materialx>
 XML
 for element in Stack Sheet Mixed Solid; do # a body beside glass, below a coat that scatters
-    check "$element in even light" trace even.exr white.mtlx $element -m sphere --lights none --environment white.hdr --size 32 --paths 256 --bounces 64
+    check "$element is traced in even light" trace even.exr white.mtlx $element -m sphere --lights none --environment white.hdr --size 32 --paths 256 --bounces 64
     light=$(of "($(channel even.exr R) + $(channel even.exr G) + $(channel even.exr B)) / 3 + 1 - $(channel even.exr A)")
-    check "and no light is lost: $element" near "$light" 1 0.01
+    check "$element loses no light" near "$light" 1 0.01
 done
 
 # A rough anisotropic metal loses no light, drawn or traced.
 check 'an anisotropic metal is traced' trace even.exr white.mtlx Brushed -m sphere --lights none --environment white.hdr --size 32 --paths 128
-check 'and loses no light' near "$(ratio "$(channel even.exr R)" "$(channel even.exr A)")" 1 0.015
-check 'and drawn' exits 0 "$render" white.mtlx -e Brushed -q -m sphere --lights none --environment white.hdr --size 32 --samples 256 -o drawn.exr
-check 'with as much light' near "$("$mean_ratio" even.exr drawn.exr)" 1 0.01
+check 'the anisotropic metal loses no light' near "$(ratio "$(channel even.exr R)" "$(channel even.exr A)")" 1 0.015
+check 'the anisotropic metal is drawn' exits 0 "$render" white.mtlx -e Brushed -q -m sphere --lights none --environment white.hdr --size 32 --samples 256 -o drawn.exr
+check 'the drawn metal has as much light as the traced one' near "$("$mean_ratio" even.exr drawn.exr)" 1 0.01
 
 # A quad in the light of one lamp, before and behind it. A white sheet sends all of it to one side or the other.
 printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n' >quad.obj
@@ -97,13 +97,13 @@ lit() {
 }
 before=$(lit Dense -1) behind=$(lit Dense 1) paper=$(lit Paper -1)
 check 'paper has no light from behind' near "$(lit Paper 1)" 0 0.001
-check 'a sheet does' awk -v a="$behind" -v b="$paper" 'BEGIN { exit !(a > 0.1 * b) }'
-check 'and all light of a lamp goes to one side or the other' \
+check 'a sheet has light from behind' awk -v a="$behind" -v b="$paper" 'BEGIN { exit !(a > 0.1 * b) }'
+check 'all light of a lamp goes to one side of a sheet or the other' \
     near "$(of "($before + $behind) / $paper")" 1 0.03
 
-check 'a clear sheet' trace clear.exr white.mtlx Clear -m quad.obj --camera 0,0 --environment none --lights none --size 24 --paths 64
-check 'and paper' trace full.exr white.mtlx Paper -m quad.obj --camera 0,0 --environment none --lights none --size 24 --paths 16
-check 'it is seen through: exp(-1)' near "$(of "$(channel clear.exr A) / $(channel full.exr A)")" 0.632 0.01
+check 'a clear sheet is traced' trace clear.exr white.mtlx Clear -m quad.obj --camera 0,0 --environment none --lights none --size 24 --paths 64
+check 'paper is traced' trace full.exr white.mtlx Paper -m quad.obj --camera 0,0 --environment none --lights none --size 24 --paths 16
+check 'a clear sheet lets exp(-1) through' near "$(of "$(channel clear.exr A) / $(channel full.exr A)")" 0.632 0.01
 
 # A surface with holes beside a sheet, and the same as slabs of one surface. The metal is the AOV of its own definition.
 cat >mixed.mtlx <<'XML'
@@ -135,17 +135,17 @@ cat >mixed.mtlx <<'XML'
 </materialx>
 XML
 for element in Mixed One Some; do
-    check "$element on a quad" trace $element.exr mixed.mtlx $element -m quad.obj --camera 30,20 --lights none --size 24 --paths 1024
+    check "$element is traced on a quad" trace $element.exr mixed.mtlx $element -m quad.obj --camera 30,20 --lights none --size 24 --paths 1024
 done
-check 'a mix of surfaces is a mix of slabs' near "$("$mean_ratio" Mixed.exr One.exr)" 1 0.01
-check 'and as much is seen through it' near "$(of "$(channel Mixed.exr A) / $(channel One.exr A)")" 1 0.01
+check 'a mix of surfaces has the light of a mix of slabs' near "$("$mean_ratio" Mixed.exr One.exr)" 1 0.01
+check 'a mix of surfaces lets as much light through' near "$(of "$(channel Mixed.exr A) / $(channel One.exr A)")" 1 0.01
 check 'the AOV of a closure is its light' near "$(of "$(channel Mixed.exr metal.R) / $(channel Some.exr R)")" 1 0.01
 # On a ball paths meet many surfaces, so a pixel's paths need several runs of a kernel. An AOV takes half of them, and no light.
 sed '/<aov /d' mixed.mtlx >bare.mtlx
 for name in mixed bare; do
-    check "$name on a ball" trace $name.exr $name.mtlx Mixed -m sphere --lights none --size 32 --paths 256
+    check "$name is traced on a ball" trace $name.exr $name.mtlx Mixed -m sphere --lights none --size 32 --paths 256
 done
-check 'no run loses light' near "$(of "$(channel bare.exr R) / $(channel mixed.exr R)")" 1 0.02
+check 'no run of a kernel loses light' near "$(of "$(channel bare.exr R) / $(channel mixed.exr R)")" 1 0.02
 
 # Slabs among other closures. A coat that is as clear as air makes a pile of what is a list of leaves without it.
 cat >among.mtlx <<'XML'
@@ -202,25 +202,25 @@ for channel in 'R 0.9' 'G 0.5' 'B 0.2'; do
     # shellcheck disable=SC2086 # a name and a number
     set -- $channel
     coated=$(channel Coated.exr "$1")
-    check "a scaled pile, $1" near "$(ratio "$(channel Tinted.exr "$1")" "$coated")" "$2" 0.02
-    check "a sum, $1" near "$(of "$(channel Sum.exr "$1") / ($(channel Paper.exr "$1") * 0.4 + $coated * 0.6)")" 1 0.02
-    check "dust with a scale, $1" near "$(of "$(channel DustyPile.exr "$1") / $(channel DustyList.exr "$1")")" 1 0.02
-    check "above glass, $1" near "$(of "$(channel BottlePile.exr "$1") / $(channel BottleList.exr "$1")")" 1 0.02
-    check "beside glass, $1" near "$(of "$(channel ChippedPile.exr "$1") / $(channel ChippedList.exr "$1")")" 1 0.02
+    check "a scaled pile has the scaled light: $1" near "$(ratio "$(channel Tinted.exr "$1")" "$coated")" "$2" 0.02
+    check "a sum has the light of its parts: $1" near "$(of "$(channel Sum.exr "$1") / ($(channel Paper.exr "$1") * 0.4 + $coated * 0.6)")" 1 0.02
+    check "scaled dust has the light of a list of leaves: $1" near "$(of "$(channel DustyPile.exr "$1") / $(channel DustyList.exr "$1")")" 1 0.02
+    check "a pile above glass has the light of a list of leaves: $1" near "$(of "$(channel BottlePile.exr "$1") / $(channel BottleList.exr "$1")")" 1 0.02
+    check "a pile beside glass has the light of a list of leaves: $1" near "$(of "$(channel ChippedPile.exr "$1") / $(channel ChippedList.exr "$1")")" 1 0.02
 done
 for element in ChippedPile ChippedList Balloon; do
-    check "$element as drawn" trace drawn_$element.exr among.mtlx $element -m sphere --lights none --size 32 --paths 256 --as-drawn
+    check "$element is traced as drawn" trace drawn_$element.exr among.mtlx $element -m sphere --lights none --size 32 --paths 256 --as-drawn
 done
-check 'beside glass, as drawn' near "$("$mean_ratio" drawn_ChippedPile.exr drawn_ChippedList.exr)" 1 0.01
+check 'a pile beside glass has the light of a list of leaves as drawn' near "$("$mean_ratio" drawn_ChippedPile.exr drawn_ChippedList.exr)" 1 0.01
 # light pays for the coat where it goes in and where it comes out
-check 'a balloon, as drawn' near "$("$mean_ratio" drawn_Balloon.exr Balloon.exr)" 1 0.02
+check 'a balloon has its light as drawn' near "$("$mean_ratio" drawn_Balloon.exr Balloon.exr)" 1 0.02
 for element in Coated Tinted Sum DustyPile ChippedPile BottlePile Balloon; do # or the pictures compare lists of leaves
     check "$element is a pile" eval "'$mxgen' among.mtlx -e $element --integrator scatter --stdout | grep -q out9"
 done
 
 # Picks of a closure.
-check 'one pick' trace one.exr "$examples/slabs.mtlx" CarPaint -m sphere --lights none --size 32 --paths 512
-check 'sixteen picks' trace more.exr "$examples/slabs.mtlx" CarPaint -m sphere --lights none --size 32 --paths 32 --picks 16
-check 'have one mean' near "$("$mean_ratio" one.exr more.exr)" 1 0.03
+check 'a material is traced with one pick' trace one.exr "$examples/slabs.mtlx" CarPaint -m sphere --lights none --size 32 --paths 512
+check 'a material is traced with sixteen picks' trace more.exr "$examples/slabs.mtlx" CarPaint -m sphere --lights none --size 32 --paths 32 --picks 16
+check 'the number of picks does not change the mean' near "$("$mean_ratio" one.exr more.exr)" 1 0.03
 
 finish slab_paths

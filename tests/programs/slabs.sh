@@ -12,62 +12,62 @@ compiles() { # document and options of generation: all its materials, for two la
 
 # Budgets
 for closures in 1 2 3; do
-    check "materials with $closures slabs" compiles "$slabs" --max-slabs "$closures"
+    check "materials with $closures slabs compile" compiles "$slabs" --max-slabs "$closures"
 done
-check 'a budget is silent' eval 'exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -o made && test ! -s err'
-check 'steps' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -Wbudget-step -o made
-check 'a part less' exits 0 "$mxgen" "$examples/slab_blends.mtlx" -e Opal --features -roughness-tracking -o quiet
-check 'with a message' exits 0 "$mxgen" "$examples/slab_blends.mtlx" -e Opal --features -roughness-tracking -Wbudget-step -o told
-check 'is the same shader' eval 'says "no roughness of what lies below" && cmp -s quiet/Opal.frag told/Opal.frag'
-check 'steps again' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -Wbudget-step -o made
-check 'the mix is first' eval 'grep -F budget-step err | head -1 | grep -qE "the mix .paint.: slabs 3 to 2, bytes 40 to 28, estimated error 0\.[0-9]+ "'
-check 'then the layer' eval 'grep -F budget-step err | tail -1 | grep -qE "the layer .coated.: slabs 2 to 1, bytes 28 to 16"'
-check 'the first step' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-steps 1 -Wbudget-step -o made
-check 'alone, whatever the budget' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "the mix" && ! says "the layer"'
-check 'a budget' exits 0 "$mxgen" inspect "$slabs" -e CarPaint --slabs --max-bytes 12
-check 'is the one that inspect shows' eval 'grep -q "^to the budget" out && grep -q "no second lobe: slabs 1 to 1, bytes 16 to 12" out'
-check 'features go for bytes' exits 0 "$mxgen" "$slabs" -e CarPaint --max-bytes 12 -Wbudget-step -o made
-check 'the second lobe' says 'no second lobe: slabs 1 to 1, bytes 16 to 12'
-check 'a small error' exits 0 "$mxgen" "$slabs" -e CarPaint --max-error 0.2 -Wbudget-step -o made
-check 'keeps the coat' eval 'says "the mix" && ! says "the layer"'
-check 'too few bytes' exits 1 "$mxgen" "$slabs" -e CarPaint --max-bytes 8 -o made
-check 'are impossible' says '[budget-impossible]'
-check 'slabs within an error' exits 1 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-error 0.01 -o made
-check 'too' says '1 slabs, an error of 0.01'
-check 'no number' exits 2 "$mxgen" "$slabs" --max-error much -o made
-check 'is an error' says "expected a number of 0..100"
+check 'a budget prints nothing' eval 'exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -o made && test ! -s err'
+check '-Wbudget-step is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -Wbudget-step -o made
+check 'a feature can be left out' exits 0 "$mxgen" "$examples/slab_blends.mtlx" -e Opal --features -roughness-tracking -o quiet
+check 'a feature can be left out with a message' exits 0 "$mxgen" "$examples/slab_blends.mtlx" -e Opal --features -roughness-tracking -Wbudget-step -o told
+check 'the message does not change the shader' eval 'says "no roughness of what lies below" && cmp -s quiet/Opal.frag told/Opal.frag'
+check 'a budget of one closure takes steps' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 -Wbudget-step -o made
+check 'the mix is blended first' eval 'grep -F budget-step err | head -1 | grep -qE "the mix .paint.: slabs 3 to 2, bytes 40 to 28, estimated error 0\.[0-9]+ "'
+check 'the layer is blended last' eval 'grep -F budget-step err | tail -1 | grep -qE "the layer .coated.: slabs 2 to 1, bytes 28 to 16"'
+check '--max-steps 1 is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-steps 1 -Wbudget-step -o made
+check '--max-steps 1 takes one step, whatever the budget' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "the mix" && ! says "the layer"'
+check 'inspect takes a budget' exits 0 "$mxgen" inspect "$slabs" -e CarPaint --slabs --max-bytes 12
+check 'inspect shows the steps to its budget' eval 'grep -q "^to the budget" out && grep -q "no second lobe: slabs 1 to 1, bytes 16 to 12" out'
+check 'a budget of bytes is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-bytes 12 -Wbudget-step -o made
+check 'a budget of bytes leaves out the second lobe' says 'no second lobe: slabs 1 to 1, bytes 16 to 12'
+check 'a budget of an error is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-error 0.2 -Wbudget-step -o made
+check 'a small error keeps the coat' eval 'says "the mix" && ! says "the layer"'
+check 'too few bytes fail' exits 1 "$mxgen" "$slabs" -e CarPaint --max-bytes 8 -o made
+check 'the error is budget-impossible' says '[budget-impossible]'
+check 'one slab within a small error fails' exits 1 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-error 0.01 -o made
+check 'the error names both limits' says '1 slabs, an error of 0.01'
+check 'a limit that is no number is wrong usage' exits 2 "$mxgen" "$slabs" --max-error much -o made
+check 'the error gives the range' says "expected a number of 0..100"
 
-check 'within an error' exits 0 "$mxgen" "$slabs" -e DustyFibre --max-slabs 1 --max-error 1.7 -Wbudget-step -o made
-check 'blends alone' eval '[ "$(grep -cF budget-step err)" = 2 ] && says "bytes 48 to 24"'
-check 'nobody estimates glints' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e FlakePaint --features -glints -Wbudget-step -o made
-check 'so their error is unknown' says 'no glints: slabs 2 to 2, bytes 40 to 24, estimated error unknown'
-check 'an error keeps them' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e FlakePaint --max-error 50 -Wbudget-step -o made
-check 'whatever it is' eval '! says "no glints"'
+check 'a budget of bytes takes steps for operators' exits 0 "$mxgen" "$slabs" -e DustyFibre --max-slabs 1 --max-error 1.7 -Wbudget-step -o made
+check 'operators blend before features go' eval '[ "$(grep -cF budget-step err)" = 2 ] && says "bytes 48 to 24"'
+check 'glints can be left out' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e FlakePaint --features -glints -Wbudget-step -o made
+check 'the error of lost glints is unknown' says 'no glints: slabs 2 to 2, bytes 40 to 24, estimated error unknown'
+check 'a large error is accepted' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e FlakePaint --max-error 50 -Wbudget-step -o made
+check '--max-error keeps glints' eval '! says "no glints"'
 
 # Features
-check 'a part that does not exist' exits 1 "$mxgen" "$slabs" --features -glimmer -o made
-check 'is named' says "-glints, -lut, -fuzz"
+check 'an unknown feature fails' exits 1 "$mxgen" "$slabs" --features -glimmer -o made
+check 'the error lists the features' says "-glints, -lut, -fuzz"
 sed 's/<slab name="dust" type="BSDF">/&<input name="glint_density" type="float" value="3"\/>/' "$slabs" >glints.mtlx
-check 'glints have code' compiles glints.mtlx
-check 'but may be left out' exits 0 "$mxgen" glints.mtlx -e DustyFibre --features -glints --stdout
-check 'then there is none' eval '! grep -q mx_glints out'
-check 'OSL has a facet for each point' exits 0 "$mxgen" glints.mtlx -e DustyFibre --target osl --stdout
-check 'and the light that it mirrors' eval 'test ! -s err && ! grep -q hashnoise out && grep -q "= mx_slab_facet(" out && grep -q "= mx_slab_facet_light(" out'
-check 'no facet without glints' exits 0 "$mxgen" "$slabs" -e DustyFibre --target osl --stdout
-check 'is there' eval '! grep -q slab_facet out'
-check 'OSL has a facet for a tint' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e PearlPaint --features -glints --target osl --stdout
-check 'drawn by the point' eval 'test ! -s err && grep -q "hashnoise(P, time)" out && ! grep -q glint_facet out'
-check 'OSL has the albedo of threads' exits 0 "$mxgen" "$slabs" -e WrappedSilk --target osl --stdout
-check 'and vectors for sums of vectors, which are no colours' eval 'grep -qF "vector weft_reflection_sum = " out && ! grep -qF "color weft_reflection_sum" out'
-check 'OSL sees through a body' exits 0 "$mxgen" "$examples/slab_bodies.mtlx" -e Amber --target osl --stdout
-check 'in its colour, and without total reflection from behind' eval 'grep -q "transparent_bsdf()" out && ! grep -q "vector(0.33333334)" out && grep -q "float(backfacing_)" out'
-check 'they are stored' exits 0 "$mxgen" glints.mtlx -e DustyFibre --pipeline deferred --target vulkan -o made
-check 'and lit by a pass' eval 'grep -q mx_word0 made/DustyFibre.frag && ! grep -q drawn-forward out err'
-check 'without fuzz' exits 0 "$mxgen" inspect --closures "$slabs" -e DustyFibre --features -fuzz
-check 'there is none' eval '! grep -q mx_sheen out'
+check 'glints compile' compiles glints.mtlx
+check 'a shader without glints is generated' exits 0 "$mxgen" glints.mtlx -e DustyFibre --features -glints --stdout
+check 'a shader without glints has no code of them' eval '! grep -q mx_glints out'
+check 'glints give a shader of OSL' exits 0 "$mxgen" glints.mtlx -e DustyFibre --target osl --stdout
+check 'OSL has a facet for each point and the light that it mirrors' eval 'test ! -s err && ! grep -q hashnoise out && grep -q "= mx_slab_facet(" out && grep -q "= mx_slab_facet_light(" out'
+check 'slabs without glints give a shader of OSL' exits 0 "$mxgen" "$slabs" -e DustyFibre --target osl --stdout
+check 'OSL has no facet without glints' eval '! grep -q slab_facet out'
+check 'a tint gives a shader of OSL' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e PearlPaint --features -glints --target osl --stdout
+check 'OSL draws the facet of a tint by the point' eval 'test ! -s err && grep -q "hashnoise(P, time)" out && ! grep -q glint_facet out'
+check 'threads give a shader of OSL' exits 0 "$mxgen" "$slabs" -e WrappedSilk --target osl --stdout
+check 'OSL adds vectors as vectors, not as colours' eval 'grep -qF "vector weft_reflection_sum = " out && ! grep -qF "color weft_reflection_sum" out'
+check 'a clear body gives a shader of OSL' exits 0 "$mxgen" "$examples/slab_bodies.mtlx" -e Amber --target osl --stdout
+check 'OSL lets light through a body in its colour, without total reflection from behind' eval 'grep -q "transparent_bsdf()" out && ! grep -q "vector(0.33333334)" out && grep -q "float(backfacing_)" out'
+check 'glints are stored' exits 0 "$mxgen" glints.mtlx -e DustyFibre --pipeline deferred --target vulkan -o made
+check 'stored glints are lit by a pass' eval 'grep -q mx_word0 made/DustyFibre.frag && ! grep -q drawn-forward out err'
+check 'fuzz can be left out' exits 0 "$mxgen" inspect --closures "$slabs" -e DustyFibre --features -fuzz
+check 'there is no sheen without fuzz' eval '! grep -q mx_sheen out'
 
 # Payloads, and path tracers of surfaces without light
-check 'payloads have code' eval '[ -z "$compile" ] || exits 0 "$compile" "$slabs" --form payload --targets vulkan,glsl'
+check 'payloads of slabs compile' eval '[ -z "$compile" ] || exits 0 "$compile" "$slabs" --form payload --targets vulkan,glsl'
 echo '<materialx version="1.39"><surface name="Black" type="surfaceshader"/></materialx>' >black.mtlx
 check 'a black surface is traced' exits 0 "$mxgen" black.mtlx --integrator scatter --stdout
 # A volume behind glass has no place behind a slab
@@ -85,8 +85,8 @@ cat >filled.mtlx <<'END'
 </materialx>
 END
 check 'glass with a volume beside a slab becomes one slab' exits 0 "$mxgen" inspect --slabs filled.mtlx -e Filled --max-slabs 1
-check 'in two steps' grep -q "one slab for the mix 'both': slabs 2 to 1" out
-check 'a volume behind nothing is nothing' exits 0 "$mxgen" filled.mtlx -e Hollow --target vulkan --stdout
+check 'the mix of both becomes one slab in a step of its own' grep -q "one slab for the mix 'both': slabs 2 to 1" out
+check 'a volume behind nothing is generated' exits 0 "$mxgen" filled.mtlx -e Hollow --target vulkan --stdout
 
 # A sum of a sum with itself, and so on: 2^40 ways from the surface to a closure.
 {
@@ -98,9 +98,9 @@ check 'a volume behind nothing is nothing' exits 0 "$mxgen" filled.mtlx -e Hollo
     printf '<slab_layer name="all" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="x40"/></slab_layer>'
     printf '<surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="all"/></surface></materialx>\n'
 } >shared.mtlx
-check 'a pile of shared closures ends' exits 0 timeout 20 "$mxgen" shared.mtlx --target vulkan --integrator scatter --stdout
-check 'and says why it is none' grep -q 'its tree is too large' err
-check 'without a division by 0' eval '! grep -q "/ 0\.0" out'
+check 'a tree of shared closures ends in time' exits 0 timeout 20 "$mxgen" shared.mtlx --target vulkan --integrator scatter --stdout
+check 'the error says that the tree is too large' grep -q 'its tree is too large' err
+check 'no shader divides by 0' eval '! grep -q "/ 0\.0" out'
 
 # Media over media: a weight is a coverage
 cat >half.mtlx <<'END'
@@ -114,10 +114,10 @@ cat >half.mtlx <<'END'
   <surface name="Pane" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="pane"/></surface>
 </materialx>
 END
-check 'half a medium over another' exits 0 "$mxgen" half.mtlx -e Half --slabs -Wbudget-step --stdout
-check 'is half of it' eval 'grep -qE "closures become slabs.*estimated error 0\.[0-2]" err'
-check 'an interface over nothing' exits 0 "$mxgen" half.mtlx -e Pane --slabs -Wbudget-step --stdout
-check 'shows nothing behind a surface' eval 'grep -qE "closures become slabs.*estimated error [01]\." err'
+check 'half a medium over another one is generated' exits 0 "$mxgen" half.mtlx -e Half --slabs -Wbudget-step --stdout
+check 'half a medium over another one has a small error' eval 'grep -qE "closures become slabs.*estimated error 0\.[0-2]" err'
+check 'an interface over nothing is generated' exits 0 "$mxgen" half.mtlx -e Pane --slabs -Wbudget-step --stdout
+check 'an interface over nothing has a small error' eval 'grep -qE "closures become slabs.*estimated error [01]\." err'
 
 # Roughness tracking: a mirror lobe of width 0.04 below an interface of width 0.25, by Belcour's formulas
 layered() { # f0 and mean free path of the top
@@ -140,26 +140,26 @@ total = v(0.04) + float(sys.argv[1]) * (v(0.25 / 6) + v(0.25 / 4))
 print(f"{(total / (1 + total)) ** (1 / 1.1):.5f}"[:6])' "$1"
 }
 layered '0.04, 0.04, 0.04' '1, 1, 1'
-check 'a coated metal' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
-check 'is wider' grep -qF "mx_ggx_albedo_fit($(width 1)" out
-check 'without tracking' exits 0 "$mxgen" layered.mtlx --interface reduced --features -roughness-tracking --stdout
-check 'it is not' grep -qF 'mx_ggx_albedo_fit(0.04,' out
+check 'a coated metal is generated' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
+check 'a coat widens the lobe of the metal' grep -qF "mx_ggx_albedo_fit($(width 1)" out
+check 'a coated metal is generated without roughness tracking' exits 0 "$mxgen" layered.mtlx --interface reduced --features -roughness-tracking --stdout
+check 'the lobe keeps its width without roughness tracking' grep -qF 'mx_ggx_albedo_fit(0.04,' out
 layered '0.01, 0.01, 0.01' '1, 1, 1'
-check 'a faint interface' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
-check 'spreads half' grep -qF "mx_ggx_albedo_fit($(width 0.5)" out
+check 'a faint interface is generated' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
+check 'a faint interface widens the lobe by half' grep -qF "mx_ggx_albedo_fit($(width 0.5)" out
 layered '0.04, 0.04, 0.04' '1, 1, 1' half
-check 'half a coat' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
-check 'spreads half, too' grep -qF "mx_ggx_albedo_fit($(width 0.5)" out
+check 'half a coat is generated' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
+check 'half a coat widens the lobe by half' grep -qF "mx_ggx_albedo_fit($(width 0.5)" out
 layered '0.04, 0.04, 0.04' '0, 0, 0' half
-check 'an opaque one' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
-check 'spreads nothing' grep -qF 'mx_ggx_albedo_fit(0.04,' out
+check 'an opaque coat is generated' exits 0 "$mxgen" layered.mtlx --interface reduced --stdout
+check 'an opaque coat does not widen the lobe' grep -qF 'mx_ggx_albedo_fit(0.04,' out
 
 # The document asks for one slab
 sed 's/<input name="mix" type="float" value="0.6"\/>/&<input name="blend_parameters" type="boolean" value="true"\/>/' "$slabs" >asked.mtlx
-check 'the document asks' exits 0 "$mxgen" asked.mtlx -e CarPaint -Wbudget-step -o made
-check 'for one slab' says "one slab for 'paint': slabs 3 to 2"
-check 'without a step' exits 0 "$mxgen" asked.mtlx -e CarPaint --max-steps 0 -Wbudget-step -o made
-check 'it gets three' eval '! says "one slab"'
+check 'a document may ask for one slab' exits 0 "$mxgen" asked.mtlx -e CarPaint -Wbudget-step -o made
+check 'the document gets one slab' says "one slab for 'paint': slabs 3 to 2"
+check '--max-steps 0 is accepted' exits 0 "$mxgen" asked.mtlx -e CarPaint --max-steps 0 -Wbudget-step -o made
+check '--max-steps 0 leaves out the step of the document' eval '! says "one slab"'
 mixes() { # two mixes of the same slabs, and a mix of these; the first ARGUMENT of them ask
     python3 - "$1" <<'END'
 import sys
@@ -171,11 +171,11 @@ print(f"""<materialx version="1.39"><slab name="a" type="BSDF"/><slab name="b" t
 END
 }
 mixes 3 >mixes.mtlx
-check 'mixes that share slabs' exits 0 "$mxgen" mixes.mtlx -Wbudget-step -o made
-check 'blend together' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "slabs 2 to 1, bytes 36 to 16" && ! says not-blended'
+check 'mixes that share slabs may ask for one slab' exits 0 "$mxgen" mixes.mtlx -Wbudget-step -o made
+check 'mixes that share slabs blend together' eval '[ "$(grep -cF budget-step err)" = 1 ] && says "slabs 2 to 1, bytes 36 to 16" && ! says not-blended'
 mixes 1 >mixes.mtlx
-check 'one of them' exits 0 "$mxgen" mixes.mtlx -Wbudget-step -o made
-check 'would cost more' eval "says \"the parameters of 'p' do not blend\" && ! says budget-step"
+check 'one of two mixes that share slabs may ask for one slab' exits 0 "$mxgen" mixes.mtlx -Wbudget-step -o made
+check 'one of two mixes that share slabs does not blend' eval "says \"the parameters of 'p' do not blend\" && ! says budget-step"
 
 # Sums and products
 cat >sum.mtlx <<'END'
@@ -187,36 +187,36 @@ cat >sum.mtlx <<'END'
   <slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></slab_surface>
 </materialx>
 END
-check 'a sum' exits 0 "$mxgen" sum.mtlx --max-slabs 1 -Wbudget-step -o made
-check 'is one slab' says "one slab for the sum 'both': slabs 2 to 1"
+check 'a sum takes a budget' exits 0 "$mxgen" sum.mtlx --max-slabs 1 -Wbudget-step -o made
+check 'a sum becomes one slab' says "one slab for the sum 'both': slabs 2 to 1"
 
 # Profiles
 for profile in desktop console mobile one-slab; do
-    check "profile $profile" compiles "$slabs" --profile "$profile"
+    check "the profile $profile compiles" compiles "$slabs" --profile "$profile"
 done
-check 'no such profile' exits 2 "$mxgen" "$slabs" --profile mobil -o made
-check 'has a neighbour' says "did you mean 'mobile'"
+check 'an unknown profile is wrong usage' exits 2 "$mxgen" "$slabs" --profile mobil -o made
+check 'an unknown profile has a suggestion' says "did you mean 'mobile'"
 printf '# ours\nmax-slabs = 2 # as the others\nfeatures = ["-fuzz", "-f90"]\n' >own.toml
-check 'a file' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml -Wbudget-step -o made
-check 'is read' eval 'says "no fuzz" && says "slabs 3 to 2"'
-check 'options override it' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml --max-slabs 1 -Wbudget-step -o made
-check 'indeed' says 'slabs 2 to 1'
+check 'a profile may be a file' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml -Wbudget-step -o made
+check 'the options of the file count' eval 'says "no fuzz" && says "slabs 3 to 2"'
+check 'the command line goes with a profile' exits 0 "$mxgen" "$slabs" -e DustyFibre --profile own.toml --max-slabs 1 -Wbudget-step -o made
+check 'the command line replaces an option of the profile' says 'slabs 2 to 1'
 printf 'max-slabs = 2\nmax-byts = 3\n' >wrong.toml
-check 'a wrong key' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
-check 'has a line' says "wrong.toml:2: error: unknown option 'max-byts'"
+check 'an unknown key of a profile is wrong usage' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
+check 'the error has the line of the key' says "wrong.toml:2: error: unknown option 'max-byts'"
 printf 'max-slabs 2\n' >wrong.toml
-check 'no pair' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
-check 'is told' says 'wrong.toml:1: error: a line is a comment'
-check 'no file' exits 2 "$mxgen" "$slabs" --profile gone.toml -o made
-check 'is an error' says "cannot read the profile 'gone.toml'"
+check 'a line without a value is wrong usage' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
+check 'the error says what a line is' says 'wrong.toml:1: error: a line is a comment'
+check 'a profile that is missing is wrong usage' exits 2 "$mxgen" "$slabs" --profile gone.toml -o made
+check 'the error names the file of the profile' says "cannot read the profile 'gone.toml'"
 
 # Other materials
 for document in marble gold car_paint; do
-    check "$document as slabs" compiles "$examples/$document.mtlx" --slabs
-    check "$document as one slab" compiles "$examples/$document.mtlx" --max-slabs 1
+    check "$document.mtlx compiles as slabs" compiles "$examples/$document.mtlx" --slabs
+    check "$document.mtlx compiles as one slab" compiles "$examples/$document.mtlx" --max-slabs 1
 done
-check 'marble as slabs' exits 0 "$mxgen" inspect --closures "$examples/marble.mtlx" --max-slabs 1
-check 'is lobes of slabs' eval 'grep -q mx_slab_medium_bsdf out && ! grep -qE "mx_(oren|dielectric|conductor)" out'
+check 'marble takes a budget of one closure' exits 0 "$mxgen" inspect --closures "$examples/marble.mtlx" --max-slabs 1
+check 'marble has lobes of slabs only' eval 'grep -q mx_slab_medium_bsdf out && ! grep -qE "mx_(oren|dielectric|conductor)" out'
 
 cat >glass.mtlx <<'END'
 <materialx version="1.39">
@@ -225,8 +225,8 @@ cat >glass.mtlx <<'END'
   <surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="glass"/></surface>
 </materialx>
 END
-check 'glass as one slab' exits 0 "$mxgen" glass.mtlx --max-slabs 1 --interface reduced --stdout
-check 'has its roughness' grep -qF "$(python3 -c 'import math
+check 'glass takes a budget of one closure' exits 0 "$mxgen" glass.mtlx --max-slabs 1 --interface reduced --stdout
+check 'glass as one slab has the mean roughness' grep -qF "$(python3 -c 'import math
 g = math.log2(2 / 0.6 ** 4 - 1) / 18 # the bump of Chan 2018
 print(f"+ {(34.5 * g - 59) * g + 24.5:.3f}"[:-1])')" out
 
@@ -239,11 +239,11 @@ cat >painted.mtlx <<'END'
   <surface name="Painted" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="painted"/></surface>
 </materialx>
 END
-check 'an interface over a medium' exits 0 "$mxgen" inspect --slabs painted.mtlx
-check 'is one slab' grep -q '1 slabs' out
+check 'an interface over a medium is inspected' exits 0 "$mxgen" inspect --slabs painted.mtlx
+check 'an interface over a medium is one slab' grep -q '1 slabs' out
 
-check 'albedo that varies' exits 0 "$mxgen" "$examples/marble.mtlx" --slabs --interface reduced -o made
-check 'adds the even environment once' eval '! sed -n "/< u_envRadianceSamples/,/^    }/p" made/Marble.frag | grep -E "medium|u_envIrradiance"'
+check 'marble is generated as slabs' exits 0 "$mxgen" "$examples/marble.mtlx" --slabs --interface reduced -o made
+check 'the light of the environment is added once' eval '! sed -n "/< u_envRadianceSamples/,/^    }/p" made/Marble.frag | grep -E "medium|u_envIrradiance"'
 
 # Chances
 cat >covered.mtlx <<'END'
@@ -259,17 +259,17 @@ cat >covered.mtlx <<'END'
 END
 sed 's/"weight" type="float" value="1"/"weight" type="float" value="2"/' covered.mtlx >double.mtlx
 for name in covered double; do
-  check "a path through $name" eval "exits 0 '$mxgen' $name.mtlx --integrator scatter --interface reduced --stdout && cp out $name.frag"
+  check "a path through $name is generated" eval "exits 0 '$mxgen' $name.mtlx --integrator scatter --interface reduced --stdout && cp out $name.frag"
 done
-check 'takes a weight above 1 as 1' eval 'grep -q "matter.y >= 0.5" covered.frag && grep -q "matter.y >= 0.5" double.frag'
+check 'a weight above 1 counts as 1' eval 'grep -q "matter.y >= 0.5" covered.frag && grep -q "matter.y >= 0.5" double.frag'
 
 # Views
-check 'a sheet' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre
-check 'has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "; tangent basis 2; " out && grep -q "to one slab" out'
-check 'of another material' exits 0 "$mxgen" inspect --slabs "$examples/marble.mtlx"
-check 'as well' grep -q 'a body, as slabs' out
-check 'JSON' exits 0 "$mxgen" inspect --slabs --format json "$slabs" -e DustyFibre
-check 'is JSON' python3 -c 'import json
+check 'a material of slabs is inspected' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre
+check 'the view has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "; tangent basis 2; " out && grep -q "to one slab" out'
+check 'another material is inspected as slabs' exits 0 "$mxgen" inspect --slabs "$examples/marble.mtlx"
+check 'the view says that slabs are made' grep -q 'a body, as slabs' out
+check 'the view can be JSON' exits 0 "$mxgen" inspect --slabs --format json "$slabs" -e DustyFibre
+check 'the JSON has slabs and steps' python3 -c 'import json
 sheet = json.load(open("out"))
 tree, = sheet["trees"]
 assert [row["kind"] for row in tree["rows"]] == ["layer", "coverage", "slab", "layer", "slab", "slab"], tree
@@ -289,25 +289,25 @@ cat >masks.mtlx <<'END'
   <slab_surface name="out" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="patches"/></slab_surface>
 </materialx>
 END
-check 'one mask of two operators' exits 0 "$mxgen" inspect --slabs masks.mtlx
-check 'is named' grep -qE '^  (worn and patches|patches and worn) share a mask, but count as independent' out
-check 'in JSON' exits 0 "$mxgen" inspect --slabs --format json masks.mtlx
-check 'too' python3 -c 'import json
+check 'two operators with one mask are inspected' exits 0 "$mxgen" inspect --slabs masks.mtlx
+check 'the view names operators with one mask' grep -qE '^  (worn and patches|patches and worn) share a mask, but count as independent' out
+check 'operators with one mask are inspected as JSON' exits 0 "$mxgen" inspect --slabs --format json masks.mtlx
+check 'the JSON names operators with one mask' python3 -c 'import json
 tree, = json.load(open("out"))["trees"]
 assert sorted(tree["sharedMasks"]) == ["patches", "worn"], tree'
 sed 's/weight" type="float" nodename="wear"/weight" type="float" value="0.5"/' masks.mtlx >own.mtlx
-check 'of two masks' eval 'exits 0 "$mxgen" inspect --slabs own.mtlx && ! grep -q "share a mask" out'
-check 'a picture' exits 0 "$mxgen" inspect --slabs --format svg "$slabs" -e DustyFibre
-check 'is XML' python3 -c 'import xml.etree.ElementTree as e
+check 'operators with masks of their own are not named' eval 'exits 0 "$mxgen" inspect --slabs own.mtlx && ! grep -q "share a mask" out'
+check 'the view can be a picture' exits 0 "$mxgen" inspect --slabs --format svg "$slabs" -e DustyFibre
+check 'the picture is XML' python3 -c 'import xml.etree.ElementTree as e
 root = e.parse("out").getroot()
 assert root.tag == "{http://www.w3.org/2000/svg}svg" and len(root.findall("{*}text")) >= 8'
-check 'to one slab' eval 'grep -q ">To one slab<" out && grep -q "tangent basis 2<" out'
-check 'the same to a budget' exits 0 "$mxgen" inspect --slabs --format svg --max-bytes 30 "$slabs" -e DustyFibre
-check 'says so' grep -q '>To the budget<' out
-check 'as JSON does' exits 0 "$mxgen" inspect --slabs --format json --max-bytes 30 "$slabs" -e DustyFibre
-check 'too' grep -q '"toBudget": true' out
-check 'no format' exits 2 "$mxgen" inspect --slabs --format pdf "$slabs"
-check 'is told' says "'pdf' is no format"
-check 'a format without slabs' exits 2 "$mxgen" inspect --format json "$slabs"
+check 'the picture shows the steps to one slab' eval 'grep -q ">To one slab<" out && grep -q "tangent basis 2<" out'
+check 'the picture takes a budget' exits 0 "$mxgen" inspect --slabs --format svg --max-bytes 30 "$slabs" -e DustyFibre
+check 'the picture shows the steps to the budget' grep -q '>To the budget<' out
+check 'the JSON takes a budget' exits 0 "$mxgen" inspect --slabs --format json --max-bytes 30 "$slabs" -e DustyFibre
+check 'the JSON says that the steps are to the budget' grep -q '"toBudget": true' out
+check 'an unknown format is wrong usage' exits 2 "$mxgen" inspect --slabs --format pdf "$slabs"
+check 'the error names the format' says "'pdf' is no format"
+check 'a format without slabs is wrong usage' exits 2 "$mxgen" inspect --format json "$slabs"
 
 finish slabs

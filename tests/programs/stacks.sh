@@ -59,21 +59,21 @@ out1() { grep -qF "out1 = $1;" main; }
 printf '/a/b\n/c\n' >stage.txt
 document '<look name="L"><materialassign material="red" geom="/"/><materialassign slot="050" material="quarter" geom="/a/b"/>
   <materialassign slot="060" material="half" geom="/a/b"/></look>'
-check 'weights' exits 0 stacks
-check 'a line tells programs' grep -qx '2 stacks, 2 programs' out
+check 'stacks with weights are generated' exits 0 stacks
+check 'a line counts stacks and programs' grep -qx '2 stacks, 2 programs' out
 shader /a/b
 # 060: 0.5; 050: 0.25 · 0.5; 000: 0.75 · 0.5
 check 'opacity and mask hide what is below' out1 'vec4(0.375, 0.5, 0.125, 1.0)'
 shader /c
-check 'one layer' out1 'vec4(1.0, 0.0, 0.0, 1.0)'
+check 'one layer has its colour' out1 'vec4(1.0, 0.0, 0.0, 1.0)'
 document '<look name="L"><materialassign material="quarter" geom="/"/></look>'
-check 'a masked layer alone' exits 0 stacks
+check 'a masked layer is generated alone' exits 0 stacks
 shader /c
-check 'is transparent where no mask is' out1 'vec4(0.0, 0.0, 0.25, 0.25)'
+check 'a masked layer is transparent where its mask is 0' out1 'vec4(0.0, 0.0, 0.25, 0.25)'
 document '<look name="L"><materialassign material="leaf" geom="/"/><materialassign slot="050" material="quarter" geom="/"/></look>'
-check 'a cutout' exits 0 stacks
+check 'a layer with a cutout is generated' exits 0 stacks
 shader /c
-check 'makes a hole in all layers' out1 'vec4(0.375, 0.0, 0.125, 0.5)'
+check 'a cutout makes a hole in all layers' out1 'vec4(0.375, 0.0, 0.125, 0.5)'
 document '<oren_nayar_diffuse_bsdf name="matt" type="BSDF"><input name="weight" type="float" value="0.5"/></oren_nayar_diffuse_bsdf>
   <surface name="s_matt" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="matt"/></surface>
   <substance name="coat" type="material">
@@ -81,30 +81,30 @@ document '<oren_nayar_diffuse_bsdf name="matt" type="BSDF"><input name="weight" 
   </substance>
   <look name="L"><materialassign material="red" geom="/"/><materialassign slot="000|010" material="coat" geom="/a"/>
     <materialassign slot="000|020" material="coat" geom="/a/b"/><materialassign slot="000|010" material="half" geom="/c"/></look>'
-check 'vertical layers' exits 0 stacks --environment none --lights none
+check 'vertical layers are generated' exits 0 stacks --environment none --lights none
 shader /a
 # T of the coat is 0.5: 1 - 0.5 + 0.5 · 0.5
-check 'take light of the base' out1 'vec4(0.75, 0.0, 0.0, 1.0)'
+check 'a vertical layer takes light of its base' out1 'vec4(0.75, 0.0, 0.0, 1.0)'
 shader /a/b
-check 'lie on each other' out1 'vec4(0.5625, 0.0, 0.0, 1.0)'
+check 'vertical layers lie on each other' out1 'vec4(0.5625, 0.0, 0.0, 1.0)'
 shader /c
-check 'add their own' out1 'vec4(1.0, 0.5, 0.0, 1.0)'
+check 'a vertical layer adds its own light' out1 'vec4(1.0, 0.5, 0.0, 1.0)'
 document '<look name="L"><materialassign material="red" geom="/a"/></look>'
-check 'a primitive without layers' exits 0 stacks --environment none
+check 'a primitive without layers is generated' exits 0 stacks --environment none
 shader /c
-check 'is white' grep -q '0.8' main
+check 'a primitive without layers is white' grep -q '0.8' main
 
 document '<look name="L"><materialassign material="red" geom="/"/><materialassign slot="000::010" nodegraph="NG_half" geom="/a"/>
   <materialassign slot="000::020" nodegraph="NG_green" geom="/a/b"/></look>'
-check 'overrides' exits 0 stacks
+check 'overrides are generated' exits 0 stacks
 shader /a
-check 'of the mask that every material has' out1 'vec4(0.5, 0.0, 0.0, 0.5)'
+check 'an override drives the mask of a material' out1 'vec4(0.5, 0.0, 0.0, 0.5)'
 shader /a/b
-check 'of a shader' out1 'vec4(0.0, 0.5, 0.0, 0.5)'
-check 'as uniforms' exits 0 stacks --interface complete
-check 'share a program' grep -qx '3 stacks, 2 programs' out
-check 'have the names of slots' json 'value("/c", "x000_s_red_emission_color") == [1, 0, 0] and of("/c")["values"][0]["slot"] == "000"'
-check 'of the program, with values of the stack' json 'value("/a/b", "x000_s_red_emission_color") == [0, 1, 0] if of("/a/b")["program"] == of("/a")["program"] else 0'
+check 'an override drives an input of a shader' out1 'vec4(0.0, 0.5, 0.0, 0.5)'
+check 'overrides are generated as uniforms' exits 0 stacks --interface complete
+check 'stacks that differ in values share a program' grep -qx '3 stacks, 2 programs' out
+check 'uniforms have the names of slots' json 'value("/c", "x000_s_red_emission_color") == [1, 0, 0] and of("/c")["values"][0]["slot"] == "000"'
+check 'a stack has its values under the names of the program' json 'value("/a/b", "x000_s_red_emission_color") == [0, 1, 0] if of("/a/b")["program"] == of("/a")["program"] else 0'
 
 # One layer runs: each pattern stands in a block of its own, and no two conditions hold for one number.
 cat >look.mtlx <<'XML'
@@ -141,21 +141,21 @@ conditions = {slot: {c for found in list_ for c in found} for slot, list_ in blo
 assert all(len(list_) == 1 for found in blocks.values() for list_ in found), f"a pattern runs for all layers: {blocks}"
 assert all(len(c) == 1 for c in conditions.values()) and len(set.union(*conditions.values())) == 3, conditions
 PY
-check 'stochastic' exits 0 stacks --slots stochastic
+check 'stochastic layers are generated' exits 0 stacks --slots stochastic
 shader /c
-check 'runs one layer' python3 layers.py main
-check 'its textures have derivatives from before' eval 'grep -n "dFdx" main | head -1 | cut -d: -f1 | { read at; [ "$at" -lt "$(grep -n "if (pick" main | head -1 | cut -d: -f1)" ]; }'
+check 'a stochastic shader runs one layer' python3 layers.py main
+check 'textures of a layer have derivatives from before the pick' eval 'grep -n "dFdx" main | head -1 | cut -d: -f1 | { read at; [ "$at" -lt "$(grep -n "if (pick" main | head -1 | cut -d: -f1)" ]; }'
 check 'masks are read for all layers' eval 'grep -q "^    .*texture(.*stencil" main && grep -q "^    .*mx_noise_float" main'
-check 'blend' exits 0 stacks
+check 'blended layers are generated' exits 0 stacks
 shader /c
-check 'runs all' exits 1 python3 layers.py main
+check 'a blended shader runs all layers' exits 1 python3 layers.py main
 for target in glsl essl hlsl; do
     [ -z "$compile" ] || check "stochastic, $target" exits 0 "$compile" look.mtlx --stage stage.txt --slots stochastic --targets $target --interfaces complete
 done
-check 'stochastic, osl' exits 0 "$mxgen" look.mtlx --stage stage.txt --slots stochastic --target osl -o osl.d
-check 'picks a closure' eval 'grep -q "if (layerSample" osl.d/*.osl && grep -q "hashnoise(P, time)" osl.d/*.osl'
-check 'a path tracer' exits 0 stacks --integrator scatter
-check 'picks a layer' eval '[ "$(grep -cE "^    if \(.*(distance|product|random|w)" out.d/$(program /c).frag)" -ge 1 ]'
+check 'stochastic layers are generated for OSL' exits 0 "$mxgen" look.mtlx --stage stage.txt --slots stochastic --target osl -o osl.d
+check 'OSL picks a closure by a hash' eval 'grep -q "if (layerSample" osl.d/*.osl && grep -q "hashnoise(P, time)" osl.d/*.osl'
+check 'stacks are generated for a path tracer' exits 0 stacks --integrator scatter
+check 'a path tracer picks a layer' eval '[ "$(grep -cE "^    if \(.*(distance|product|random|w)" out.d/$(program /c).frag)" -ge 1 ]'
 
 # Two layers of one material: their locals have one name, and the slot tells them apart, in every target.
 cat >twins.mtlx <<'XML'
@@ -171,10 +171,10 @@ cat >twins.mtlx <<'XML'
 XML
 echo /c >one.txt
 for target in glsl vulkan essl hlsl osl; do
-    check "layers of one name, $target" exits 0 "$mxgen" twins.mtlx --look L --stage one.txt --target $target -o twins.d/$target
+    check "layers of one material are generated for $target" exits 0 "$mxgen" twins.mtlx --look L --stage one.txt --target $target -o twins.d/$target
     cat twins.d/$target/stack_* >twins
-    check 'their locals have the slot' grep -qE "^ +[a-zA-Z_0-9 ]+_[ab] =" twins
-    check 'in the place of a number' eval '! grep -E "^ +(closure color|vec.|float.?) (metal|reflection|diffuse)[a-z_]*_2 =" twins | grep -v "_[ab]_2 ="'
+    check 'locals have the slot in their names' grep -qE "^ +[a-zA-Z_0-9 ]+_[ab] =" twins
+    check 'locals have no number in the place of the slot' eval '! grep -E "^ +(closure color|vec.|float.?) (metal|reflection|diffuse)[a-z_]*_2 =" twins | grep -v "_[ab]_2 ="'
 done
 
 # Slabs: the opacity of their lobes weighs a layer.
@@ -187,15 +187,15 @@ slabs='<slab name="metal" type="BSDF"><input name="diffuse_albedo" type="color3"
   <surfacematerial name="sheet" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s_sheet"/></surfacematerial>'
 document "$slabs <look name='L'><materialassign material='red' geom='/'/><materialassign slot='050' material='part_of' geom='/a/b'/>
   <materialassign slot='000|010' material='sheet' geom='/c'/></look>"
-check 'slabs in layers' exits 0 stacks
+check 'slabs in layers are generated' exits 0 stacks
 shader /a/b
-check 'a layer hides by its coverage' grep -q 'vec3 color = vec3(0.75, 0.0, 0.0);' main
+check 'a layer of slabs hides by its coverage' grep -q 'vec3 color = vec3(0.75, 0.0, 0.0);' main
 shader /c
-check 'light passes a sheet' eval 'grep -q "medium" main && grep -q "out1 = vec4(color, 1.0);" main'
+check 'light passes a sheet of slabs' eval 'grep -q "medium" main && grep -q "out1 = vec4(color, 1.0);" main'
 for slots in blend stochastic; do
-    check "slabs, $slots, path tracer" exits 0 stacks --slots $slots --integrator scatter
+    check "slabs in layers are traced with $slots" exits 0 stacks --slots $slots --integrator scatter
     [ -z "$compile" ] || check "it compiles for all targets" exits 0 "$compile" look.mtlx --stage stage.txt --slots $slots --integrator scatter --targets glsl,essl,essl310,vulkan,hlsl --interfaces complete
-    check "slabs, $slots, OSL" exits 0 "$mxgen" look.mtlx --stage stage.txt --slots $slots --target osl -o osl.d
+    check "slabs in layers are generated for OSL with $slots" exits 0 "$mxgen" look.mtlx --stage stage.txt --slots $slots --target osl -o osl.d
     [ -z "$compile" ] || check "slabs, $slots" exits 0 "$compile" look.mtlx --stage stage.txt --slots $slots --targets vulkan,hlsl --interfaces complete
 done
 
@@ -213,20 +213,20 @@ pictures() { # NUMBER NAME OFFSET: a surface that reads so many pictures
     echo "<surfacematerial name='$2' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s_$2'/></surfacematerial>"
 }
 document "$(pictures 8 P 0) $(pictures 8 Q 4) <look name='L'><materialassign material='P' geom='/'/><materialassign slot='050' material='Q' geom='/'/></look>"
-check 'textures of layers' exits 0 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
-check 'merge' json 'sorted(t["file"] for t in of("/c")["textures"]) == sorted(f"{i}.png" for i in range(1, 13))'
+check 'layers with textures are generated' exits 0 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
+check 'equal textures of layers count once' json 'sorted(t["file"] for t in of("/c")["textures"]) == sorted(f"{i}.png" for i in range(1, 13))'
 document "$(pictures 12 P 0) $(pictures 8 Q 12) <look name='L'><materialassign material='P' geom='/'/><materialassign slot='050' material='Q' geom='/'/></look>"
-check 'too many textures' exits 1 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
-check 'name their slots' grep -q "reads 20 textures, .* at most 16 in essl; .*: '000', '050' \[texture-limit\]" err
-check 'another target has no such limit' exits 0 "$mxgen" look.mtlx --stage stage.txt --target vulkan --environment none -o out.d
+check 'too many textures fail' exits 1 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
+check 'the error names the slots' grep -q "reads 20 textures, .* at most 16 in essl; .*: '000', '050' \[texture-limit\]" err
+check 'another target takes these textures' exits 0 "$mxgen" look.mtlx --stage stage.txt --target vulkan --environment none -o out.d
 
 # Looks without a scene.
 document '<look name="base"><materialassign slot="a b" material="red" geom="/"/><materialassign slot="050" nodegraph="NG_half" geom="/"/></look>
   <look name="day" inherit="base"><materialassign material="red" geom="/{a"/><materialassign material="nothing" geom="/"/></look><look name="night" inherit="base"/>'
-check 'validate' exits 1 "$mxgen" validate look.mtlx
-check 'reports slots, once' eval '[ "$(grep -c "\[bad-slot\]" err)" = 1 ] && [ "$(grep -c "\[override-needed\]" err)" = 1 ]'
-check 'and what other rules report' grep -q '\[bad-geometry-name\]' err
-check 'and each place once' eval '[ "$(grep -cE "look.mtlx:.*: (error|warning)" err)" = "$(grep -oE "look.mtlx:[0-9]*:[0-9]*: (error|warning)" err | sort -u | wc -l)" ]'
+check 'a look with faults is not valid' exits 1 "$mxgen" validate look.mtlx
+check 'validate reports faults of slots once' eval '[ "$(grep -c "\[bad-slot\]" err)" = 1 ] && [ "$(grep -c "\[override-needed\]" err)" = 1 ]'
+check 'validate reports faults of geometry' grep -q '\[bad-geometry-name\]' err
+check 'validate reports each place once' eval '[ "$(grep -cE "look.mtlx:.*: (error|warning)" err)" = "$(grep -oE "look.mtlx:[0-9]*:[0-9]*: (error|warning)" err | sort -u | wc -l)" ]'
 
 # Faults of overrides: once each, whatever the number of primitives.
 document '<nodegraph name="NG_text"><geompropvalue name="g" type="float"><input name="geomprop" type="string" value="g"/></geompropvalue>
@@ -236,25 +236,25 @@ document '<nodegraph name="NG_text"><geompropvalue name="g" type="float"><input 
     <output name="normal_mode" type="string" nodename="m"/></nodegraph>
   <look name="L"><materialassign material="quarter" geom="/"/><materialassign slot="000::010" nodegraph="NG_text" geom="/"/>
     <materialassign slot="000::020" nodegraph="NG_mode" geom="/"/></look>'
-check 'faulty overrides' exits 1 stacks
-check 'an output that drives nothing' eval '[ "$(grep -c override-unmatched err)" = 1 ] && grep -q "did you mean .emission_color" err'
-check 'an output of another type' eval '[ "$(grep -c override-type err)" = 1 ] && grep -q "s_blue/emission. *, which has the type float" err'
-check 'a uniform input that varies' eval '[ "$(grep -c override-varies err)" = 1 ] && grep -q "quarter/normal_mode" err'
+check 'faulty overrides fail' exits 1 stacks
+check 'an output that drives nothing is a warning with a suggestion' eval '[ "$(grep -c override-unmatched err)" = 1 ] && grep -q "did you mean .emission_color" err'
+check 'an output of another type is an error' eval '[ "$(grep -c override-type err)" = 1 ] && grep -q "s_blue/emission. *, which has the type float" err'
+check 'a varying output for a uniform input is an error' eval '[ "$(grep -c override-varies err)" = 1 ] && grep -q "quarter/normal_mode" err'
 
 # The example in every target.
 for look in default pattern metal replaced red light clean sign_add sign_none finished; do
-    check "examples/slots/looks.mtlx, $look" exits 0 "$mxgen" "$examples/slots/looks.mtlx" --stage "$examples/slots/receiver.usda" --look "$look" --target osl -o osl.d
+    check "the look $look of examples/slots/looks.mtlx is generated for OSL" exits 0 "$mxgen" "$examples/slots/looks.mtlx" --stage "$examples/slots/receiver.usda" --look "$look" --target osl -o osl.d
     [ -z "$compile" ] || check "examples/slots/looks.mtlx, $look, compiles" exits 0 "$compile" "$examples/slots/looks.mtlx" --stage "$examples/slots/receiver.usda" --look "$look"
 done
 if [ -n "$compile" ]; then
-    check 'in every other target' exits 0 "$compile" "$examples/slots/looks.mtlx" --stage "$examples/slots/receiver.usda" --look finished \
+    check 'the example compiles for every other target' exits 0 "$compile" "$examples/slots/looks.mtlx" --stage "$examples/slots/receiver.usda" --look finished \
         --targets hlsl,essl310 --interfaces reduced
 fi
 
 # Arguments that do not go together.
-check 'a look without a scene' exits 2 "$mxgen" look.mtlx --look L
-check 'an element of a scene' exits 2 stacks --element red
-check 'a scene on standard output' exits 2 stacks --stdout
+check 'a look without a scene is wrong usage' exits 2 "$mxgen" look.mtlx --look L
+check 'an element of a scene is wrong usage' exits 2 stacks --element red
+check 'a scene on standard output is wrong usage' exits 2 stacks --stdout
 # What a document says of primitives beside their layers.
 cat >look.mtlx <<'XML'
 <?xml version="1.0"?>
@@ -278,16 +278,16 @@ cat >look.mtlx <<'XML'
 XML
 printf '/a/b/d\n/a/c\n/e\n' >stage.txt
 fact() { json "next((f['value'], f.get('target')) for p in d['primitives'] if p['path'] == '$1' for f in p.get('$2', []) if f['name'] == '$3') == ('$4', ${5:-None})"; }
-check 'facts' exits 0 stacks --look L
-check 'a geometric property, inherited' fact /a/b geomprops id 3
-check 'and of a deeper path' fact /a/b/d geomprops id 4
-check 'a token' fact /a/c tokens Asset car
-check 'a property of the look beats its parent' fact /a/b/d properties matte true
-check 'and not where it does not stand' fact /a/c properties matte false
-check 'a set of properties' fact /a/c properties blur true '"fast"'
-check 'visibility' fact /a/b/d visibility camera false
-check 'nothing elsewhere' json 'set(d["primitives"][-1]) == {"path", "stack"}'
-check 'a set that is missing' eval 'sed -i "s/propertyset=\"PS\"/propertyset=\"QS\"/" look.mtlx; exits 1 stacks --look L && grep -q "no propertyset .QS.*\[unknown-assigned\]" err'
+check 'a look with facts is generated' exits 0 stacks --look L
+check 'a geometric property is inherited' fact /a/b geomprops id 3
+check 'a geometric property of a deeper path wins' fact /a/b/d geomprops id 4
+check 'a primitive has its tokens' fact /a/c tokens Asset car
+check 'a property of the look beats that of its parent' fact /a/b/d properties matte true
+check 'a property does not count where it does not stand' fact /a/c properties matte false
+check 'a primitive has a set of properties' fact /a/c properties blur true '"fast"'
+check 'a primitive has its visibility' fact /a/b/d visibility camera false
+check 'other primitives have no facts' json 'set(d["primitives"][-1]) == {"path", "stack"}'
+check 'a set of properties that is missing is an error' eval 'sed -i "s/propertyset=\"PS\"/propertyset=\"QS\"/" look.mtlx; exits 1 stacks --look L && grep -q "no propertyset .QS.*\[unknown-assigned\]" err'
 
 # OSL networks: each stack has its own, because its values stand in it. A stack of several layers ends with a shader that composes them.
 cat >stacks.mtlx <<'XML'
@@ -304,8 +304,8 @@ cat >stacks.mtlx <<'XML'
 </materialx>
 XML
 printf '/a\n/b\n' >stage.txt
-check 'networks of a scene' exits 0 "$mxgen" stacks.mtlx --stage stage.txt --look L --target osl --osl-network --reflect -o scene.d
-check 'are one for each stack' python3 -c "
+check 'a scene is generated as networks' exits 0 "$mxgen" stacks.mtlx --stage stage.txt --look L --target osl --osl-network --reflect -o scene.d
+check 'each stack has a network' python3 -c "
 import glob, json
 bound = json.load(open('scene.d/bindings.json'))
 stack = {p['path']: json.load(open('scene.d/' + p['stack'] + '.json'))['groups'][0]['layers'] for p in bound['primitives']}
@@ -350,21 +350,21 @@ root = {i['name']: i.get('layer') for i in layers['root']['inputs']}
 assert all(layer in layers for _, layer, _ in aovs.values()), (aovs, list(layers))
 assert $2, (aovs, layers, root)"
 }
-check 'AOVs of a network' network One 'list(aovs) == ["grain", "matt", "id"]'
-check 'without a message' test ! -s err
-check 'are values of layers' network One 'aovs["grain"] == ("float", "P_n", "out") and layers["P_n"]["shader"] == "ND_noise3d_float"'
-check 'closures, too' network One 'aovs["matt"] == ("BSDF", "P_d", "out")'
-check 'constants get one' network One '[i["value"] for i in layers[aovs["id"][1]]["inputs"]] == [7]'
-check 'the surface stays' network One 'root == {"surfaceshader": "P_s"}'
-check 'the group has these layers' eval 'grep -qx "shader ND_noise3d_float P_n ;" net/One.oslgroup && ls net/ND_noise3d_float.osl'
-check 'no AOVs' network One 'not aovs and "P_n" not in layers and root == {"surfaceshader": "P_s"}' --aovs none
-check 'an order' network One 'list(aovs) == ["id", "grain"]' --aovs id=integer,other=float,grain=float
-check 'of a surface alone' network P 'list(aovs) == ["grain", "matt", "id"] and root == {"surfaceshader": "P_s"}'
-check 'both sides, with two values' network Sides 'list(aovs) == ["grain", "matt", "id"] and aovs["matt"] == ("BSDF", "root", "aov_matt") and root["P_n"] == "P_n"'
-check 'are one shader' eval 'grep -q "backfacing()" net/Sides_*.osl && [ "$(grep -c "aov_matt = d_lobe" net/Sides_*.osl)" = 2 ]'
-check 'a mix of surfaces' network Mixed 'list(aovs) == ["grain", "matt", "id"] and aovs["grain"] == ("float", "root", "aov_grain") and root["mix_"] is None'
-check 'blends theirs' grep -q 'aov_grain = P_n \* (1.0 - mix_) + P_n \* mix_;' net/Mixed_*.osl
-check 'only where they are asked for' network Mixed 'root == {"surfaceshader": "both"} and layers["both"]["inputs"][0]["layer"] == "P_s"' --aovs none
-check 'without a message' test ! -s err
+check 'a network has AOVs' network One 'list(aovs) == ["grain", "matt", "id"]'
+check 'AOVs of a network give no message' test ! -s err
+check 'AOVs of values are outputs of layers' network One 'aovs["grain"] == ("float", "P_n", "out") and layers["P_n"]["shader"] == "ND_noise3d_float"'
+check 'AOVs of closures are outputs of layers' network One 'aovs["matt"] == ("BSDF", "P_d", "out")'
+check 'AOVs of constants have layers of their own' network One '[i["value"] for i in layers[aovs["id"][1]]["inputs"]] == [7]'
+check 'AOVs do not change the surface' network One 'root == {"surfaceshader": "P_s"}'
+check 'the group has the layers of AOVs' eval 'grep -qx "shader ND_noise3d_float P_n ;" net/One.oslgroup && ls net/ND_noise3d_float.osl'
+check '--aovs none leaves out the layers of AOVs' network One 'not aovs and "P_n" not in layers and root == {"surfaceshader": "P_s"}' --aovs none
+check '--aovs gives the order of AOVs' network One 'list(aovs) == ["id", "grain"]' --aovs id=integer,other=float,grain=float
+check 'a surface alone has AOVs' network P 'list(aovs) == ["grain", "matt", "id"] and root == {"surfaceshader": "P_s"}'
+check 'a surface of two sides has AOVs' network Sides 'list(aovs) == ["grain", "matt", "id"] and aovs["matt"] == ("BSDF", "root", "aov_matt") and root["P_n"] == "P_n"'
+check 'the two sides are one shader' eval 'grep -q "backfacing()" net/Sides_*.osl && [ "$(grep -c "aov_matt = d_lobe" net/Sides_*.osl)" = 2 ]'
+check 'a mix of surfaces has AOVs' network Mixed 'list(aovs) == ["grain", "matt", "id"] and aovs["grain"] == ("float", "root", "aov_grain") and root["mix_"] is None'
+check 'a mix of surfaces blends its AOVs' grep -q 'aov_grain = P_n \* (1.0 - mix_) + P_n \* mix_;' net/Mixed_*.osl
+check 'a mix of surfaces has no shader of its own without AOVs' network Mixed 'root == {"surfaceshader": "both"} and layers["both"]["inputs"][0]["layer"] == "P_s"' --aovs none
+check 'a mix of surfaces gives no message' test ! -s err
 
 finish stacks

@@ -93,7 +93,7 @@ draw() {
 sees() {
     local picture
     for picture in "$2.ppm" "$2.path.ppm"; do
-        check "$1 ($picture)" test "$(cell "$picture" "$3" "$4")" = "$5"
+        check "$picture shows $1" test "$(cell "$picture" "$3" "$4")" = "$5"
     done
 }
 printf 'P3 2 1 255 0 0 0 0 0 0\n' >black.ppm
@@ -216,8 +216,8 @@ def Mesh "local" { rel material:binding = </Object>
     $(at 2 -4)
 }
 USD
-check 'a stage with its own bindings' draw scene
-check 'without a message' test ! -s err
+check 'a stage with bindings of its own is drawn' draw scene
+check 'the stage gives no message' test ! -s err
 sees 'a mesh with its material' scene -3.5 3.5 r
 sees 'nothing below it' scene -3.5 2.5 -
 sees 'transforms in their order, for children' scene -2.5 3.5 g
@@ -231,11 +231,11 @@ sees 'a primvar of faces, second' scene -0.5 0.5 gb
 sees 'a primvar of corners with indices, left' scene 1.2 0.5 r
 sees 'a primvar of corners with indices, right' scene 1.8 0.5 b
 sees 'a sphere' scene -3.5 -1.5 r
-sees 'round' scene -3.95 -1.15 -
+sees 'a sphere that is round' scene -3.95 -1.15 -
 sees 'a cube' scene -2.5 -1.5 g
 sees 'a cylinder along x' scene -0.2 -1.5 b
 sees 'a cone, wide below' scene 0.25 -1.85 r
-sees 'and pointed above' scene 0.25 -1.15 -
+sees 'a cone, pointed above' scene 0.25 -1.15 -
 sees 'a capsule' scene 1.5 -1.1 g
 sees 'a plane' scene 2.5 -1.5 b
 sees 'an instance of the second prototype' scene -3.5 -3.5 g
@@ -243,8 +243,8 @@ sees 'an instance of the first' scene -2.5 -3.5 r
 sees 'no instance with an invisible id' scene -1.5 -3.5 -
 sees 'no prototype by itself' scene 0 0 -
 sees 'an instance of a reference' scene 0.5 -3.5 b
-sees 'object space, right below' scene 2.9 -3.8 r
-sees 'object space, left above' scene 2.1 -3.1 g
+sees 'the object space, right below' scene 2.9 -3.8 r
+sees 'the object space, left above' scene 2.1 -3.1 g
 
 # z upwards, and a camera of the studio around it: the cube above is green.
 cat >upright.usda <<'USD'
@@ -258,7 +258,7 @@ def Cube "high" { rel material:binding = </Green>
     uniform token[] xformOpOrder = ["xformOp:translate"]
 }
 USD
-check 'a stage with z upwards' draw upright --camera 30,0
+check 'a stage with z upwards is drawn' draw upright --camera 30,0
 sees 'what is above' upright 0 1 g
 sees 'what is below' upright 0 -1 r
 
@@ -284,7 +284,7 @@ def Mesh "m" {
     )
 }
 USD
-check 'a mesh with texture coordinates' env document=tangents.mtlx bash -c "$(declare -f draw exits); render='$render'; draw tangents --look l"
+check 'a mesh with texture coordinates is drawn' env document=tangents.mtlx bash -c "$(declare -f draw exits); render='$render'; draw tangents --look l"
 sees 'the tangent of the left face' tangents -2.8 0 r
 sees 'of the right face' tangents 2.8 0 rg
 sees 'smooth in between' tangents -0.2 0 rg
@@ -304,21 +304,21 @@ f 2 5 6 3
 OBJ
 for more in '' '--path-trace --paths 4'; do
     # shellcheck disable=SC2086
-    check "groups of OBJ $more" exits 0 "$render" colors.mtlx --stage two.obj --look parts --camera 0,0 -s 64 -o two.ppm $more
-    check 'left' test "$(cell two.ppm -1 0)" = r
-    check 'right' test "$(cell two.ppm 1 0)" = g
+    check "groups of OBJ are drawn $more" exits 0 "$render" colors.mtlx --stage two.obj --look parts --camera 0,0 -s 64 -o two.ppm $more
+    check 'the left group has its material' test "$(cell two.ppm -1 0)" = r
+    check 'the right group has its material' test "$(cell two.ppm 1 0)" = g
 done
 
 # fails ID TEXT ARGUMENT...
 fails() { exits 1 "$render" "${@:3}" -s 16 -o no.ppm && grep -F "[$1]" err | grep -qF "$2"; }
 broken() { sed "$1" scene.usda >broken.usda && ! cmp -s scene.usda broken.usda && fails bad-geometry "$2" colors.mtlx --stage broken.usda; }
-check 'an index without a point' broken '0,/faceVertexIndices = \[0, 1, 2, 3\]/s//faceVertexIndices = [0, 1, 2, 4]/' "'/plain.faceVertexIndices' (broken.usda:"
-check 'another number of corners' broken '0,/faceVertexCounts = \[4\]/s//faceVertexCounts = [5]/' 'faceVertexCounts asks for another number'
-check 'too few values of a primvar' broken 's/primvars:number = \[0, 1\]/primvars:number = [0]/' "'uniform'"
-check 'no operation of a transform' broken 's/\["xformOp:rotateZ", /["xformOp:spin", /' 'xformOp:spin'
-check 'a prototype that is missing' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [2, 0, 0]/' 'protoIndices'
-check 'instances without a prototype each' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [1, 0]/' 'has 2 numbers for 3 positions'
-check 'a face that a subset lacks' broken 's/int\[\] indices = \[1\]/int[] indices = [2]/' 'the mesh has 2 faces'
+check 'an index without a point is an error' broken '0,/faceVertexIndices = \[0, 1, 2, 3\]/s//faceVertexIndices = [0, 1, 2, 4]/' "'/plain.faceVertexIndices' (broken.usda:"
+check 'a wrong number of corners is an error' broken '0,/faceVertexCounts = \[4\]/s//faceVertexCounts = [5]/' 'faceVertexCounts asks for another number'
+check 'a primvar with too few values is an error' broken 's/primvars:number = \[0, 1\]/primvars:number = [0]/' "'uniform'"
+check 'an unknown operation of a transform is an error' broken 's/\["xformOp:rotateZ", /["xformOp:spin", /' 'xformOp:spin'
+check 'a prototype that is missing is an error' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [2, 0, 0]/' 'protoIndices'
+check 'an instance without a prototype is an error' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [1, 0]/' 'has 2 numbers for 3 positions'
+check 'a face that the mesh lacks is an error' broken 's/int\[\] indices = \[1\]/int[] indices = [2]/' 'the mesh has 2 faces'
 # One number for the whole picture picks a layer: the upper one, which has a mask, below 0.5.
 cat >picked.mtlx <<'XML'
 <materialx version="1.39">
@@ -328,21 +328,21 @@ cat >picked.mtlx <<'XML'
 </materialx>
 XML
 for number in 0 0.499 0.5 0.999; do
-    check "--layer-sample $number" exits 0 "$render" picked.mtlx --stage two.obj --look layers --slots stochastic --layer-sample $number \
+    check "a picture is drawn with --layer-sample $number" exits 0 "$render" picked.mtlx --stage two.obj --look layers --slots stochastic --layer-sample $number \
         -s 64 --camera 0,0 --background environment --environment black.ppm -o picked.ppm
-    check 'picks the layer' test "$(colors picked.ppm)" = "$(case $number in 0 | 0.499) echo g ;; *) echo r ;; esac)"
+    check 'the number picks the layer' test "$(colors picked.ppm)" = "$(case $number in 0 | 0.499) echo g ;; *) echo r ;; esac)"
 done
-check 'without it each point has its own' exits 0 "$render" picked.mtlx --stage two.obj --look layers --slots stochastic \
+check 'a picture is drawn without --layer-sample' exits 0 "$render" picked.mtlx --stage two.obj --look layers --slots stochastic \
     -s 64 --camera 0,0 --background environment --environment black.ppm -o picked.ppm
-check 'both layers are seen' test "$(colors picked.ppm)" != r -a "$(colors picked.ppm)" != g
+check 'each point picks a layer of its own' test "$(colors picked.ppm)" != r -a "$(colors picked.ppm)" != g
 
-check 'a primvar that is missing' eval 'sed "/int primvars:number = 0/d" scene.usda >lacking.usda; exits 0 "$render" colors.mtlx --stage lacking.usda -s 16 -o no.ppm && grep -qF "[missing-primvar]" err'
-check 'a camera that is missing' fails unknown-camera "there is '/camera'" colors.mtlx --stage scene.usda --camera /kamera
-check 'a camera by its path' exits 0 "$render" colors.mtlx --stage scene.usda --camera /camera -s 16 -o yes.ppm
-check 'a stage without geometry' eval 'printf "#usda 1.0\n" >empty.usda; fails empty-mesh empty.usda colors.mtlx --stage empty.usda'
-check 'a syntax error' eval 'echo "def x" >>empty.usda; fails usda-syntax empty.usda:2:6 colors.mtlx --stage empty.usda'
-check 'options that a stage does not take' exits 2 "$render" colors.mtlx --stage scene.usda --mesh cube -o no.ppm
-check 'a purpose without a stage' exits 2 "$render" colors.mtlx --purpose full -o no.ppm
+check 'a primvar that is missing is a warning' eval 'sed "/int primvars:number = 0/d" scene.usda >lacking.usda; exits 0 "$render" colors.mtlx --stage lacking.usda -s 16 -o no.ppm && grep -qF "[missing-primvar]" err'
+check 'an unknown camera is an error that lists cameras' fails unknown-camera "there is '/camera'" colors.mtlx --stage scene.usda --camera /kamera
+check 'a camera is found by its path' exits 0 "$render" colors.mtlx --stage scene.usda --camera /camera -s 16 -o yes.ppm
+check 'a stage without geometry is an error' eval 'printf "#usda 1.0\n" >empty.usda; fails empty-mesh empty.usda colors.mtlx --stage empty.usda'
+check 'a syntax error of the stage is an error' eval 'echo "def x" >>empty.usda; fails usda-syntax empty.usda:2:6 colors.mtlx --stage empty.usda'
+check 'an option that a stage does not take is wrong usage' exits 2 "$render" colors.mtlx --stage scene.usda --mesh cube -o no.ppm
+check 'a purpose without a stage is wrong usage' exits 2 "$render" colors.mtlx --purpose full -o no.ppm
 
 # One root, and a camera, of glTF: paths as in the file.
 cat >one.gltf <<'JSON'
@@ -354,11 +354,11 @@ cat >one.gltf <<'JSON'
  "nodes": [{"name": "set", "children": [1, 2]}, {"name": "left", "mesh": 0}, {"name": "eye", "camera": 0, "translation": [0, 0, 10]}]}
 JSON
 printf '/set\n/set/left\n/set/eye\n' >paths
-check 'paths of glTF' eval '"$render" --stage one.gltf --list >out && diff paths out'
-check 'drawn' exits 0 "$render" colors.mtlx --stage one.gltf --look parts -s 128x64 --background environment --environment black.ppm -o one.ppm
+check 'the paths of glTF are those of the file' eval '"$render" --stage one.gltf --list >out && diff paths out'
+check 'a stage of glTF is drawn' exits 0 "$render" colors.mtlx --stage one.gltf --look parts -s 128x64 --background environment --environment black.ppm -o one.ppm
 # The camera sees 8.43 units of height at 0: the triangle, of one unit, begins in the middle, and goes right and up.
-check 'through its camera' eval 'test "$(cell_of one.ppm 66 30)$(cell_of one.ppm 62 30)$(cell_of one.ppm 66 34)$(cell_of one.ppm 72 24)" = "r---"'
-check 'a list without a stage' exits 2 "$render" --list
-check 'a list of a file that is missing' exits 1 "$render" --stage none.gltf --list
-check 'says why' grep -qF '[bad-mesh]' err
+check 'a stage of glTF is seen through its camera' eval 'test "$(cell_of one.ppm 66 30)$(cell_of one.ppm 62 30)$(cell_of one.ppm 66 34)$(cell_of one.ppm 72 24)" = "r---"'
+check 'a list without a stage is wrong usage' exits 2 "$render" --list
+check 'a list of a file that is missing fails' exits 1 "$render" --stage none.gltf --list
+check 'the error is bad-mesh' grep -qF '[bad-mesh]' err
 finish stage

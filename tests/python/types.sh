@@ -11,9 +11,9 @@ types() {
     mypy --strict --cache-dir=cache "$@"
 }
 
-check "types of the package" types -p mxgen
+check "the package has its types" types -p mxgen
 for example in "$root"/examples/*.py; do
-    check "types of $example" types "$example"
+    check "the types of $example are right" types "$example"
 done
 echo 'import mxgen
 number: int = mxgen.Context().parse("").generate("glsl").pixel' >wrong.py

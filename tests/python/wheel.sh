@@ -15,14 +15,14 @@ installed() {
 mkdir source installed
 git -C "$root" ls-files -z | (cd "$root" && xargs -0 cp --parents -t "$work/source")
 check "pip makes a wheel" "$python" -m pip wheel --no-index --no-deps --no-build-isolation --wheel-dir . ./source
-check "list of its files" exits 0 "$python" -m zipfile -l mxgen-*.whl
+check "the files of the wheel can be listed" exits 0 "$python" -m zipfile -l mxgen-*.whl
 awk 'NR > 1 { print $1 }' out >files
-check "it has the package only" exits 1 grep -v '^mxgen/\|^mxgen-[^/]*\.dist-info/' files
-check "it has the types" grep '^mxgen/py.typed$' files
-check "pip installs it" "$python" -m pip install --no-index --no-deps --target installed mxgen-*.whl
-check "the tests pass with it" installed "$root/tests/python/run.py" "$root" "" "$program"
+check "the wheel has the package only" exits 1 grep -v '^mxgen/\|^mxgen-[^/]*\.dist-info/' files
+check "the wheel has the types" grep '^mxgen/py.typed$' files
+check "pip installs the wheel" "$python" -m pip install --no-index --no-deps --target installed mxgen-*.whl
+check "the tests pass with the installed wheel" installed "$root/tests/python/run.py" "$root" "" "$program"
 
 rm installed/mxgen/_native.*.so
-check "without its library" exits 1 installed -c 'import mxgen'
-check "the library is in the message" grep 'ImportError: mxgen cannot load its native module' err
+check "an import fails without the native module" exits 1 installed -c 'import mxgen'
+check "the error names the native module" grep 'ImportError: mxgen cannot load its native module' err
 finish python-wheel
