@@ -83,14 +83,14 @@ static void parse_mixes(struct bench *b)
         bench_fail("the document of mixes does not load");
 }
 
-static mxg_result *generate(struct bench *b, const char *element, const char *pipeline)
+static mxg_result *generate(struct bench *b, const char *element, const char *role)
 {
     mxg_result *result = NULL;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
     desc.element = element;
     desc.options = b->options;
-    mxg_options_set(b->options, "pipeline", pipeline);
+    mxg_options_set(b->options, "role", role);
     bool is_mix = element[0] == 'M' || strcmp(element, "Half") == 0;
     if (mxg_generate(b->context, is_mix ? b->mixes : b->examples, &desc, &result) != MXG_OK)
         bench_fail("%s does not generate", element);
@@ -184,7 +184,7 @@ static void open_frame(struct bench *b, const char *element, enum way way, uint3
 {
     bool stores = way == WAY_DEFERRED || way == WAY_STORED;
     *f = (struct frame){.canvas = draw_open_canvas(&b->gpu, b->size, b->size)};
-    f->bind = (struct bind){.result = generate(b, element, stores ? "deferred" : "forward"),
+    f->bind = (struct bind){.result = generate(b, element, stores ? "deferred" : "raster"),
                             .scene = &b->scene,
                             .objects = b->copies + BENCH_COPIES - copies,
                             .num_objects = copies};

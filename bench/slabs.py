@@ -47,7 +47,7 @@ def model_of(document):
 
 def misfit_of(mxgen, document):
     """The part of a material that no slab stands for, as the deferred pipeline names it; "" if slabs stand for all."""
-    made = run(mxgen, document, "--target", "vulkan", "--interface", "reduced", "--stdout", "--pipeline", "deferred", "--slabs")
+    made = run(mxgen, document, "--target", "vulkan", "--interface", "reduced", "--stdout", "--role", "deferred", "--slabs")
     part = re.search(r"its part '(.*?)' is no slab", made.stderr)
     return part[1] if part else ""
 

@@ -124,9 +124,9 @@ void generate_write_cuts(struct generate *gen, const mxg_document *document, con
     if (!gen->is_deferred || mxg_result_info(stored, &info) != MXG_OK || !info.stored_words
         || info.alpha != MXG_ALPHA_MASK || gen->is_file)
         return;
-    mxg_options_set(gen->cli.options, "pipeline", "depth");
+    mxg_options_set(gen->cli.options, "role", "depth");
     mxg_status status = mxg_generate(gen->cli.context, document, desc, &result);
-    mxg_options_set(gen->cli.options, "pipeline", "deferred");
+    mxg_options_set(gen->cli.options, "role", "deferred");
     if (report_status(&gen->cli.report, status)) {
         char *name = cli_format("%s.depth", info.path);
         generate_write(gen, folder, name, result);
@@ -388,15 +388,6 @@ static int find_stage(const mxg_target *target, const char *path)
 }
 
 /* True if the last setting of an option of generation has a value. */
-static bool has_setting(const struct generate *gen, const char *key, const char *value)
-{
-    bool is_on = false;
-    for (size_t i = 0; i < gen->cli.parser.num_settings; ++i)
-        if (strcmp(gen->cli.parser.settings[i].key, key) == 0)
-            is_on = strcmp(gen->cli.parser.settings[i].value, value) == 0;
-    return is_on;
-}
-
 /* The reason why -o cannot name a file; NULL if it can. */
 static const char *find_file_misuse(const struct generate *gen)
 {
@@ -436,8 +427,8 @@ static bool check_stage(const struct generate *gen)
 /* Decides whether -o is a folder or, by its ending, a file. False after a message. */
 static bool prepare_output(struct generate *gen)
 {
-    gen->is_network = has_setting(gen, "osl-network", "true");
-    gen->is_deferred = has_setting(gen, "pipeline", "deferred");
+    gen->is_network = args_has_setting(&gen->cli.parser, "osl-network", "true");
+    gen->is_deferred = args_has_setting(&gen->cli.parser, "role", "deferred");
     if (gen->to_stdout && (args_is_given(&gen->cli.parser, "output") || gen->depfile)) {
         fprintf(stderr, "mxgen: option '--%s' does not apply: --stdout writes no file\n",
                 gen->depfile ? "depfile" : "output");

@@ -15,7 +15,7 @@ struct generate {
 
     mxg_target target_info;
     bool is_network;                    /* --osl-network */
-    bool is_deferred;                   /* --pipeline deferred */
+    bool is_deferred;                   /* --role deferred */
     bool is_file;                       /* -o names one file: a stage of one element */
     mxg_stage stage;                    /* this stage */
     struct arg_list documents, folders; /* each document with its output folder; allocated */

@@ -149,7 +149,7 @@ static bool compile_function(const char *target, const mxg_result *result,
 }
 
 /*
- * A shader for a path tracer (integrator=scatter) is the function scatter() without a program
+ * A shader for a path tracer (role=scatter) is the function scatter() without a program
  * around it. It compiles with a main that calls it, behind its last line, so that the lines of
  * messages stay. NULL if the shader has a main of its own; otherwise the caller frees the source.
  */

@@ -75,6 +75,15 @@ bool args_is_given(const struct arg_parser *parser, const char *name)
     return false;
 }
 
+bool args_has_setting(const struct arg_parser *parser, const char *key, const char *value)
+{
+    bool is_it = false;
+    for (size_t i = 0; i < parser->num_settings; ++i)
+        if (strcmp(parser->settings[i].key, key) == 0)
+            is_it = strcmp(parser->settings[i].value, value) == 0;
+    return is_it;
+}
+
 /* An option on the command line: "--name=value" or "-n". */
 struct written {
     const char *text;  /* the whole argument */

@@ -72,7 +72,7 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
          &options->as_drawn, ARG_MORE},
         {"show", 0, ARG_TEXT, "WHAT",
          "draws something else than the materials. Of a stage, colours by slot: slots, of the slot "
-         "with the greatest weight; or weights, blended by weight. With --pipeline deferred, what "
+         "with the greatest weight; or weights, blended by weight. With --role deferred, what "
          "is stored: classes, bytes, closures, coverage, transmittance or properties",
          &options->show, ARG_MORE},
         {"turntable", 0, ARG_SIZE, "N",

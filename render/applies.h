@@ -22,6 +22,7 @@ enum render_fact {
     FACT_NO_STAGE = 1 << 12,
     FACT_SHOWN = 1 << 14,    /* --show has what it draws */
     FACT_CHANNELS = 1 << 13, /* a file is EXR, with channels for AOVs */
+    FACT_DRAWN = 1 << 15,    /* a raster draws the role of --role */
 };
 
 /* False after a message about the first option that does not apply. */

@@ -199,7 +199,7 @@ static bool parse(struct job *job)
     if (!job->options.path_trace && !args_is_given(&job->cli.parser, "sample-filter"))
         mxg_options_set(job->cli.options, "sample-filter", "narrow");
     if (job->options.path_trace) {
-        mxg_options_set(job->cli.options, "integrator", "scatter");
+        mxg_options_set(job->cli.options, "role", "scatter");
         job->painter.trace.paths = (uint32_t)job->options.paths;
         job->painter.trace.bounces = (uint32_t)job->options.bounces;
         job->painter.trace.picks = (uint32_t)job->options.picks;
@@ -227,6 +227,18 @@ static bool is_sampled(const struct job *job)
     return !job->options.path_trace;
 }
 
+static bool is_role(const struct job *job, const char *role)
+{
+    return args_has_setting(&job->cli.parser, "role", role);
+}
+
+/* True if the role is one that a raster draws. */
+static bool is_drawn(const struct job *job)
+{
+    return !args_is_given(&job->cli.parser, "role") || is_role(job, "raster")
+           || is_role(job, "path") || is_role(job, "deferred");
+}
+
 unsigned job_find_facts(const struct job *job, bool is_grid, bool is_one)
 {
     const struct render_options *options = &job->options;
@@ -240,9 +252,9 @@ unsigned job_find_facts(const struct job *job, bool is_grid, bool is_one)
            | fact(is_sampled(job), FACT_SAMPLED) | fact(!options->look, FACT_NO_LOOK)
            | fact(job_writes_channels(job), FACT_CHANNELS) | fact(options->stage, FACT_STAGE)
            | fact(!options->stage, FACT_NO_STAGE)
-           | fact(job_shows_slots(job) ? options->stage != NULL
-                                       : args_is_given(&job->cli.parser, "pipeline"),
-                  FACT_SHOWN);
+           | fact(job_shows_slots(job) ? options->stage != NULL : is_role(job, "deferred"),
+                  FACT_SHOWN)
+           | fact(is_drawn(job), FACT_DRAWN);
 }
 
 bool job_parse(struct job *job)

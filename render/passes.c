@@ -126,9 +126,8 @@ bool passes_open(const struct passes_setup *setup, struct passes *out)
     *out = (struct passes){.scene = setup->scene, .shown = setup->shown};
     draw_size(setup->canvas, &out->width, &out->height);
     if (!draw_gpu(setup->canvas)->can_store)
-        return fail(
-            out, "no-device",
-            "the device cannot write images in pixel stages, as '--pipeline deferred' needs");
+        return fail(out, "no-device",
+                    "the device cannot write images in pixel stages, as '--role deferred' needs");
     out->stored = draw_store(setup->canvas, setup->words);
     if (!out->stored)
         return fail_device(out, setup);

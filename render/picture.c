@@ -276,9 +276,9 @@ static bool make_cuts(struct painting *painting)
     part->bind->draw.has_holes = info.alpha == MXG_ALPHA_MASK;
     if (!part->bind->draw.has_holes)
         return true;
-    mxg_options_set(options, "pipeline", "depth");
+    mxg_options_set(options, "role", "depth");
     bool good = make_part(painting, part->subject, DRAW_CUTS);
-    mxg_options_set(options, "pipeline", "deferred");
+    mxg_options_set(options, "role", "deferred");
     return good;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The path tracer: traces paths through the scene with a shader for `--integrator scatter`. */
+/* The path tracer: traces paths through the scene with a shader for the role scatter. */
 #ifndef MXG_RENDER_TRACE_H
 #define MXG_RENDER_TRACE_H
 

@@ -27,13 +27,13 @@ def main():
         for source in sorted(pathlib.Path(folder).glob("*.comp")):
             gpu.run("glslangValidator", "-V", str(source), "-o", f"{source}.spv")
             row(source.stem, "whole screen", [f"{source}.spv"])
-        for pipeline in "deferred", "forward":
-            gpu.run(f"{BUILD}/mxgen", EXAMPLES, "-q", "--target", "vulkan", "--pipeline", pipeline, "-o", f"{folder}/{pipeline}")
+        for role in "deferred", "raster":
+            gpu.run(f"{BUILD}/mxgen", EXAMPLES, "-q", "--target", "vulkan", "--role", role, "-o", f"{folder}/{role}")
         for source in sorted(pathlib.Path(folder, "deferred").glob("*.frag")):
             depth = source.stem.endswith(".depth")
             row(source.stem.removesuffix(".depth"), "depth" if depth else "material", gpu.compiled(str(source)))
             if not depth:
-                row(source.stem, "forward", gpu.compiled(f"{folder}/forward/{source.name}"))
+                row(source.stem, "forward", gpu.compiled(f"{folder}/raster/{source.name}"))
 
 
 main()

@@ -62,13 +62,19 @@ static void write_place(struct spell *spell, const struct shader_variable *varia
         write_location(spell, variable->block, variable->location);
 }
 
+/* True for a function of other code, which sets the vertex data and reads the outputs. */
+static bool is_called(const struct spell *spell)
+{
+    return spell->shader->role->stages == STAGES_NONE;
+}
+
 static void write_members(struct spell *spell, enum shader_block block)
 {
     SPELL_EACH_OF_BLOCK(i, spell, block)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_indent(spell, 1);
-        if (variable->flat && !shader_is_called(spell->shader))
+        if (variable->flat && !is_called(spell))
             spell_text(spell, "flat ");
         spell_declare(spell, PHRASE_PLAIN, variable,
                       spell_name_of(spell->shader->strings, variable->name));
@@ -180,11 +186,10 @@ static void write_vertex_data(struct spell *spell)
     if (!spell_uses_block(spell, BLOCK_VERTEX_DATA))
         return;
     if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
-        write_attributes(spell, BLOCK_VERTEX_DATA,
-                         shader_is_called(spell->shader) ? "" : qualifier);
+        write_attributes(spell, BLOCK_VERTEX_DATA, is_called(spell) ? "" : qualifier);
         return;
     }
-    if (shader_is_called(spell->shader)) { /* the caller sets it */
+    if (is_called(spell)) { /* the caller sets it */
         SPELL(spell, "struct ", type, " {\n");
         write_members(spell, BLOCK_VERTEX_DATA);
         SPELL(spell, "};\n", type, " ", spell_frame_name(spell, "vd"), ";\n");
@@ -213,20 +218,16 @@ static void declare(struct spell *spell)
     if (spell->stage_id == STAGE_VERTEX)
         write_attributes(spell, BLOCK_APP_DATA, "in ");
     write_vertex_data(spell);
-    if (spell->stage_id == STAGE_VERTEX && spell->shader->has_passes)
-        spell_text(spell, "invariant gl_Position;\n"); /* two passes draw the same points */
+    if (spell->stage_id == STAGE_VERTEX && spell->shader->role->stages == STAGES_OF_PASS)
+        spell_text(spell, "invariant gl_Position;\n");
     if (spell->stage_id == STAGE_PIXEL)
-        write_attributes(spell, BLOCK_OUTPUTS, shader_is_called(spell->shader) ? "" : "out ");
+        write_attributes(spell, BLOCK_OUTPUTS, is_called(spell) ? "" : "out ");
 }
 
 static void open_main(struct spell *spell)
 {
-    const struct shader *shader = spell->shader;
-    SPELL(spell, "void ",
-          shader->scatters    ? spell_frame_name(spell, "scatter")
-          : shader->is_stored ? spell_frame_name(spell, "surface")
-                              : "main",
-          "()\n{\n");
+    const char *entry = spell->shader->role->entry;
+    SPELL(spell, "void ", is_called(spell) ? spell_frame_name(spell, entry) : entry, "()\n{\n");
 }
 
 const struct target_frame glsl_frame = {

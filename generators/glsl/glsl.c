@@ -46,6 +46,7 @@ const struct target target_glsl = {
     .caps = GLSL_CAPS | CAP_UNIFORM_DEFAULTS | CAP_BLOCK_OPTION | CAP_BLOCK_STAGE_IO | CAP_STORES
             | CAP_TWO_SOURCES,
     .versions = versions,
+    .since = {CAP_STORES, "430"}, /* the passes are compute stages */
     .syntax = &glsl_syntax,
     .frame = &glsl_frame,
     .source = &glsl_source,

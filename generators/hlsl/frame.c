@@ -165,13 +165,19 @@ static bool reads_vertex_data(const struct spell *spell)
     return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA);
 }
 
+/* True for a function of other code, which sets the vertex data. */
+static bool is_called(const struct spell *spell)
+{
+    return spell->shader->role->stages == STAGES_NONE;
+}
+
 /*
  * Functions may read vertex data, which is otherwise a parameter of main. Then main copies between
  * its parameter and a variable at file scope.
  */
 static bool shares_vertex_data(const struct spell *spell)
 {
-    bool shares = spell->shader->scatters || spell_functions_read_vertex_data(spell);
+    bool shares = is_called(spell) || spell_functions_read_vertex_data(spell);
     return shares && reads_vertex_data(spell);
 }
 
@@ -217,7 +223,7 @@ static void declare(struct spell *spell)
     if (shares_vertex_data(spell))
         SPELL(spell, "static ", spell_frame_name(spell, "VertexData"), " ",
               spell_frame_name(spell, "vd"), ";\n");
-    if (spell->shader->scatters)
+    if (is_called(spell))
         write_results(spell);
 }
 
@@ -252,8 +258,8 @@ static void write_parameters(struct spell *spell, enum shader_block block, bool 
 
 static void open_main(struct spell *spell)
 {
-    if (spell->shader->scatters) {
-        SPELL(spell, "void ", spell_frame_name(spell, "scatter"), "()\n{\n");
+    if (is_called(spell)) {
+        SPELL(spell, "void ", spell_frame_name(spell, spell->shader->role->entry), "()\n{\n");
         return;
     }
     const char *vd = spell_frame_name(spell, "vd");

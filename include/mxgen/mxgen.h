@@ -784,7 +784,7 @@ typedef struct mxg_shader_info {
     bool displaced; /* the vertex stage moves the surface: draw it with small triangles */
     mxg_alpha alpha;
     /*
-     * With form=function: the names of the function and of the struct that it returns. Its
+     * With role=function: the names of the function and of the struct that it returns. Its
      * parameters are the variables of MXG_BLOCK_VERTEX_DATA, its members those of
      * MXG_BLOCK_OUTPUTS, both in order. "": a program
      */

@@ -602,7 +602,7 @@ export interface ShaderInfo {
     lit: boolean;
     displaced: boolean;
     alpha: Alpha;
-    /** with form=function: the names of the function and of the struct that it returns; otherwise "" */
+    /** with role=function: the names of the function and of the struct that it returns; otherwise "" */
     function: string;
     functionType: string;
     /** words of 32 bits that a material of the deferred pipeline stores; 0: the shader lights itself */

@@ -289,7 +289,7 @@ float mx_slab_medium_bsdf_pdf(vec3 color, float roughness, vec3 mean_free_path, 
 vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                      vec3 N, vec3 V, int sample_index)
 {
-    if (option_integrator == 1 && option_environment == 2) // only here `sample_index` matters: a raster adds the light once
+    if (option_path == 1 && option_environment == 2) // only here `sample_index` matters: a raster adds the light once
     {
         if (mx_is_black(color))
             return vec3(0.0);

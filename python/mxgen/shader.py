@@ -287,7 +287,7 @@ class ShaderInfo:
     #: the vertex stage moves the surface
     displaced: bool
     alpha: Alpha
-    #: with form="function", the names of the function and of the struct that it returns; else ""
+    #: with role=function, the names of the function and of the struct that it returns; else ""
     function: str
     function_type: str
     #: words of 32 bits per pixel, at most, that the material pass of the deferred pipeline stores; 0: the shader lights itself

@@ -262,7 +262,7 @@ const char *folder_list(struct arena *arena, const char *path, const char *suffi
 /* ---- Options: options.c, options.def ---- */
 
 enum option_id {
-#define OPTION(id, key, type, caps, values, initial, doc) OPTION_##id,
+#define OPTION(id, key, type, caps, task, values, initial, doc) OPTION_##id,
 #include "api/options.def"
 #undef OPTION
     NUM_OPTIONS
@@ -280,13 +280,16 @@ struct option_value {
  * The values for a target, in the arena: the defaults, which a dialect may change, where `options`
  * is NULL or sets nothing, and of the options that do not apply to the target.
  */
-const struct option_value *options_for(const struct target *target, const mxg_options *options,
-                                       struct arena *arena, const struct dialect *dialect);
+struct option_value *options_for(const struct target *target, const mxg_options *options,
+                                 struct arena *arena, const struct dialect *dialect);
 /* False: no option has the key, or it has no such value, or the target ignores it. */
 bool options_know(const struct target *target, const char *key, const char *value,
                   struct arena *arena);
 const struct option_value *options_values(const mxg_options *options); /* as set */
 const char *option_key(enum option_id option);                         /* "interface" */
+enum role_task option_task(enum option_id option); /* that a role may leave to others */
+/* Sets a value to the default. */
+void option_reset(enum option_id option, struct arena *arena, struct option_value *value);
 /* True if a value is not the default; of a list always. */
 bool option_differs(enum option_id option, const struct option_value *value);
 /* A hash of all values. */

@@ -7,7 +7,7 @@
 void generation_tell_lost_aovs(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    for (uint32_t i = 0; i < shader->aovs.len && generation_packs(g); i++)
+    for (uint32_t i = 0; i < shader->aovs.len && g->role->returns == RETURNS_PAYLOAD; i++)
         if (shader->aovs.items[i].is_output && shader->aovs.items[i].element)
             diag_add(diags_of(g), DIAG_ID_aov_left_out,
                      doc_place(&g->document->layer.doc, shader->aovs.items[i].element),
@@ -54,10 +54,10 @@ bool generation_keeps_outputs(struct generation *g)
     uint32_t num =
                  shader->first_of_block[BLOCK_OUTPUTS + 1] - shader->first_of_block[BLOCK_OUTPUTS],
              limit = (uint32_t)g->options[OPTION_max_outputs].number;
-    bool has_one_attachment = shader->has_two_sources && !shader->is_function;
+    bool has_one_attachment = shader->has_two_sources && !g->role->is_in_host_file;
+    bool has_attachments = g->role->returns == RETURNS_LIGHT || g->role->returns == RETURNS_SLABS;
     struct text list;
-    if (!shader->aovs.len || shader->scatters || generation_packs(g) || g->result->target->closures
-        || num <= (has_one_attachment ? 2 : limit))
+    if (!shader->aovs.len || !has_attachments || num <= (has_one_attachment ? 2 : limit))
         return true;
     text_init(&list, &g->scratch);
     uint32_t last = g->element;

@@ -6,51 +6,38 @@
 
 #include <assert.h>
 
-bool generation_packs(const struct generation *g)
+struct deferred_layout generation_storage(const struct generation *g)
 {
-    return g->options[OPTION_form].number == FORM_PAYLOAD && !g->is_pass;
-}
-
-bool generation_stores(const struct generation *g)
-{
-    bool is_deferred = g->options[OPTION_pipeline].number == PIPELINE_DEFERRED;
-    return generation_packs(g) || (is_deferred && !g->is_pass && !g->misfit);
-}
-
-struct deferred_layout generation_storage(const struct option_value *options,
-                                          const struct target *target, bool is_payload)
-{
+    const struct option_value *options = g->options;
+    bool is_payload = g->role->returns == RETURNS_PAYLOAD || g->role->reads == READS_PAYLOADS;
     return (struct deferred_layout){
         .storage =
             is_payload ? STORAGE_ROUND : (enum deferred_storage)options[OPTION_storage].number,
         .set = (uint32_t)options[OPTION_binding_set].number + 1,
-        .sets = target->caps & CAP_SETS,
+        .sets = g->result->target->caps & CAP_SETS,
         .is_payload = is_payload,
-        .diffuses = !is_payload && options[OPTION_sss].number,
+        .diffuses = options[OPTION_sss].number != 0,
         .blurs = !is_payload && options[OPTION_rough_refraction].number,
     };
 }
 
 void generation_defer(struct generation *g)
 {
-    g->result->storage = generation_storage(g->options, g->result->target, generation_packs(g));
-    g->result->shader.is_stored = g->stored != CLASS_EMPTY;
+    g->result->storage = generation_storage(g);
     if (g->stored >= CLASS_COMPLEX) {
         g->above = deferred_above(&g->result->shader);
         g->closure_host.above = &g->above;
     }
-    g->result->shader.has_passes = g->options[OPTION_pipeline].number != PIPELINE_FORWARD;
-    g->closure_host.only_cuts = g->options[OPTION_pipeline].number == PIPELINE_DEPTH && !g->is_pass;
-    if (generation_stores(g)) {
+    if (role_stores(g->role)) {
         g->closure_host.store = deferred_store;
         g->closure_host.store_data = &g->result->storage;
-        g->closure_host.stores_all = generation_packs(g);
     }
 }
 
 void generation_hide_misfits(struct generation *g)
 {
-    if (generation_stores(g) && (generation_packs(g) || g->options[OPTION_slabs].number))
+    bool may_be_misfit = g->role->returns == RETURNS_SLABS && !g->options[OPTION_slabs].number;
+    if (role_stores(g->role) && !may_be_misfit)
         g->root = build_without_hidden(g->builder, g->root);
 }
 
@@ -69,14 +56,13 @@ static void report_misfit(struct generation *g, ir_ref misfit)
 static void draw_forward(struct generation *g, ir_ref misfit)
 {
     g->misfit = misfit;
-    g->build_options.marks_slabs = false;
-    g->closure_host.store = NULL;
+    g->role = g->result->shader.role = &roles[ROLE_forward];
 }
 
 bool generation_can_store(struct generation *g)
 {
-    ir_ref misfit = generation_stores(g) ? deferred_misfit(&g->result->shader, g->root) : 0;
-    if (misfit && !generation_packs(g) && g->options[OPTION_slabs].number)
+    ir_ref misfit = role_stores(g->role) ? deferred_misfit(&g->result->shader, g->root) : 0;
+    if (misfit && g->role->returns == RETURNS_SLABS && g->options[OPTION_slabs].number)
         draw_forward(g, misfit);
     else if (misfit)
         report_misfit(g, misfit);
@@ -104,7 +90,7 @@ void generation_tell_forward(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
     const struct document *doc = &g->document->layer.doc;
-    if (generation_packs(g))
+    if (g->role->returns != RETURNS_SLABS && !g->misfit)
         return;
     assert(!shader->closures.len || g->result->storage.storage == STORAGE_FLOAT
            || shader->stored_words * SLAB_WORD_BYTES <= g->result->slabs.after.bytes);
@@ -112,8 +98,7 @@ void generation_tell_forward(struct generation *g)
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,
                  doc_place(doc, g->element), str_text(shader->strings, shader->name),
                  (unsigned)shader->closures.len, (unsigned)DEFERRED_MAX_CLOSURES);
-    bool is_asked = generation_stores(g) || g->misfit;
-    if (!is_asked || shader->stored_words)
+    if (shader->stored_words)
         return;
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_drawn_forward, doc_place(doc, g->element),
              str_text(shader->strings, shader->name), why_forward(g));

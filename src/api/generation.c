@@ -73,31 +73,27 @@ static void set_build_options(struct generation *g)
 {
     const struct option_value *o = g->options;
     const mxg_context *context = g->result->object.context;
-    uint32_t caps = g->result->target->caps;
+    uint32_t caps = target_capabilities(g->result->target);
+    bool is_pass = role_is_pass(g->role);
     g->build_options = (struct build_options){
         .syntax = g->result->target->syntax,
-        .interface =
-            g->stored ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
+        .interface = is_pass ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
         .publish_all = o[OPTION_publish].number != 0,
         .uniform_globs = o[OPTION_uniform].list.items,
-        .num_uniform_globs = g->is_pass ? 0 : o[OPTION_uniform].list.len,
+        .num_uniform_globs = is_pass ? 0 : o[OPTION_uniform].list.len,
         .constant_globs = o[OPTION_constant].list.items,
         .num_constant_globs = o[OPTION_constant].list.len,
         .colorspace = option_name(g, OPTION_colorspace),
         .distance_unit = option_name(g, OPTION_distance_unit),
         .angle_unit = str_intern_z(&g->result->strings, "degree"),
-        .strings = caps & CAP_STRINGS,
-        .closures = g->result->target->closures != NULL,
+        .caps = caps,
         .neutral_names = o[OPTION_names].number != 0,
-        .short_names = caps & CAP_SCOPED_PARAMETERS,
         .environment = o[OPTION_environment].number,
         .albedo = o[OPTION_albedo].number,
         .sample_filter = o[OPTION_sample_filter].number,
         .texture_origin = o[OPTION_texture_origin].number,
         .texture_modes =
             caps & CAP_SAMPLERS ? o[OPTION_texture_modes].number : TEXTURE_MODES_BUT_BORDERS,
-        .missing_colors = caps & CAP_MISSING_COLORS,
-        .indexed_tangents = caps & CAP_INDEXED_TANGENTS,
         .tiles = o[OPTION_tiles].number == 0 && caps & CAP_TEXTURE_ARRAYS,
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
@@ -106,21 +102,11 @@ static void set_build_options(struct generation *g)
         .texture_user_data = g->result->object.context,
         .read_texels = context->read_texels,
         .texels_user_data = context->texels_user_data,
-        .integrator = o[OPTION_integrator].number != 0 || generation_packs(g),
         .keeps_absent = o[OPTION_layering].number == LAYERING_OCCLUDING,
-        .stored = g->stored != CLASS_EMPTY,
-        .spreads_light =
-            (generation_stores(g) && !generation_packs(g)) || (g->stored && !g->lights_rays)
-                ? o[OPTION_sss].number
-                : 0,
-        .marks_slabs = generation_stores(g),
-        .blurs = !generation_packs(g) && o[OPTION_rough_refraction].number,
+        .sss = o[OPTION_sss].number,
+        .blurs = o[OPTION_rough_refraction].number != 0,
         .mattes = o[OPTION_mattes].number != 0,
-        .occlusion = o[OPTION_integrator].number == 2      ? OCCLUSION_TRACED
-                     : g->result->target->closures != NULL ? OCCLUSION_PRIMVAR
-                                                           : o[OPTION_ambient_occlusion].number,
-        .vertex_stage =
-            (caps & CAP_VERTEX_STAGE) && !shader_is_called(&g->result->shader) && !g->stored,
+        .occlusion = (enum build_occlusion)o[OPTION_ambient_occlusion].number,
         .codes = context->codes,
         .num_codes = context->num_codes,
         .cancel = context->cancel,
@@ -140,7 +126,7 @@ static void init_layers(struct generation *g)
     lang_unit_init(&result->unit, arena, &result->strings, &layer->unit);
     ir_graph_init(&result->graph, arena, &result->strings);
     result->graph.max_nodes = result->object.context->max_nodes;
-    shader_init(&result->shader, arena, &result->strings, &result->graph, &result->unit);
+    shader_init(&result->shader, g->role, arena, &result->strings, &result->graph, &result->unit);
 }
 
 /*
@@ -193,16 +179,13 @@ static void name_shader(struct generation *g)
         name_stack(g);
     else
         name_element(g);
-    if (g->is_pass)
+    if (role_is_pass(g->role))
         name_pass(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
     lang_style_init(shader->style, g->result->target->syntax, shader->arena);
     for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
         shader->source_language = t->source;
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
-    shader->scatters = g->options[OPTION_integrator].number == 2;
-    shader->is_function = g->options[OPTION_form].number != FORM_PROGRAM;
-    shader->has_rays = shader->scatters || generation_packs(g) || g->lights_rays;
     shader->picks = g->options[OPTION_slots].number != 0;
     shader->reserved = g->options[OPTION_reserved].list.items;
     shader->num_reserved = g->options[OPTION_reserved].list.len;
@@ -225,16 +208,17 @@ static elem_id element_of_stack(const struct generation *g)
 static void name_variables(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
-    if (g->is_pass)
+    if (role_is_pass(g->role))
         return;
     const char *prefix = g->options[OPTION_prefix].text;
     shader->naming.prefix = arena_strndup(shader->arena, prefix, strlen(prefix));
     naming_pairs(&g->options[OPTION_rename], shader->arena, &shader->naming);
     shader->naming_of_members = shader->naming;
     shader->naming_of_members.prefix = "";
-    shader->function = shader->is_function ? names_of_frame(shader, SHADER_FUNCTION) : "";
-    shader->function_type =
-        shader->is_function ? names_of_frame(shader, SHADER_FUNCTION_RESULT) : "";
+    if (!g->role->is_in_host_file)
+        return;
+    shader->function = names_of_frame(shader, g->role->entry);
+    shader->function_type = names_of_frame(shader, SHADER_FUNCTION_RESULT);
 }
 
 bool generation_start(struct generation *g)
@@ -243,7 +227,7 @@ bool generation_start(struct generation *g)
     if (good) {
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena,
                                  context_dialect(g->result->object.context, g->result->target));
-        bool has_names = generation_check_names(g), fits = generation_check_combinations(g);
+        bool has_names = generation_check_names(g), fits = generation_find_role(g);
         good = check_version(g) && fits && has_names;
     }
     g->element = g->desc.bindings ? element_of_stack(g)
@@ -333,7 +317,7 @@ void generation_walk_slabs(struct generation *g)
 static bool has_lights(const struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    if (shader->is_function)
+    if (shader->role->lights == LIGHTS_OF_HOST)
         return !g->options[OPTION_lights].is_set;
     return shader->lights.len > 0 && shader->max_lights > 0;
 }
@@ -341,8 +325,7 @@ static bool has_lights(const struct generation *g)
 void generation_start_closures(struct generation *g)
 {
     const struct option_value *lights = &g->options[OPTION_lights];
-    bool has_own_lights = !g->result->target->closures && !g->result->shader.is_function;
-    if (has_own_lights) /* otherwise the renderer or the host has the lights */
+    if (g->result->shader.role->lights == LIGHTS_IN_SHADER)
         build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
     g->closure_host = build_closure_host(g->builder, &g->point);
     g->lighting = (struct closure_lighting){
@@ -350,8 +333,7 @@ void generation_start_closures(struct generation *g)
         .environment = g->options[OPTION_environment].number != 0,
         .two_sided = g->options[OPTION_layering].number == LAYERING_TWO_SIDED,
         .transmits_alpha = g->options[OPTION_transmission].number != 0,
-        .transparency =
-            g->stored ? TRANSPARENCY_OPAQUE : (uint8_t)g->options[OPTION_transparency].number,
+        .transparency = (uint8_t)g->options[OPTION_transparency].number,
         .shadow = g->options[OPTION_shadow_map].number != 0,
         .occlusion = g->options[OPTION_occlusion_map].number != 0,
         .flips_v = g->options[OPTION_texture_origin].number != 0,
@@ -406,14 +388,15 @@ bool generation_emit(struct generation *g)
 {
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
-    if (g->result->shader.scatters && g->result->shader.source_leaves.len) {
+    bool is_traced = g->role->returns == RETURNS_PATH;
+    if (is_traced && g->result->shader.source_leaves.len) {
         generation_report_not_renderable(
             g, "a path tracer cannot sample closures whose source is for one target");
         return false;
     }
     if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
-    if (generation_packs(g) && !closure_is_surface(&g->result->shader, g->root)) {
+    if (g->role->returns == RETURNS_PAYLOAD && !closure_is_surface(&g->result->shader, g->root)) {
         generation_report_not_renderable(g, "a payload holds a surface");
         return false;
     }
@@ -425,9 +408,8 @@ bool generation_emit(struct generation *g)
     ir_assert_valid(&g->result->graph, "after closures");
     generation_tell_lost_aovs(g);
     if (!is_emitted)
-        generation_report_not_renderable(g, g->result->shader.scatters
-                                                ? "a path tracer draws only surfaces and values"
-                                                : gives_nothing);
+        generation_report_not_renderable(
+            g, is_traced ? "a path tracer draws only surfaces and values" : gives_nothing);
     if (is_emitted) {
         generation_tell_forward(g);
         generation_tell_media(g);
@@ -508,8 +490,9 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
 bool generation_has_stage(const mxg_result *result, int stage)
 {
     const struct shader *shader = &result->shader;
-    bool is_idle = stage == STAGE_VERTEX
-                   && (shader_is_called(shader) || shader->stages[stage].statements.len == 0);
+    bool is_idle =
+        stage == STAGE_VERTEX
+        && (shader->role->stages == STAGES_NONE || shader->stages[stage].statements.len == 0);
     return result->target->stage_suffix[stage] && !is_idle;
 }
 
@@ -519,7 +502,7 @@ struct spell_options generation_spell_options(const struct generation *g)
     return (struct spell_options){
         .version = version_of(g),
         .generator = GENERATOR_NAME,
-        .interface = g->is_pass ? NULL : g->options[OPTION_interface].text,
+        .interface = role_is_pass(g->role) ? NULL : g->options[OPTION_interface].text,
         .colorspace = g->options[OPTION_colorspace].text,
         .metadata = (int)g->options[OPTION_metadata].number,
         .vulkan_attributes = g->options[OPTION_hlsl_vulkan].number,

@@ -44,11 +44,10 @@ struct mxg_result {
         *origin_paths; /* paths by origin of the graph; filled on demand during generation */
     uint64_t options;  /* a hash of the options */
     struct deferred_layout storage; /* of a material that stores, and of a pass */
-    bool is_pass;
-    enum deferred_pass pass;
-    bool has_shader;          /* the generation succeeded */
-    struct slab_report slabs; /* of the generation */
-    const char *text;         /* the text of mxg_inspect, or NULL */
+    enum deferred_pass pass;        /* of a role that is one */
+    bool has_shader;                /* the generation succeeded */
+    struct slab_report slabs;       /* of the generation */
+    const char *text;               /* the text of mxg_inspect, or NULL */
     size_t text_size;
 };
 
@@ -56,7 +55,7 @@ struct generation {
     mxg_result *result;
     const mxg_document *document;
     mxg_generate_desc desc;
-    const struct option_value *options;
+    struct option_value *options;
     elem_id element;
     str_id output_name; /* output of a node from the path, with its index */
     unsigned output;
@@ -73,9 +72,8 @@ struct generation {
     struct file_source files; /* the files that the generation reads */
     struct lang_reader reader;
     bool cancelled;
-    bool is_pass;               /* a pass of the deferred pipeline that belongs to no material */
-    enum deferred_class stored; /* a pass that lights stored closures; CLASS_EMPTY: a material */
-    bool lights_rays;           /* a pass that lights payloads */
+    const struct role *role;    /* of the shader; NULL: that which the options say */
+    enum deferred_class stored; /* that a pass lights; CLASS_EMPTY: it lights none */
     ir_ref misfit; /* a closure that is no slab, so the material is drawn forward; 0: none */
     struct closure_above above;
     void *user_data; /* for the caller's `steps` */
@@ -126,16 +124,9 @@ bool generation_spell(struct generation *g);  /* source */
 /* replaces the last two steps */
 bool generation_make_network(struct generation *g); /* network.c */
 
-/* The option `form`. */
-enum generation_form { FORM_PROGRAM, FORM_FUNCTION, FORM_PAYLOAD };
-
 /* deferred.c: the deferred pipeline. */
-/* True for the material pass of a material. */
-bool generation_stores(const struct generation *g);
-/* True for a function that packs a surface into a payload. */
-bool generation_packs(const struct generation *g);
-struct deferred_layout generation_storage(const struct option_value *options,
-                                          const struct target *target, bool is_payload);
+/* The storage that a role writes or reads. */
+struct deferred_layout generation_storage(const struct generation *g);
 /* Sets the hooks of the closures' host. */
 void generation_defer(struct generation *g);
 /* Warns about a material whose shader lights itself; reports one with too many closures. */
@@ -209,8 +200,11 @@ bool generation_keeps_textures(struct generation *g);
 /* False, after a diagnostic, if AOVs are more than the attachments of the host. */
 bool generation_keeps_outputs(struct generation *g);
 
-/* combinations.c: false, after diagnostics, if options have no meaning together. */
-bool generation_check_combinations(struct generation *g);
+/*
+ * role.c: finds the role; false, after diagnostics, if the target cannot have it, or if the values
+ * of options have no meaning with it or with each other.
+ */
+bool generation_find_role(struct generation *g);
 /* host_names.c: false, after diagnostics, if a name that the host chooses is none. */
 bool generation_check_names(struct generation *g);
 /* The items of the option `rename`. */

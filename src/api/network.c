@@ -21,7 +21,7 @@ static struct shader *new_shader(struct generation *g, const struct network_node
     lang_unit_init(unit, arena, &result->strings, &g->document->layer.unit);
     ir_graph_init(graph, arena, &result->strings);
     graph->max_nodes = result->object.context->max_nodes;
-    shader_init(shader, arena, &result->strings, graph, unit);
+    shader_init(shader, result->shader.role, arena, &result->strings, graph, unit);
     shader->style = result->shader.style;
     shader->source_language = result->shader.source_language;
     shader->name = node->definition_name;

@@ -173,7 +173,7 @@ static void make_interpolated(void *request)
                    "interpolates a value that is no number or vector:", r->name ? r->name : "NULL");
         return;
     }
-    bool stays = !b->options->vertex_stage || ir_is_const(b->graph, value)
+    bool stays = !build_has_vertex_stage(b) || ir_is_const(b->graph, value)
                  || ir_get(b->graph, value)->op == IR_POISON || belongs_to_pixel(b, value);
     if (!stays)
         value = shader_interpolate(b->shader, str_intern_z(b->shader->strings, r->name), value);

@@ -14,18 +14,27 @@ struct mxg_options {
 };
 
 static const mxg_option table[NUM_OPTIONS] = {
-#define OPTION(id, key, type, caps, values, initial, doc) \
+#define OPTION(id, key, type, caps, task, values, initial, doc) \
     {sizeof(mxg_option), key, MXG_OPTION_##type, values, initial, doc},
 #include "api/options.def"
 
 #undef OPTION
 };
 
-static const uint32_t needs[NUM_OPTIONS] = {
-#define OPTION(id, key, type, caps, values, initial, doc) caps,
+/* What an option needs of a target, and the task of a role that it sets. */
+static const struct need {
+    uint32_t caps;
+    enum role_task task;
+} needs[NUM_OPTIONS] = {
+#define OPTION(id, key, type, caps, task, values, initial, doc) {caps, TASK_##task},
 #include "api/options.def"
 #undef OPTION
 };
+
+enum role_task option_task(enum option_id option)
+{
+    return needs[option].task;
+}
 
 const char *option_key(enum option_id option)
 {
@@ -46,9 +55,7 @@ mxg_status mxg_catalogue_option(uint32_t index, mxg_option *out)
 
 static bool option_applies(enum option_id option, const struct target *target)
 {
-    uint32_t caps =
-        target->caps | (target->closures ? 0 : CAP_LIGHTING) | (target->network ? CAP_NETWORKS : 0);
-    return (needs[option] & ~caps) == 0;
+    return target_lacks(target, NULL, needs[option].caps) == 0;
 }
 
 bool mxg_catalogue_has_option(uint32_t index, const char *target)
@@ -147,6 +154,12 @@ static void set_defaults(struct arena *arena, struct option_value *values)
         parse(arena, &table[i], table[i].initial, &values[i]);
 }
 
+void option_reset(enum option_id option, struct arena *arena, struct option_value *value)
+{
+    *value = (struct option_value){0};
+    parse(arena, &table[option], table[option].initial, value);
+}
+
 bool option_differs(enum option_id option, const struct option_value *value)
 {
     const mxg_option *row = &table[option];
@@ -199,8 +212,8 @@ bool options_know(const struct target *target, const char *key, const char *valu
            && parse(arena, &table[option], value, &out);
 }
 
-const struct option_value *options_for(const struct target *target, const mxg_options *options,
-                                       struct arena *arena, const struct dialect *dialect)
+struct option_value *options_for(const struct target *target, const mxg_options *options,
+                                 struct arena *arena, const struct dialect *dialect)
 {
     struct option_value *values = ARENA_ARRAY(arena, struct option_value, NUM_OPTIONS);
     set_defaults(arena, values);

@@ -43,7 +43,7 @@ static void write_pass(struct generation *g, enum deferred_pass pass)
     struct stage_source *stage = &result->stages[STAGE_PIXEL];
     struct text text;
     const char *version = g->options[OPTION_version].text;
-    result->storage = generation_storage(g->options, result->target, g->lights_rays);
+    result->storage = generation_storage(g);
     result->has_shader = deferred_has_pass(pass, &result->storage);
     if (!result->has_shader)
         return;
@@ -59,10 +59,9 @@ static void write_pass(struct generation *g, enum deferred_pass pass)
 static void generate(struct generation *g)
 {
     const enum deferred_pass pass = *(const enum deferred_pass *)g->user_data;
-    g->is_pass = g->result->is_pass = true;
     g->result->pass = pass;
     g->stored = deferred_pass_class(pass);
-    g->lights_rays = pass == PASS_LIGHT_RAYS;
+    g->role = &roles[pass == PASS_LIGHT_RAYS ? ROLE_lighting_rays : ROLE_lighting];
     if (g->stored)
         generation_run_all(g);
     else

@@ -232,7 +232,7 @@ static uint64_t network_topology(const mxg_result *result)
 static uint64_t topology_of(const mxg_result *result, struct arena *scratch)
 {
     const struct stage_source *source = &result->stages[STAGE_PIXEL];
-    if (result->is_pass)
+    if (role_is_pass(result->shader.role))
         return hash_stable(HASH_STABLE_SEED, source->text, source->size);
     return result->network.arena ? network_topology(result)
                                  : shader_topology(&result->shader, scratch);
@@ -274,8 +274,9 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .function_type = shader->function_type,
         .lit = shader->lit,
         .stored_words = shader->stored_words,
-        .layout =
-            result->is_pass || shader->stored_words ? deferred_layout_number(&result->storage) : 0,
+        .layout = role_is_pass(shader->role) || shader->stored_words
+                      ? deferred_layout_number(&result->storage)
+                      : 0,
         .stored_classes = result_classes(result),
     };
     /* only the topology is expensive */
@@ -294,7 +295,6 @@ static void write_json(const struct object *object, struct text *out)
         .target = result->target->name,
         .generator = GENERATOR_NAME,
         .topology = topology_of(result, out->arena),
-        .is_pass = result->is_pass,
         .user_data = (void *)(uintptr_t)result,
         .ui = result_ui,
         .compiled = result_compiled,

@@ -47,13 +47,14 @@ bool generation_slab_features(struct generation *g)
 
 struct slab_budget generation_slab_budget(const struct generation *g)
 {
+    bool is_payload = g->role->returns == RETURNS_PAYLOAD;
     return (struct slab_budget){
-        .max_slabs = generation_packs(g) ? 1 : (uint32_t)g->options[OPTION_max_slabs].number,
+        .max_slabs = is_payload ? 1 : (uint32_t)g->options[OPTION_max_slabs].number,
         .max_bytes = (uint32_t)g->options[OPTION_max_bytes].number,
         .max_error = g->options[OPTION_max_error].real,
         .off = g->slab_features_off,
-        .recognises = g->options[OPTION_slabs].number != 0 || generation_packs(g),
-        .max_steps = generation_packs(g) ? -1 : (int32_t)g->options[OPTION_max_steps].number,
+        .recognises = g->options[OPTION_slabs].number != 0 || is_payload,
+        .max_steps = is_payload ? -1 : (int32_t)g->options[OPTION_max_steps].number,
     };
 }
 
@@ -88,7 +89,7 @@ static void report_failure(struct generation *g, const struct slab_budget *budge
     text_init(&limits, &g->scratch);
     text_init(&error, &g->scratch);
     write_error(&error, report->error);
-    if (generation_packs(g))
+    if (g->role->returns == RETURNS_PAYLOAD)
         text_str(&limits, "a payload, which is one slab");
     else if (budget->max_slabs)
         text_fmt(&limits, "%u slabs", (unsigned)budget->max_slabs);
@@ -156,7 +157,7 @@ bool generation_slabs_are_few(struct generation *g, const struct slab_report *re
 
 bool generation_budget_slabs(struct generation *g)
 {
-    if (g->is_pass) /* it has the lobes of all slabs */
+    if (role_is_pass(g->role)) /* it has the lobes of all slabs */
         return true;
     struct slab_budget budget = generation_slab_budget(g);
     struct slab_report *report = &g->result->slabs;

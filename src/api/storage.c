@@ -45,9 +45,14 @@ mxg_status mxg_catalogue_pass_member(uint32_t resource, uint32_t index, mxg_pass
     return struct_write(out, &full, sizeof full);
 }
 
+static bool is_pass(const mxg_result *result)
+{
+    return role_is_pass(result->shader.role);
+}
+
 mxg_status mxg_result_pass(const mxg_result *result, mxg_pass *out)
 {
-    if (!result || !result->has_shader || !result->is_pass)
+    if (!result || !result->has_shader || !is_pass(result))
         return MXG_ERROR_ARGUMENT;
     mxg_pass full = {.name = deferred_pass_name(result->pass),
                      .group_size = {DEFERRED_TILE, DEFERRED_TILE, 1},
@@ -125,14 +130,14 @@ static void put_resource(const struct deferred_layout *layout, enum deferred_bin
 
 static const char *name_of(const mxg_result *result)
 {
-    if (result->is_pass)
+    if (is_pass(result))
         return deferred_pass_name(result->pass);
     return result->storage.is_payload ? "payload" : "material";
 }
 
 uint32_t result_classes(const mxg_result *result)
 {
-    if (!result->is_pass)
+    if (!is_pass(result))
         return result->shader.stored_classes;
     enum deferred_class lit = deferred_pass_class(result->pass);
     return lit == CLASS_EMPTY || !deferred_is_indirect(result->pass) ? 0 : 1u << lit;
@@ -157,8 +162,8 @@ static void put_resources(const mxg_result *result, struct json *json)
 {
     const struct deferred_layout *layout = &result->storage;
     bool has_layers = !layout->is_payload && result->shader.stored_words > DEFERRED_TARGET_WORDS;
-    uint32_t reads = result->is_pass ? deferred_reads(result->pass, layout) : 0,
-             writes = result->is_pass ? deferred_writes(result->pass, layout)
+    uint32_t reads = is_pass(result) ? deferred_reads(result->pass, layout) : 0,
+             writes = is_pass(result) ? deferred_writes(result->pass, layout)
                       : has_layers    ? 1u << RESOURCE_WORDS
                                       : 0;
     json_key(json, "resources");
@@ -202,16 +207,16 @@ void result_storage(void *user_data, struct json *json)
 {
     const mxg_result *result = user_data;
     uint32_t words = result->shader.stored_words;
-    if (!result->is_pass && !words)
+    if (!is_pass(result) && !words)
         return;
     json_key(json, "deferred");
     json_open(json, '{');
     json_put_text(json, "pass", name_of(result));
     json_put_number(json, "layout", deferred_layout_number(&result->storage));
-    if (result->is_pass)
+    if (is_pass(result))
         put_pass(result->pass, json);
     json_put_nonzero(json, "words", words);
-    if (!result->is_pass && !result->storage.is_payload) {
+    if (!is_pass(result) && !result->storage.is_payload) {
         put_classes(result->shader.stored_classes, json);
         put_targets(json);
     }

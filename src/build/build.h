@@ -17,8 +17,8 @@
 /* The inputs that become uniforms: the option `interface`. */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
 
-/* Where <ambientocclusion> comes from: the option `ambient-occlusion`, or the path tracer. */
-enum build_occlusion { OCCLUSION_MAP, OCCLUSION_PRIMVAR, OCCLUSION_NONE, OCCLUSION_TRACED };
+/* Where <ambientocclusion> comes from: the option `ambient-occlusion`. */
+enum build_occlusion { OCCLUSION_MAP, OCCLUSION_PRIMVAR, OCCLUSION_NONE };
 
 enum { TEXTURE_MODES_BUT_BORDERS = 3 }; /* libraries/stdlib/image.glsl lists all values */
 
@@ -36,22 +36,13 @@ struct build_options {
     unsigned num_uniform_globs, num_constant_globs;
     str_id colorspace; /* working colour space: "lin_rec709" */
     str_id distance_unit, angle_unit;
-    bool strings;       /* the target has strings at run time */
-    bool closures;      /* the target has closures of its own */
+    uint32_t caps;      /* enum target_caps */
     bool neutral_names; /* uniform names are numbers */
-    bool short_names;   /* input names omit the name of their node */
     int environment;    /* values of option_environment… */
     int albedo;
     int sample_filter;
     int texture_modes;
-    int texture_origin; /* 1: v is 0 at the top of images */
-    /* texture() takes the default of a missing image as an argument, which may be a uniform */
-    bool missing_colors;
-    /*
-     * a tangent belongs to the texture coordinates with its index; otherwise to the first ones, as
-     * in MaterialX
-     */
-    bool indexed_tangents;
+    int texture_origin;               /* 1: v is 0 at the top of images */
     bool tiles;                       /* images with tiles are texture arrays */
     const struct lang_reader *reader; /* for photometric files; may be NULL */
     /* Like mxg_resolver.list_folder, to find tiles; may be NULL. */
@@ -64,15 +55,11 @@ struct build_options {
     bool (*read_texels)(void *user_data, const char *from, const char *file, const char *layer,
                         uint32_t size, float *out_texels);
     void *texels_user_data;
-    int integrator;
     bool keeps_absent; /* closures of weight 0 hide what lies below them */
-    int stored;        /* closures come from storage: the lighting of the deferred pipeline */
-    int spreads_light; /* a pass of the deferred pipeline spreads the light of bodies */
-    bool marks_slabs;  /* a slab_mark_bsdf lies on each slab, for src/deferred */
+    int sss;           /* 1: a pass of the deferred pipeline spreads the light of bodies */
     bool blurs;        /* what lies below rough interfaces is blurred */
     bool mattes;       /* each layer of a stack has an AOV of its own */
-    int occlusion;     /* enum build_occlusion */
-    bool vertex_stage; /* the shader has one, which can compute values for the pixels */
+    enum build_occlusion occlusion;
     const struct mxg_node_code *codes; /* nodes in C: code.h */
     uint32_t num_codes;
     bool (*cancel)(void *user_data);

@@ -132,6 +132,12 @@ struct builder {
     bool cancelled;
 };
 
+/* True if the shader has a vertex stage, which can compute values for the pixels. */
+static inline bool build_has_vertex_stage(const struct builder *b)
+{
+    return (b->options->caps & CAP_VERTEX_STAGE) && b->shader->role->stages != STAGES_NONE;
+}
+
 static inline const char *build_text(const struct builder *b, str_id id)
 {
     return str_text(b->shader->strings, id);

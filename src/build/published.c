@@ -109,9 +109,10 @@ static str_id materialx_name(struct builder *b, elem_id owner, str_id input)
  */
 static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {
-    if (b->options->publish_all && !b->options->short_names && !b->slot)
+    bool has_own_scope = b->options->caps & CAP_SCOPED_PARAMETERS;
+    if (b->options->publish_all && !has_own_scope && !b->slot)
         return materialx_name(b, node, input);
-    if (!b->slot && b->options->short_names && shader_name_is_free(b->shader, input))
+    if (!b->slot && has_own_scope && shader_name_is_free(b->shader, input))
         return input;
     struct text *name = &b->scratch;
     name->len = 0;

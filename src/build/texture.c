@@ -102,7 +102,7 @@ static void note_input(struct builder *b, const struct port *file, const struct 
     texture->has_default = build_initial(b, arg, &texture->value);
     if (ir_get(b->graph, arg)->op == IR_UNIFORM) {
         texture->default_from = ir_get(b->graph, arg)->attr + 1;
-        texture->fallback = b->options->missing_colors ? texture->default_from : 0;
+        texture->fallback = b->options->caps & CAP_MISSING_COLORS ? texture->default_from : 0;
     }
 }
 

@@ -20,7 +20,7 @@ static ir_ref normal(struct shader *shader)
 
 static ir_ref view(struct shader *shader)
 {
-    if (shader->has_rays)
+    if (shader->role->derivatives == DERIVATIVES_OF_RAYS)
         return stream(shader, STR_viewWorld);
     ir_ref viewer =
         shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));

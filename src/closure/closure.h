@@ -58,12 +58,10 @@ struct closure_stored {
 struct closure_host {
     void *user_data;
     const struct closure_above *above; /* NULL: nothing */
-    /* Takes a surface instead of lighting it. NULL: surfaces are lit. */
+    /* Takes a surface instead of lighting it, for roles that store; otherwise NULL. */
     void (*store)(struct shader *shader, const struct closure_host *host,
                   const struct closure_stored *surface);
     const void *store_data;
-    bool stores_all; /* also surfaces that can be seen through, and none of their AOVs */
-    bool only_cuts;  /* draws nothing of a surface but the holes that its opacity cuts */
     struct closure_point *point;
     /*
      * the question that throughputs answer, and the direction to the light for

@@ -183,13 +183,14 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
     ir_push_name(g, STR_P);
     point->position = ir_op2(g, IR_ADD, before, offset);
     ir_change_name(g, STR_N);
-    point->normal = shader->has_rays ? ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalMoved))
-                                     : bent_normal(shader, before, point->position);
+    bool has_rays = shader->role->derivatives == DERIVATIVES_OF_RAYS;
+    point->normal = has_rays ? ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalMoved))
+                             : bent_normal(shader, before, point->position);
     ir_change_name(g, STR_V);
-    if (!shader->has_rays)
+    if (!has_rays)
         point->view = view_from(shader, point->position);
     ir_pop_origin(g);
-    if (shader->scatters)
+    if (shader->role->returns == RETURNS_PATH)
         output_offset(shader, offset);
     else
         move_vertices(shader, point->position);

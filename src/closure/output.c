@@ -62,9 +62,9 @@ static void write_second_source(struct shader *shader, ir_ref through, ir_ref al
     ir_ref rest = closure_one_minus(g, alpha);
     through = through ? through : ir_convert(g, IR_TYPE_VEC3, rest);
     ir_ref parts[2] = {through, rest};
-    bool is_called = shader->is_function;
-    ir_ref value = is_called ? through : ir_construct(g, IR_TYPE_VEC4, parts, 2);
-    const struct shader_variable variable = {.name = is_called ? STR_transmittance : STR_out2,
+    bool is_member = shader->role->is_in_host_file;
+    ir_ref value = is_member ? through : ir_construct(g, IR_TYPE_VEC4, parts, 2);
+    const struct shader_variable variable = {.name = is_member ? STR_transmittance : STR_out2,
                                              .block = BLOCK_OUTPUTS,
                                              .type = ir_type_of(g, value),
                                              .semantic = STR_transmittance};
@@ -77,7 +77,7 @@ void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha, ir_
 {
     struct ir_graph *g = shader->graph;
     assert(ir_type_of(g, color) == IR_TYPE_VEC3 && ir_type_of(g, alpha) == IR_TYPE_FLOAT);
-    if (shader->is_function) {
+    if (shader->role->is_in_host_file) {
         write_value(shader, STR_color, color);
         write_value(shader, STR_alpha, alpha);
     } else {

@@ -272,9 +272,19 @@ static void store_surface(struct emitter *e, const struct closure_surface *s, bo
     e->host->store(e->shader, e->host, &stored);
 }
 
+/* A pixel stores whole surfaces without AOVs; a payload every surface, and none of its AOVs. */
+static bool is_stored(const struct emitter *e, bool is_whole)
+{
+    switch (e->shader->role->returns) {
+    case RETURNS_PAYLOAD: return true;
+    case RETURNS_SLABS: return is_whole && !has_aov_outputs(e);
+    default: return false;
+    }
+}
+
 static void emit_surface(struct emitter *e, ir_ref root)
 {
-    if (e->shader->scatters) {
+    if (e->shader->role->returns == RETURNS_PATH) {
         emit_scattering(e, root);
         return;
     }
@@ -283,13 +293,13 @@ static void emit_surface(struct emitter *e, ir_ref root)
         return;
     }
     struct closure_surface s = closure_surface_of(e->shader, e->host, root);
-    if (e->host->only_cuts) {
+    if (e->shader->role->returns == RETURNS_HOLES) {
         if (!draws_all(e, s.alpha))
             alpha_test(e, s.alpha);
         return;
     }
     bool is_whole = draws_all(e, s.alpha) || is_cut(e, s.alpha);
-    if (e->host->store && (e->host->stores_all || (is_whole && !has_aov_outputs(e)))) {
+    if (is_stored(e, is_whole)) {
         store_surface(e, &s, is_whole);
         return;
     }
@@ -339,7 +349,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
                         .host = host,
                         .lighting = lighting,
                         .lit = {.color = UINT32_MAX}};
-    if (root && shader->has_rays)
+    if (root && shader->role->derivatives == DERIVATIVES_OF_RAYS)
         root = closure_differentials(shader, root);
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
         root = ir_arg(e.graph, root, 3) ? ir_arg(e.graph, root, 3)
@@ -354,7 +364,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
         type = IR_TYPE_SURFACE;
     }
     if (type == IR_TYPE_VOLUME || type == IR_TYPE_VDF) {
-        if (shader->scatters)
+        if (shader->role->returns == RETURNS_PATH)
             return false;
         emit_volume(&e, root);
         return true;

@@ -18,9 +18,6 @@ enum {
     DEFERRED_TILE = 8            /* pixels across a tile, which a group of a pass covers */
 };
 
-/* The option `pipeline`. */
-enum deferred_pipeline { PIPELINE_FORWARD, PIPELINE_DEFERRED, PIPELINE_DEPTH };
-
 /* The option `storage`. */
 enum deferred_storage { STORAGE_DITHER, STORAGE_ROUND, STORAGE_FLOAT };
 

@@ -59,6 +59,16 @@ static ir_ref traced(struct builder *b, float angle, float distance)
     }
 }
 
+static ir_ref as_asked(struct builder *b)
+{
+    switch (b->options->occlusion) {
+    case OCCLUSION_MAP: return closure_occlusion(b->shader, b->options->texture_origin == 1);
+    case OCCLUSION_PRIMVAR: return primvar(b);
+    case OCCLUSION_NONE: break;
+    }
+    return ir_const_float(b->graph, 1.0f);
+}
+
 bool dynamic_occlusion(void *user_data, mxg_build *build, mxg_ref *results)
 {
     struct builder *b = build->b;
@@ -68,10 +78,9 @@ bool dynamic_occlusion(void *user_data, mxg_build *build, mxg_ref *results)
     if (!mxg_build_require_constant(build, "coneangle", &angle)
         || !mxg_build_require_constant(build, "maxdistance", &distance))
         return false;
-    switch ((enum build_occlusion)b->options->occlusion) {
-    case OCCLUSION_MAP: open = closure_occlusion(b->shader, b->options->texture_origin == 1); break;
-    case OCCLUSION_PRIMVAR: open = primvar(b); break;
-    case OCCLUSION_NONE: open = ir_const_float(b->graph, 1.0f); break;
+    switch (b->shader->role->occlusion) {
+    case OCCLUSION_OF_OPTION: open = as_asked(b); break;
+    case OCCLUSION_OF_PRIMVAR: open = primvar(b); break;
     case OCCLUSION_TRACED: open = traced(b, angle.values[0], distance.values[0]); break;
     }
     results[0] = code_issue(build, open);

@@ -209,14 +209,14 @@ mxg_status mxg_build_use(mxg_build *build, mxg_build_info *out)
 {
     if (!build)
         return MXG_ERROR_ARGUMENT;
-    const struct build_options *options = build->b->options;
-    mxg_build_info full = {
-        .nodedef = build_text(build->b, build->def->name),
-        .node = build_text(build->b, build->def->node),
-        .target = options->num_targets ? build_text(build->b, options->targets[0]) : "",
-        .num_inputs = build->def->num_inputs,
-        .num_outputs = build->def->num_outputs,
-        .has_vertex_stage = options->vertex_stage};
+    const struct builder *b = build->b;
+    mxg_build_info full = {.nodedef = build_text(b, build->def->name),
+                           .node = build_text(b, build->def->node),
+                           .target =
+                               b->options->num_targets ? build_text(b, b->options->targets[0]) : "",
+                           .num_inputs = build->def->num_inputs,
+                           .num_outputs = build->def->num_outputs,
+                           .has_vertex_stage = build_has_vertex_stage(b)};
     return struct_write(out, &full, sizeof full);
 }
 

@@ -133,7 +133,7 @@ static bool build_axis(mxg_build *build, const char *object, const char *world, 
 {
     mxg_value space = MXG_INIT(mxg_value);
     int32_t index = 0;
-    if ((build->b->options->indexed_tangents && !read_index(build, &index))
+    if (((build->b->options->caps & CAP_INDEXED_TANGENTS) && !read_index(build, &index))
         || !mxg_build_require_constant(build, "space", &space))
         return false;
     bool is_world = strcmp(space.text, "world") == 0;
@@ -584,7 +584,7 @@ bool build_is_combined(const struct builder *b, const struct frame *frame)
     }
     /* closures of a target combine without the structs that hardware targets have for shaders */
     return find_code(def->node) && is_result
-           && (is_operand || (b->options->closures && !ir_type_is_closure(type)));
+           && (is_operand || ((b->options->caps & CAP_CLOSURES) && !ir_type_is_closure(type)));
 }
 
 /* The first difference between the definition and the needs of the code; NULL: none. */

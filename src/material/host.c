@@ -63,7 +63,7 @@ static struct slabs_host slabs_host(struct builder *b, const struct closure_host
                                .slab_like = slab_like,
                                .texels = texels,
                                .closures = closures,
-                               .walks = b->shader->scatters};
+                               .walks = b->shader->role->returns == RETURNS_PATH};
 }
 
 /* Only the walk ends in storage. */
@@ -71,7 +71,7 @@ static struct slabs_host walking_host(struct builder *b, const struct closure_ho
 {
     struct slabs_host host = slabs_host(b, closures);
     host.lobes = marked_lobes;
-    if (!b->options->marks_slabs)
+    if (!role_stores(b->shader->role))
         host.blurred = blurred;
     return host;
 }

@@ -87,7 +87,7 @@ ir_ref build_slab_lobes(struct builder *b, const ir_ref *inputs, const struct sl
 ir_ref build_marked_lobes(struct builder *b, const ir_ref *inputs, const struct slab_place *place)
 {
     ir_ref lobes = build_slab_lobes(b, inputs, place);
-    if (!b->options->marks_slabs)
+    if (!role_stores(b->shader->role))
         return lobes;
     ir_ref args[2] = {apply(b, build_definition_named(b, "ND_slab_mark"), inputs, place), lobes};
     if (!lobes)

@@ -22,7 +22,7 @@ static void complete_loops(struct shader *shader, enum shader_stage_id id)
             mark_read(shader,
                       shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0), id);
     }
-    if (!stage->has_lights || shader->is_function)
+    if (!stage->has_lights || shader->role->lights != LIGHTS_IN_SHADER)
         return;
     mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0),
               id);
@@ -116,7 +116,7 @@ static void name_neutrally(struct shader *shader)
 
 static void finish_vertex_stage(struct shader *shader)
 {
-    if (!shader_is_called(shader)) {
+    if (shader->role->stages != STAGES_NONE) {
         complete_vertex_stage(shader);
         mark_outputs(shader, STAGE_VERTEX);
         shader_schedule(shader, STAGE_VERTEX);

@@ -50,10 +50,11 @@ const char *shader_block_type(const struct shader *shader, const struct lang_syn
  */
 enum { FIRST_VARIABLES = 80 };
 
-void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
-                 struct ir_graph *graph, struct lang_unit *unit)
+void shader_init(struct shader *shader, const struct role *role, struct arena *arena,
+                 struct strpool *strings, struct ir_graph *graph, struct lang_unit *unit)
 {
-    *shader = (struct shader){.arena = arena,
+    *shader = (struct shader){.role = role,
+                              .arena = arena,
                               .strings = strings,
                               .graph = graph,
                               .unit = unit,
@@ -73,7 +74,7 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
 static uint32_t name_scope(const struct shader *shader, enum shader_block block)
 {
     bool is_member = block == BLOCK_LIGHT_DATA || block == BLOCK_VERTEX_DATA
-                     || (block == BLOCK_OUTPUTS && shader->is_function);
+                     || (block == BLOCK_OUTPUTS && shader->role->is_in_host_file);
     return is_member ? (uint32_t)block : NUM_BLOCKS;
 }
 
@@ -122,7 +123,7 @@ static bool is_hosts(const struct shader *shader, const struct shader_variable *
 {
     bool is_private = variable->block == BLOCK_PRIVATE_UNIFORMS || variable->block >= BLOCK_OWN;
     bool may_be = is_private || (variable->block == BLOCK_TEXTURES && variable->semantic);
-    return shader->is_function && may_be
+    return shader->role->is_in_host_file && may_be
            && names_renamed(&shader->naming, str_text(shader->strings, variable->name),
                             str_len(shader->strings, variable->name));
 }

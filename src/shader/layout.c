@@ -115,7 +115,7 @@ bool shader_has_locations(const struct shader *shader, enum shader_block block)
 {
     const uint32_t *first = &shader->first_of_block[block];
     bool are_several_outputs = block == BLOCK_OUTPUTS && first[1] - first[0] > 1
-                               && !shader_is_called(shader) && !shader->rules.one_stage;
+                               && shader->role->stages != STAGES_NONE && !shader->rules.one_stage;
     return shader->rules.bindings || are_several_outputs;
 }
 

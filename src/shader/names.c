@@ -122,7 +122,8 @@ void names_take_frame(struct name_set *names, const struct shader *shader)
                                         "PrivateUniforms", "VertexData",
                                         SHADER_FUNCTION,   SHADER_FUNCTION_RESULT};
     static const char *const fixed[] = {"main", "result", "mxg_light", "mxg_light_count"};
-    size_t of_functions = shader->is_function ? 0 : 2, of_host = shader->is_function ? 0 : 3;
+    bool is_in_host_file = shader->role->is_in_host_file;
+    size_t of_functions = is_in_host_file ? 0 : 2, of_host = is_in_host_file ? 0 : 3;
     for (uint32_t i = 0; i < shader->naming.num_renamed; i++)
         keep(names, shader->naming.renamed[i].to);
     for (size_t i = 0; i < sizeof frame / sizeof *frame - of_functions; i++) {

@@ -46,7 +46,7 @@ void reflect_value(struct json *json, const char *key, const struct ir_value *va
 /* A pass has one stage, in the place of the pixel stage. */
 static const char *stage_name(const struct reflect *r, int stage)
 {
-    return stage == STAGE_VERTEX ? "vertex" : r->options->is_pass ? "compute" : "pixel";
+    return stage == STAGE_VERTEX ? "vertex" : role_is_pass(r->shader->role) ? "compute" : "pixel";
 }
 
 static void put_item(struct json *json, const char *text)
@@ -308,7 +308,7 @@ static void put_surface(struct reflect *r)
     if (shader->displaced)
         json_put_bool(&r->json, "displaced", true);
     json_put_bool(&r->json, "lit", shader->lit);
-    if (shader->is_function) {
+    if (shader->role->is_in_host_file) {
         json_put_text(&r->json, "function", shader->function);
         json_put_text(&r->json, "functionType", shader->function_type);
     }
@@ -317,7 +317,7 @@ static void put_surface(struct reflect *r)
 static void put_shader(struct reflect *r)
 {
     const struct shader *shader = r->shader;
-    if (!r->options->is_pass)
+    if (!role_is_pass(shader->role))
         put_surface(r);
     if (r->options->more)
         r->options->more(r->options->user_data, &r->json);
@@ -327,9 +327,9 @@ static void put_shader(struct reflect *r)
         put_block(r, (enum shader_block)block);
     json_close(&r->json, ']');
     put_lights(r);
-    if (!r->options->is_pass || shader->stages[STAGE_PIXEL].reach.functions.len)
+    if (!role_is_pass(shader->role) || shader->stages[STAGE_PIXEL].reach.functions.len)
         put_functions(r);
-    if (!r->options->is_pass)
+    if (!role_is_pass(shader->role))
         put_compiled(r);
 }
 

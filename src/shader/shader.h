@@ -12,6 +12,7 @@
 #include "ir/ir.h"
 #include "print/print.h"
 #include "shader/names.h"
+#include "shader/role.h"
 #include "tree/reach.h"
 
 /* Blocks of the ShaderX convention; docs/reflection.md describes their contents. */
@@ -256,6 +257,7 @@ struct shader_token;
 struct source_leaf;
 
 struct shader {
+    const struct role *role; /* what it is for */
     struct arena *arena;
     struct strpool *strings;
     struct ir_graph *graph;
@@ -311,38 +313,25 @@ struct shader {
     bool lit;         /* reads lights or environment */
     bool displaced;   /* the vertex stage moves the surface */
     uint32_t num_light_loops, num_sample_loops; /* so far; each has its own lights or samples */
-    /* a function for path tracers, without a vertex stage */
-    bool scatters;
-    const char *not_walked; /* of it: why its media are tables; NULL: they are not */
-    /* rays find its points: the view and the changes to the next pixel are vertex data */
-    bool has_rays;
+    const char *not_walked; /* on paths: why its media are tables; NULL: they are not */
     /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
     uint32_t stored_words;
     uint32_t stored_classes; /* that its pixels may have, as bits (docs/deferred.md) */
-    bool has_passes;         /* several programs draw its surface: positions are equal to the bit */
     bool has_two_sources;    /* the second output is what the surface lets through */
-    bool is_stored;          /* a function of the deferred pipeline, for a closure from storage */
-    /* a function for rasters, without a vertex stage: the option `form` */
-    bool is_function;
-    const char *function, *function_type; /* their names in the source; "": a program */
-    struct name_rules naming;             /* of variables, functions and types */
-    struct name_rules naming_of_members;  /* of vertex data: without a prefix */
-    bool picks;                           /* one layer of a stack, by a random number */
-    struct shader_layout_rules rules;     /* of shader_finish */
+    /* names of the function and of the struct that it returns; "": it is no function of a host */
+    const char *function, *function_type;
+    struct name_rules naming;            /* of variables, functions and types */
+    struct name_rules naming_of_members; /* of vertex data: without a prefix */
+    bool picks;                          /* one layer of a stack, by a random number */
+    struct shader_layout_rules rules;    /* of shader_finish */
 };
 
 /* The function of a shader that is one, and the struct that it returns, in the frame. */
 #define SHADER_FUNCTION "surface"
 #define SHADER_FUNCTION_RESULT "Surface"
 
-/* True if other code calls the shader and gives the vertex data, so that it has no vertex stage. */
-static inline bool shader_is_called(const struct shader *shader)
-{
-    return shader->scatters || shader->is_function || shader->is_stored;
-}
-
-void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
-                 struct ir_graph *graph, struct lang_unit *unit);
+void shader_init(struct shader *shader, const struct role *role, struct arena *arena,
+                 struct strpool *strings, struct ir_graph *graph, struct lang_unit *unit);
 
 /* interface.c */
 
@@ -511,7 +500,6 @@ struct network;
 struct shader_reflect_options {
     const char *target, *generator; /* "vulkan", "mxgen 0.1.0" */
     uint64_t topology;
-    bool is_pass; /* a compute stage in the place of the pixel stage, and no surface */
     void *user_data;
     /* Fills the strings for a variable, which is zeroed before; NULL: none. */
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);

@@ -140,7 +140,7 @@ static ir_ref global(void *user_data, struct ir_graph *g, const struct lang_unit
     const struct eye *eye = user_data;
     const struct lang_host *lang = eye->host->closures->lang;
     const struct lang_global *known = lang_global(unit, global_id, NULL);
-    if (strcmp(str_text(unit->strings, known->name), "option_integrator") == 0)
+    if (strcmp(str_text(unit->strings, known->name), "option_path") == 0)
         return ir_const_int(g, 1);
     return lang->global(lang->user_data, g, unit, global_id);
 }

@@ -35,12 +35,13 @@ bool spell_uses(const struct spell *spell, const struct shader_variable *variabl
 /* The text before the names of a block's variables; it ends with '.' if they are members. */
 static const char *member_prefix(struct spell *spell, enum shader_block block)
 {
-    if (spell->shader->is_function && block == BLOCK_OUTPUTS)
+    bool is_in_host_file = spell->shader->role->is_in_host_file;
+    if (is_in_host_file && block == BLOCK_OUTPUTS)
         return "result.";
-    if (block != BLOCK_VERTEX_DATA || (spell->shader->is_function && !spell->shares_vertex_data))
+    if (block != BLOCK_VERTEX_DATA || (is_in_host_file && !spell->shares_vertex_data))
         return "";
     struct text text;
-    bool is_member = spell_can(spell, CAP_BLOCK_STAGE_IO) || spell->shader->is_function;
+    bool is_member = spell_can(spell, CAP_BLOCK_STAGE_IO) || is_in_host_file;
     text_init(&text, spell->scratch);
     text_fmt(&text, "%s%c", spell_frame_name(spell, "vd"), is_member ? '.' : '_');
     return text_cstr(&text);
@@ -64,7 +65,7 @@ void spell_name_interface(struct spell *spell)
         if (declared && !is_member)
             names_take(&spell->names, name.text, name.len);
     }
-    for (uint32_t i = 0; spell->shader->is_function && i < spell->shader->variables.len; i++)
+    for (uint32_t i = 0; i < spell->shader->variables.len; i++)
         if (spell->shader->variables.items[i].is_hosts)
             spell->variables[i] = variable_name(spell, &spell->shader->variables.items[i]);
 }

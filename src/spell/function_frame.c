@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The frame of a shader that is a function of the host's shader (option `form`): the vertex data
+ * The frame of a shader that is a function of the host's shader: the vertex data
  * are its parameters, the outputs are members of the struct that it returns, and the lights are
  * those of the host.
  *
@@ -10,8 +10,6 @@
  *     Surface surface(vec3 positionWorld, vec3 normalWorld)
  */
 #include "spell/spell.h"
-
-#include <assert.h>
 
 static void write_members(struct spell *spell, enum shader_block block)
 {
@@ -70,9 +68,12 @@ static void declare_lights(struct spell *spell)
     spell_text(spell, ";\n#endif\n");
 }
 
-void spell_declare_function(struct spell *spell)
+static void declare(struct spell *spell)
 {
-    assert(spell->shader->is_function);
+    spell_text(spell, "// ");
+    spell_title(spell);
+    spell_text(spell, "\n\n");
+    spell->frame->declare_for_function(spell);
     if (spell->stage->has_lights)
         declare_lights(spell);
     if (spell->shares_vertex_data) {
@@ -88,7 +89,7 @@ void spell_declare_function(struct spell *spell)
     close_struct(spell);
 }
 
-void spell_open_function(struct spell *spell)
+static void open_function(struct spell *spell)
 {
     const char *type = spell->shader->function_type, *between = "";
     struct lang_declaration head =
@@ -116,7 +117,10 @@ void spell_open_function(struct spell *spell)
     spell_text(spell, ";\n");
 }
 
-void spell_close_function(struct spell *spell)
+static void close_function(struct spell *spell)
 {
     spell_text(spell, "    return result;\n}\n");
 }
+
+const struct target_frame spell_function_frame = {
+    .declare = declare, .open = open_function, .close = close_function};

@@ -141,14 +141,6 @@ void spell_declare(struct spell *spell, enum lang_phrase phrase,
 /* Writes the structs of the stage's functions. */
 void spell_structs(struct spell *spell);
 
-/*
- * function_frame.c: the frame of a shader that is a function (option `form`). The struct of its
- * results and the functions of the host that it calls; its head; its end.
- */
-void spell_declare_function(struct spell *spell);
-void spell_open_function(struct spell *spell);
-void spell_close_function(struct spell *spell);
-
 /* ---- maker.c ---- */
 
 /* Gives a struct of the stage a maker with a name at file scope: "make_Outer". */

@@ -249,28 +249,20 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
 {
     (void)stage;
     struct text *out = spell->out, body;
-    if (spell->shader->is_function) {
-        spell_text(spell, "// ");
-        spell_title(spell);
-        spell_text(spell, "\n\n");
-        spell->frame->declare_for_function(spell);
-        spell_declare_function(spell);
-    } else {
-        spell->frame->declare(spell);
-    }
+    const struct target_frame *frame = spell->shader->role->frame;
+    frame = frame ? frame : spell->frame;
+    frame->declare(spell);
     spell_text(spell, "\n");
     if (spell->lang_names.form || spell->lang_names.maker) {
         text_init(&body, spell->scratch);
         spell->out = &body;
     }
     write_functions(spell);
-    (spell->shader->is_function ? spell_open_function : spell->frame->open)(spell);
+    frame->open(spell);
     names_open_scope(&spell->names);
     spell_statements(spell, &spell->stage->statements, 1);
-    if (spell->shader->is_function)
-        spell_close_function(spell);
-    else if (spell->frame->close)
-        spell->frame->close(spell);
+    if (frame->close)
+        frame->close(spell);
     else
         spell_text(spell, "}\n");
     if (spell->out != out)
@@ -310,8 +302,9 @@ static void init(struct spell *spell)
                                             .user_type = user_type_name,
                                             .maker = spell->target->maker,
                                             .form = spell->target->form};
-    bool has_neighbours =
-        spell->stage_id == STAGE_PIXEL ? !shader_is_called(shader) : !shader->displaced;
+    bool has_neighbours = spell->stage_id == STAGE_PIXEL
+                              ? shader->role->derivatives == DERIVATIVES_OF_SCREEN
+                              : !shader->displaced;
     spell->style =
         shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)
@@ -325,7 +318,8 @@ static void init(struct spell *spell)
     }
     if (spell->options->shader_name)
         names_take(&spell->names, spell->options->shader_name, strlen(spell->options->shader_name));
-    spell->shares_vertex_data = shader->is_function && spell_functions_read_vertex_data(spell);
+    spell->shares_vertex_data =
+        shader->role->is_in_host_file && spell_functions_read_vertex_data(spell);
     spell->write_node =
         lang_is_typed(spell->style->syntax, &spell->lang_names) ? spell_typed_node : spell_node;
     spell_find_kinds(spell);

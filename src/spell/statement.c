@@ -315,7 +315,7 @@ static const char *private_name(const struct spell *spell, str_id asked)
  */
 static void write_last_light(struct spell *spell)
 {
-    if (spell->shader->is_function) {
+    if (spell->shader->role->lights == LIGHTS_OF_HOST) {
         spell_text(spell, "mxg_light_count() - 1");
         return;
     }

@@ -7,51 +7,8 @@
 #define MXG_SPELL_TARGET_H
 
 #include "closure/closure.h"
+#include "shader/role.h"
 #include "shader/network.h"
-
-enum target_caps {
-    /* a vertex stage computes the inputs of the pixel stage; otherwise shaders read the geometry */
-    CAP_VERTEX_STAGE = 1 << 0,
-    CAP_UNIFORM_BLOCKS = 1 << 1,   /* uniforms must be in blocks */
-    CAP_BLOCK_OPTION = 1 << 2,     /* uniforms can be in blocks: --uniform-blocks */
-    CAP_UNIFORM_DEFAULTS = 1 << 3, /* uniforms can have initial values */
-    CAP_BINDINGS = 1 << 4,         /* layout(binding) and locations */
-    CAP_BLOCK_STAGE_IO = 1 << 5,   /* stage inputs and outputs can be in an interface block */
-    CAP_PRECISION = 1 << 6,        /* needs default precision statements */
-    CAP_OVERLOADS = 1 << 7,        /* functions may be overloaded */
-    CAP_BITWISE = 1 << 8,          /* unsigned integers and bit operators */
-    CAP_IMPLICIT_LOD = 1 << 9,     /* texture() in pixel stages */
-    CAP_STRINGS = 1 << 10,         /* the language has strings */
-    /* the tiles of an image are array layers; otherwise the host or texture() selects the tile */
-    CAP_TEXTURE_ARRAYS = 1 << 11,
-    CAP_NAMED_WHOLES = 1 << 12, /* only variables have parts: v.x, but not (a + b).x */
-    /* texture() returns the required number of channels: one, three or four */
-    CAP_TYPED_TEXTURES = 1 << 13,
-    /* texture() takes the default of a missing image as an argument */
-    CAP_MISSING_COLORS = 1 << 14,
-    /*
-     * textures have samplers, which the host makes; otherwise texture() takes address modes and
-     * filters, but no border colours
-     */
-    CAP_SAMPLERS = 1 << 15,
-    /* each shader has its own scope of parameters, so names need no prefix */
-    CAP_SCOPED_PARAMETERS = 1 << 16,
-    /*
-     * a tangent belongs to the texture coordinates of its index; otherwise to the first ones, as in
-     * MaterialX
-     */
-    CAP_INDEXED_TANGENTS = 1 << 17,
-    CAP_SETS = 1 << 18,              /* with CAP_BINDINGS: layout(set, binding) */
-    CAP_METADATA = 1 << 19,          /* parameters have metadata */
-    CAP_VULKAN_ATTRIBUTES = 1 << 20, /* can write bindings of Vulkan beside its own */
-    CAP_STORES = 1 << 21,            /* pixel stages can write images: the deferred pipeline */
-    CAP_MEDIUMP = 1 << 22,           /* declarations can have a lower precision: --precision */
-    CAP_TWO_SOURCES = 1 << 23,       /* a pixel stage has a second source for blending */
-    CAP_SAMPLER_BINDINGS = 1 << 24, /* with CAP_BINDINGS: a texture and its sampler have one each */
-    /* not in the tables of targets: two that follow from their members */
-    CAP_LIGHTING = 1 << 29, /* the shader computes lights and layers: it has no closures */
-    CAP_NETWORKS = 1 << 30, /* has `network` */
-};
 
 struct spell; /* spell/spell.h */
 
@@ -102,10 +59,15 @@ struct target_frame {
     void (*close)(struct spell *spell);
     /*
      * Declares structs, uniforms and textures for a shader that is a function in a file of the host
-     * (spell/function_frame.c); nothing that stands once per file. NULL: the option `form` has no
-     * function.
+     * (spell/function_frame.c); nothing that stands once per file.
      */
     void (*declare_for_function)(struct spell *spell);
+};
+
+/* Capabilities that the first versions of a language lack; caps 0: there are none. */
+struct target_since {
+    uint32_t caps;
+    const char *version; /* the first that has them */
 };
 
 struct target {
@@ -117,6 +79,7 @@ struct target {
     uint32_t max_textures; /* that a stage can read; 0: that of base, or no limit */
     /* values of the option `version`, the default first; "#version" takes it */
     const char *const *versions;
+    struct target_since since;
     const struct lang_syntax *syntax;
     const struct target_closures *closures; /* NULL: no closures */
     const struct source_language *source;   /* of verbatim source; NULL: from base */
@@ -146,12 +109,30 @@ struct target {
 
 /* generators/generators.c: every target, NULL-terminated. */
 extern const struct target *const targets[];
+/* Its capabilities, with those that follow from its members. */
+uint32_t target_capabilities(const struct target *target);
+/*
+ * The capabilities of `wanted` that the target lacks in a version of its language; NULL or "": the
+ * default version.
+ */
+uint32_t target_lacks(const struct target *target, const char *version, uint32_t wanted);
 const struct target *target_find(const char *name); /* by name or MaterialX name; NULL: unknown */
 /*
  * True if `target` is `name` or inherits from it, by MaterialX name ("essl" inherits from
  * "genglsl").
  */
 bool target_is_a(const struct target *target, const char *materialx_name);
+
+/* The roles of shaders, in the order of roles.def. */
+enum role_id {
+#define ROLE(id, ...) ROLE_##id,
+#include "spell/roles.def"
+#undef ROLE
+    NUM_ROLES
+};
+extern const struct role roles[NUM_ROLES];
+const struct role *role_find(const char *name);        /* NULL: unknown */
+extern const struct target_frame spell_function_frame; /* function_frame.c */
 
 /* Support of a target for an op. */
 enum spell_support {

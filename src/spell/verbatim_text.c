@@ -27,7 +27,7 @@ static void write_token(struct spell *spell, const struct scan_word *word)
 void spell_once(struct spell *spell, const char *text, size_t len)
 {
     char guard[32];
-    if (!spell->shader->is_function) {
+    if (!spell->shader->role->is_in_host_file) {
         text_mem(spell->out, text, len);
         return;
     }

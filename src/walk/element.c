@@ -3,28 +3,28 @@
 #include "print/print.h"
 
 #include <assert.h>
-#include <stddef.h>
 
-/* The options that library functions can read. */
-static const struct known_option {
-    const char *name;
-    size_t offset; /* offset of an int in struct build_options */
-} known_options[] = {{"option_environment", offsetof(struct build_options, environment)},
-                     {"option_albedo", offsetof(struct build_options, albedo)},
-                     {"option_texture_modes", offsetof(struct build_options, texture_modes)},
-                     {"option_texture_origin", offsetof(struct build_options, texture_origin)},
-                     {"option_integrator", offsetof(struct build_options, integrator)},
-                     {"option_stored", offsetof(struct build_options, stored)},
-                     {"option_sss", offsetof(struct build_options, spreads_light)},
-                     {"option_sample_filter", offsetof(struct build_options, sample_filter)}};
-
-/* The value of "option_environment"…; NULL if no such option exists. */
-static const int *find_option(const struct build_options *options, const char *name)
+/* Finds the value of a constant that library functions can read; false if no such one exists. */
+static bool find_option(const struct builder *b, const char *name, int *out_value)
 {
-    for (size_t i = 0; i < sizeof known_options / sizeof *known_options; i++)
-        if (strcmp(name, known_options[i].name) == 0)
-            return (const int *)(const void *)((const char *)options + known_options[i].offset);
-    return NULL;
+    const struct build_options *options = b->options;
+    const struct {
+        const char *name;
+        int value;
+    } known[] = {{"option_environment", options->environment},
+                 {"option_albedo", options->albedo},
+                 {"option_texture_modes", options->texture_modes},
+                 {"option_texture_origin", options->texture_origin},
+                 {"option_sample_filter", options->sample_filter},
+                 {"option_sss", options->sss},
+                 {"option_path", b->shader->role->is_on_path},
+                 {"option_stored", role_is_pass(b->shader->role)}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(name, known[i].name) == 0) {
+            *out_value = known[i].value;
+            return true;
+        }
+    return false;
 }
 
 static ir_ref make_uniform(struct builder *b, struct ir_graph *graph,
@@ -57,9 +57,9 @@ static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struc
     case LANG_GLOBAL_STREAM: return shader_stream(b->shader, global->name, global->type);
     case LANG_GLOBAL_UNIFORM: return make_uniform(b, graph, global);
     case LANG_GLOBAL_OPTION: {
-        const int *option = find_option(b->options, str_text(unit->strings, global->name));
-        if (option)
-            return ir_const_int(graph, *option);
+        int option;
+        if (find_option(b, str_text(unit->strings, global->name), &option))
+            return ir_const_int(graph, option);
         break;
     }
     case LANG_GLOBAL_CONST: break;

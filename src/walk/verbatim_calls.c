@@ -229,7 +229,7 @@ static unsigned put_arguments(const struct source_call *c, ir_ref *out)
 {
     unsigned n = 0;
     for (unsigned i = 0; i < c->def->num_inputs; i++) {
-        bool is_number = type_of(c, i) == IR_TYPE_STRING && !c->b->options->strings;
+        bool is_number = type_of(c, i) == IR_TYPE_STRING && !(c->b->options->caps & CAP_STRINGS);
         out[n++] =
             is_number ? number_of_string(c, &c->ports[i], c->frame->args[i]) : c->frame->args[i];
     }
@@ -498,7 +498,8 @@ static const struct port *unusable_port(const struct source_call *c)
         bool is_result = i >= c->def->num_inputs && c->verbatim->function
                          && (type == IR_TYPE_SURFACE || type == IR_TYPE_DISPLACEMENT);
         bool is_shader = ir_type_is_shader(type) && !is_result;
-        bool is_wrong = is_value || has_convention(c) == c->b->options->closures;
+        bool is_wrong =
+            is_value || has_convention(c) == ((c->b->options->caps & CAP_CLOSURES) != 0);
         if (is_shader || (ir_type_is_closure(type) && is_wrong))
             return &c->ports[i];
     }

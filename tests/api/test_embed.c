@@ -456,7 +456,7 @@ static void test_semantics(void)
     mxg_result *result = generate(&h, h.document, "vulkan", true);
     check_semantics(result);
     mxg_result_destroy(result);
-    mxg_options_set(h.options, "integrator", "scatter");
+    mxg_options_set(h.options, "role", "scatter");
     result = generate(&h, h.document, "vulkan", true);
     check_semantics(result);
     mxg_result_destroy(result);

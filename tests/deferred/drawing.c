@@ -72,7 +72,7 @@ void bench_close(struct bench *b)
     compile_end();
 }
 
-bool drawing_generate(struct bench *b, const char *element, const char *pipeline,
+bool drawing_generate(struct bench *b, const char *element, const char *role_name,
                       const char *storage, mxg_result **out)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
@@ -80,7 +80,7 @@ bool drawing_generate(struct bench *b, const char *element, const char *pipeline
     desc.element = b->bindings ? NULL : element;
     desc.bindings = b->bindings;
     desc.options = b->options;
-    mxg_options_set(b->options, "pipeline", pipeline);
+    mxg_options_set(b->options, "role", role_name);
     mxg_options_set(b->options, "storage", storage);
     mxg_status status = mxg_generate(b->context, b->document, &desc, out);
     mxg_diagnostic first = {sizeof first};
@@ -91,10 +91,10 @@ bool drawing_generate(struct bench *b, const char *element, const char *pipeline
 }
 
 static bool add_program(struct bench *b, struct drawing *d, const char *element,
-                        const char *pipeline, const char *storage, enum draw_role role)
+                        const char *role_name, const char *storage, enum draw_role role)
 {
     size_t i = d->count++;
-    if (!drawing_generate(b, element, pipeline, storage, &d->results[i]))
+    if (!drawing_generate(b, element, role_name, storage, &d->results[i]))
         return false;
     d->binds[i] = (struct bind){.result = d->results[i], .scene = &b->scene, .document = b->path};
     d->binds[i].draw.role = role;
@@ -174,7 +174,7 @@ bool drawing_open(struct bench *b, const char *element, const char *storage, uin
 {
     bool has_holes;
     begin(b, d);
-    if (!add_program(b, d, element, storage ? "deferred" : "forward", storage ? storage : "dither",
+    if (!add_program(b, d, element, storage ? "deferred" : "raster", storage ? storage : "dither",
                      DRAW_LIT))
         return false;
     read_info(d, &has_holes);

@@ -44,7 +44,7 @@ struct drawing {
 };
 
 /* Generates a shader; reports what it says. */
-bool drawing_generate(struct bench *b, const char *element, const char *pipeline,
+bool drawing_generate(struct bench *b, const char *element, const char *role_name,
                       const char *storage, mxg_result **out);
 /* Opens passes on the canvas; the caller sets what is stored, shown or traced. */
 bool drawing_open_passes(struct bench *b, struct drawing *d, const struct passes_setup *what);

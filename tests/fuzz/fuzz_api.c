@@ -274,7 +274,7 @@ static void pack_values(struct machine *m, unsigned slot, unsigned argument)
 
 static void set_names(struct machine *m, unsigned slot, unsigned argument)
 {
-    static const char *const settings[][2] = {{"form", "function"},
+    static const char *const settings[][2] = {{"role", "function"},
                                               {"prefix", "a_"},
                                               {"prefix", "_"},
                                               {"rename", "u_viewPosition=eye"},

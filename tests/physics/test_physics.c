@@ -308,7 +308,7 @@ static bool start(struct run *run)
     return run->measures && mxg_context_create(&desc, &run->context) == MXG_OK
            && (run->library = mxg_library_builtin(run->context)) != NULL
            && mxg_options_create(run->context, &run->options) == MXG_OK
-           && mxg_options_set(run->options, "integrator", "path") == MXG_OK
+           && mxg_options_set(run->options, "role", "path") == MXG_OK
            && scene_init_plane(&run->scene);
 }
 

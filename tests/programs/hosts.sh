@@ -121,7 +121,7 @@ check 'a graph has its inputs' eval 'grep -qx tint names && grep -qx color_mix_b
 check 'authored inputs of all nodes can be published' uniforms M --publish all --interface authored
 check 'authored inputs are those in the document' eval 'grep -qx dim_in1 names && ! grep -qx dim_in2 names'
 
-check 'a function is generated' make Glass --form function --prefix pane_ --rename u_viewPosition=eye,normalWorld=Nw,surface=pane
+check 'a function is generated' make Glass --role function --prefix pane_ --rename u_viewPosition=eye,normalWorld=Nw,surface=pane
 check 'the function has its name' says '^pane_Surface pane\(vec3 positionWorld, vec3 Nw' Glass.frag
 check 'uniforms have the prefix' says '^    float pane_S_base;' Glass.frag
 check 'functions have the prefix' says '^float pane_mx_fresnel_dielectric' Glass.frag
@@ -130,14 +130,14 @@ check 'the shader does not declare a name of the host' eval '! says "vec3 eye;" 
 check 'the function asks for the lights' says '^void mxg_light\(int i, vec3 P, out vec3 L, out vec3 radiance\);' Glass.frag
 check 'a function has no vertex stage' eval '! [ -e out.d/Glass.vert ]'
 check 'the reflection names the function' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"function\":\"pane\",\"functionType\":\"pane_Surface\""'
-check 'a function may be without lights' make Glass --form function --lights none
+check 'a function may be without lights' make Glass --role function --lights none
 check 'a function without lights asks for none' eval '! says mxg_light Glass.frag'
 check 'a prefix goes without a function' make Glass --prefix pane_ --rename out1=host_color
 check 'the prefix is in all names' eval 'says "pane_VertexData" Glass.frag && says "pane_VertexData" Glass.vert && says "vec4 host_color" Glass.frag'
-for options in '--form function --max-lights 8' '--form function --integrator scatter' '--form function --shadow-map' \
-    '--form function --lights point_light' '--integrator scatter --shadow-map' '--integrator scatter --occlusion-map' \
-    '--integrator scatter --transmission opacity' '--integrator scatter --encode srgb' '--integrator scatter --transparency mask' \
-    '--integrator scatter --sample-filter narrow'; do
+for options in '--role function --max-lights 8' '--role function --shadow-map' \
+    '--role function --lights point_light' '--role scatter --shadow-map' '--role scatter --occlusion-map' \
+    '--role scatter --transmission opacity' '--role scatter --encode srgb' '--role scatter --transparency mask' \
+    '--role scatter --sample-filter narrow'; do
     # shellcheck disable=SC2086
     check "options without effect are an error: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "option-without-effect" err'
 done
@@ -146,12 +146,12 @@ for options in '--prefix 7up' '--prefix a__b' '--prefix gl_' '--rename u_viewPos
     # shellcheck disable=SC2086
     check "bad names are an error: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "bad-option" err'
 done
-check 'the default of an option may be given' exits 0 "$mxgen" glass.mtlx --target glsl --integrator scatter --transmission refraction --lights none --stdout
-check 'a function of OSL is wrong usage' exits 2 "$mxgen" glass.mtlx --target osl --form function --stdout
+check 'the default of an option may be given' exits 0 "$mxgen" glass.mtlx --target glsl --role scatter --transmission refraction --lights none --stdout
+check 'OSL has no functions for hosts' exits 1 "$mxgen" glass.mtlx --target osl --role function --stdout
 
 if [ -n "$compile" ]; then
     for options in '--binding-set 2 --first-binding 5' '--transmission opacity --transparency blend' '--transparency mask --encode srgb' \
-        '--form function' '--form function --prefix a_ --rename normalWorld=N' '--prefix a_' '--texture-origin top --occlusion-map' '--shadow-map --reserved main,mx_square,color' '--transparency opaque'; do
+        '--role function' '--role function --prefix a_ --rename normalWorld=N' '--prefix a_' '--texture-origin top --occlusion-map' '--shadow-map --reserved main,mx_square,color' '--transparency opaque'; do
         case $options in --binding*) targets=vulkan,hlsl ;; *) targets=glsl,vulkan,essl,essl310,hlsl ;; esac
         # shellcheck disable=SC2086
         check "a shader compiles with $options" exits 0 "$compile" glass.mtlx "$tiles" --targets $targets --interfaces complete,reduced $options

@@ -68,7 +68,7 @@ compare() {
 }
 
 for options in '' '--interface reduced' '--environment prefiltered' '--environment none --lights directional_light' '--layering two-sided' \
-    '--integrator path' '--target vulkan --interface authored'; do
+    '--role path' '--target vulkan --interface authored'; do
     check "the shaders of models.mtlx are the same with $options" compare models.mtlx --target glsl $options
 done
 for document in "$root"/examples/*.mtlx "$root"/bench/standard_surface_default.mtlx; do

@@ -61,25 +61,25 @@ cat >lamp.mtlx <<'XML'
 XML
 compare lamp 1 lamp.mtlx '-e S --environment none' '-e S --environment none' lamp=2
 
-# What MaterialX's rasters simplify, and `--integrator path` does not.
-leaf sheen '<sheen_bsdf name="bsdf" type="BSDF"/>' '--integrator path'
+# What MaterialX's rasters simplify, and `--role path` does not.
+leaf sheen '<sheen_bsdf name="bsdf" type="BSDF"/>' '--role path'
 leaf zeltner '<sheen_bsdf name="bsdf" type="BSDF"><input name="mode" type="string" value="zeltner"/></sheen_bsdf>' \
-    '--integrator path --size 96' # few pixels hold its rim
-leaf burley '<burley_diffuse_bsdf name="bsdf" type="BSDF"><input name="roughness" type="float" value="1"/></burley_diffuse_bsdf>' '--integrator path'
+    '--role path --size 96' # few pixels hold its rim
+leaf burley '<burley_diffuse_bsdf name="bsdf" type="BSDF"><input name="roughness" type="float" value="1"/></burley_diffuse_bsdf>' '--role path'
 leaf rough '<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="roughness" type="float" value="1"/></oren_nayar_diffuse_bsdf>' \
-    '--integrator path'
-leaf smooth '<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"/>' '--integrator path --interface complete' # that it is, the device alone knows
+    '--role path'
+leaf smooth '<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"/>' '--role path --interface complete' # that it is, the device alone knows
 leaf film '<dielectric_bsdf name="coat" type="BSDF"><input name="thinfilm_thickness" type="float" value="420"/><input name="thinfilm_ior" type="float"
     value="2"/></dielectric_bsdf><oren_nayar_diffuse_bsdf name="base" type="BSDF"><input name="color" type="color3" value="0.8, 0.8, 0.8"/>
   </oren_nayar_diffuse_bsdf><layer name="bsdf" type="BSDF"><input name="top" type="BSDF" nodename="coat"/><input name="base" type="BSDF"
-    nodename="base"/></layer>' '--integrator path'
-leaf hair '<chiang_hair_bsdf name="bsdf" type="BSDF"/>' '--integrator path' '--as-drawn'
+    nodename="base"/></layer>' '--role path'
+leaf hair '<chiang_hair_bsdf name="bsdf" type="BSDF"/>' '--role path' '--as-drawn'
 
 # A smooth solid, into which light goes and which it leaves.
 leaf solid '<dielectric_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0, 0"/><input name="scatter_mode"
     type="string" value="RT"/></dielectric_bsdf>' '' '--as-drawn'
 leaf inner '<dielectric_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0, 0"/><input name="scatter_mode"
-    type="string" value="RT"/></dielectric_bsdf>' '--integrator path' # what is reflected inside of it, too
+    type="string" value="RT"/></dielectric_bsdf>' '--role path' # what is reflected inside of it, too
 
 # Light that meets glass of one lobe that reflects over one that refracts comes out again: a ball of it is not seen in light from everywhere.
 write_white white.hdr
@@ -93,7 +93,7 @@ cat >furnace.mtlx <<'XML'
 </materialx>
 XML
 compare glass 1 furnace.mtlx '-e G' '-e S --environment white.hdr'
-compare 'glass, drawn with the same laws,' 1 furnace.mtlx '-e S --environment white.hdr --integrator path' '-e S --environment white.hdr'
+compare 'glass, drawn with the same laws,' 1 furnace.mtlx '-e S --environment white.hdr --role path' '-e S --environment white.hdr'
 
 # A surface that moves: bumps, by their light, and a ball that shrinks, by its size.
 compare displaced 1 "$here/../../examples/displaced.mtlx" '' '--bounces 1'

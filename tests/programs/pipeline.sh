@@ -60,7 +60,7 @@ fi
 # ---- materials ----
 
 number() { sed -n "s/.*\"$2\": \([0-9]*\).*/\1/p" "$1" | head -1; }
-check "materials are generated" "$mxgen" "$examples/deferred.mtlx" --target vulkan --pipeline deferred --interface reduced --reflect -o materials
+check "materials are generated" "$mxgen" "$examples/deferred.mtlx" --target vulkan --role deferred --interface reduced --reflect -o materials
 fits() {
     local file
     for file in materials/[!L]*.json materials/Lantern.json materials/Lacquered.json passes/[!l]*.json \
@@ -74,11 +74,11 @@ other_layout() { [ "$(number float/show.json layout)" != "$(number passes/show.j
 check "another storage has another layout" other_layout
 "$mxgen" pipeline spread --sss diffusion >/dev/null
 "$mxgen" pipeline blurred --rough-refraction blur >/dev/null
-check "a material is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --pipeline deferred --rough-refraction blur --reflect -o frosted
+check "a material is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --role deferred --rough-refraction blur --reflect -o frosted
 check "a material for blur has the layout of its passes" eval '[ "$(number frosted/Frosted.json layout)" = "$(number blurred/show.json layout)" ]'
 check "a forward shader is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --rough-refraction blur -o forward
 check "a forward shader blurs values by derivatives" grep -q 'dFdx(vd.positionWorld)' forward/Frosted.frag
-check "a path tracer is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --integrator scatter --rough-refraction blur -o traced
+check "a path tracer is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --role scatter --rough-refraction blur -o traced
 check "a path tracer blurs values by ray differentials" grep -q 'vd.dx_texcoord_0' traced/Frosted.frag
 check "nothing is blurred without the option" eval '"$mxgen" "$examples/frosted.mtlx" --target vulkan -o sharp && ! grep -q "dFdx" sharp/Frosted.frag'
 check "blur has another layout" eval '[ "$(number blurred/show.json layout)" != "$(number passes/show.json layout)" ]'
@@ -116,7 +116,7 @@ check "positions are invariant" grep -q 'invariant gl_Position' materials/Plain.
     echo '</look></materialx>'
 } >eight.mtlx
 echo /a >eight.txt
-check "a stack of eight layers is generated" "$mxgen" eight.mtlx --stage eight.txt --look L --target vulkan --pipeline deferred --reflect -o eight
+check "a stack of eight layers is generated" "$mxgen" eight.mtlx --stage eight.txt --look L --target vulkan --role deferred --reflect -o eight
 
 # ---- other materials, as slabs ----
 
@@ -127,7 +127,7 @@ cat >models.mtlx <<'X'
   <surface_unlit name="Flat" type="surfaceshader"/>
 </materialx>
 X
-as_slabs() { "$mxgen" models.mtlx --target vulkan --pipeline deferred --reflect -o models "$@" >out 2>&1; }
+as_slabs() { "$mxgen" models.mtlx --target vulkan --role deferred --reflect -o models "$@" >out 2>&1; }
 check "a model without --slabs is an error" exits 1 as_slabs -e Paint
 check "the error is closure-not-stored" grep -q closure-not-stored out
 check "a model is generated as slabs" as_slabs -e Paint --interface reduced --slabs
@@ -152,7 +152,7 @@ cat >absent.mtlx <<'X'
 </materialx>
 X
 stores_red() {
-    "$mxgen" absent.mtlx --target vulkan --pipeline deferred --interface reduced --slabs -o absent "$@" >out &&
+    "$mxgen" absent.mtlx --target vulkan --role deferred --interface reduced --slabs -o absent "$@" >out &&
         grep -q 'mx_store_closure(stored, vec3(0.75, 0.125, 0.25)' absent/SR.frag
 }
 check "a top of weight 0 hides nothing" stores_red
@@ -163,7 +163,7 @@ check "options of slabs do not change passes" eval 'cmp -s slabs/light_complex.c
 
 # ---- payloads of rays ----
 
-payload() { "$mxgen" models.mtlx -e "$1" --target "$2" --form payload --interface reduced --reflect -o rays >out 2>&1; }
+payload() { "$mxgen" models.mtlx -e "$1" --target "$2" --role payload --interface reduced --reflect -o rays >out 2>&1; }
 # A closest-hit shader around the function of a payload, with zeros as vertex data.
 wrap() {
     python3 - "$@" <<'X'
@@ -191,7 +191,7 @@ if command -v glslangValidator >/dev/null; then
     wrap comp rays/Paint.frag rays/Paint.json >hit.comp
     check "a payload compiles for OpenGL" glslangValidator hit.comp
 fi
-check "a material of many slabs gives a payload of one" eval '"$mxgen" "$examples/slabs.mtlx" -e WrappedSilk --form payload --target vulkan --stdout -q >wrapped &&
+check "a material of many slabs gives a payload of one" eval '"$mxgen" "$examples/slabs.mtlx" -e WrappedSilk --role payload --target vulkan --stdout -q >wrapped &&
     [ "$(grep -c "stored = mx_store_closure" wrapped)" = 1 ]'
 
 # ---- what is an error ----
@@ -207,11 +207,11 @@ reports() {
     shift
     exits 1 "$@" && grep -q "\[$id\]" err
 }
-check "a payload for HLSL is an error" reports options-clash "$mxgen" models.mtlx -e Paint --form payload --target hlsl -o other
-check "a payload of a path tracer is an error" reports option-without-effect "$mxgen" models.mtlx -e Paint --form payload --integrator path --target vulkan
+check "a payload for HLSL is an error" reports options-clash "$mxgen" models.mtlx -e Paint --role payload --target hlsl -o other
+check "a payload with lights is an error" reports option-without-effect "$mxgen" models.mtlx -e Paint --role payload --max-lights 8 --target vulkan
 echo '<materialx version="1.39"><constant name="c" type="color3"/></materialx>' >value.mtlx
-check "a payload of a value is an error" reports not-renderable "$mxgen" value.mtlx -e c --form payload --target vulkan -o other
-check "a closure that is no slab is an error" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --pipeline deferred -o other
+check "a payload of a value is an error" reports not-renderable "$mxgen" value.mtlx -e c --role payload --target vulkan -o other
+check "a closure that is no slab is an error" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --role deferred -o other
 {
     echo '<materialx version="1.39"><slab name="s0" type="BSDF"/>'
     for i in {1..16}; do
@@ -223,9 +223,9 @@ check "a closure that is no slab is an error" reports closure-not-stored "$mxgen
 } >many.mtlx
 sed 's/"sN"/"s16"/' many.mtlx >seventeen.mtlx
 sed 's/"sN"/"s15"/' many.mtlx >sixteen.mtlx
-check "17 slabs are an error" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --target vulkan --pipeline deferred -o many
-check "16 slabs are stored" "$mxgen" sixteen.mtlx -e SR --target vulkan --pipeline deferred -o many
-warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --pipeline deferred -o milky 2>&1 | grep -q drawn-forward; }
+check "17 slabs are an error" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --target vulkan --role deferred -o many
+check "16 slabs are stored" "$mxgen" sixteen.mtlx -e SR --target vulkan --role deferred -o many
+warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --role deferred -o milky 2>&1 | grep -q drawn-forward; }
 check "a message says that a transparent surface is drawn forward" warns
 cat >aov.mtlx <<'X'
 <materialx version="1.39">
@@ -235,11 +235,11 @@ cat >aov.mtlx <<'X'
   <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
 </materialx>
 X
-aovs_are_told() { "$mxgen" aov.mtlx --target vulkan --interface reduced --pipeline deferred -o aovs "$@" 2>&1 | grep -q "drawn forward: it has AOVs"; }
+aovs_are_told() { "$mxgen" aov.mtlx --target vulkan --interface reduced --role deferred -o aovs "$@" 2>&1 | grep -q "drawn forward: it has AOVs"; }
 check "a message says that AOVs are drawn forward" aovs_are_told
 check "nothing is drawn forward without AOVs" exits 1 aovs_are_told --aovs none
 for target in essl essl310 hlsl osl; do
-    check "passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --pipeline deferred -o no
+    check "passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
 done
 check "passes for OpenGL 3.3 are an error" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
 

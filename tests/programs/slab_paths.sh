@@ -215,7 +215,7 @@ check 'a pile beside glass has the light of a list of leaves as drawn' near "$("
 # light pays for the coat where it goes in and where it comes out
 check 'a balloon has its light as drawn' near "$("$mean_ratio" drawn_Balloon.exr Balloon.exr)" 1 0.02
 for element in Coated Tinted Sum DustyPile ChippedPile BottlePile Balloon; do # or the pictures compare lists of leaves
-    check "$element is a pile" eval "'$mxgen' among.mtlx -e $element --integrator scatter --stdout | grep -q out9"
+    check "$element is a pile" eval "'$mxgen' among.mtlx -e $element --role scatter --stdout | grep -q out9"
 done
 
 # Picks of a closure.

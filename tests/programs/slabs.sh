@@ -61,15 +61,15 @@ check 'threads give a shader of OSL' exits 0 "$mxgen" "$slabs" -e WrappedSilk --
 check 'OSL adds vectors as vectors, not as colours' eval 'grep -qF "vector weft_reflection_sum = " out && ! grep -qF "color weft_reflection_sum" out'
 check 'a clear body gives a shader of OSL' exits 0 "$mxgen" "$examples/slab_bodies.mtlx" -e Amber --target osl --stdout
 check 'OSL lets light through a body in its colour, without total reflection from behind' eval 'grep -q "transparent_bsdf()" out && ! grep -q "vector(0.33333334)" out && grep -q "float(backfacing_)" out'
-check 'glints are stored' exits 0 "$mxgen" glints.mtlx -e DustyFibre --pipeline deferred --target vulkan -o made
+check 'glints are stored' exits 0 "$mxgen" glints.mtlx -e DustyFibre --role deferred --target vulkan -o made
 check 'stored glints are lit by a pass' eval 'grep -q mx_word0 made/DustyFibre.frag && ! grep -q drawn-forward out err'
 check 'fuzz can be left out' exits 0 "$mxgen" inspect --closures "$slabs" -e DustyFibre --features -fuzz
 check 'there is no sheen without fuzz' eval '! grep -q mx_sheen out'
 
 # Payloads, and path tracers of surfaces without light
-check 'payloads of slabs compile' eval '[ -z "$compile" ] || exits 0 "$compile" "$slabs" --form payload --targets vulkan,glsl'
+check 'payloads of slabs compile' eval '[ -z "$compile" ] || exits 0 "$compile" "$slabs" --role payload --targets vulkan,glsl'
 echo '<materialx version="1.39"><surface name="Black" type="surfaceshader"/></materialx>' >black.mtlx
-check 'a black surface is traced' exits 0 "$mxgen" black.mtlx --integrator scatter --stdout
+check 'a black surface is traced' exits 0 "$mxgen" black.mtlx --role scatter --stdout
 # A volume behind glass has no place behind a slab
 cat >filled.mtlx <<'END'
 <materialx version="1.39">
@@ -98,7 +98,7 @@ check 'a volume behind nothing is generated' exits 0 "$mxgen" filled.mtlx -e Hol
     printf '<slab_layer name="all" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="x40"/></slab_layer>'
     printf '<surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="all"/></surface></materialx>\n'
 } >shared.mtlx
-check 'a tree of shared closures ends in time' exits 0 timeout 20 "$mxgen" shared.mtlx --target vulkan --integrator scatter --stdout
+check 'a tree of shared closures ends in time' exits 0 timeout 20 "$mxgen" shared.mtlx --target vulkan --role scatter --stdout
 check 'the error says that the tree is too large' grep -q 'its tree is too large' err
 check 'no shader divides by 0' eval '! grep -q "/ 0\.0" out'
 
@@ -259,7 +259,7 @@ cat >covered.mtlx <<'END'
 END
 sed 's/"weight" type="float" value="1"/"weight" type="float" value="2"/' covered.mtlx >double.mtlx
 for name in covered double; do
-  check "a path through $name is generated" eval "exits 0 '$mxgen' $name.mtlx --integrator scatter --interface reduced --stdout && cp out $name.frag"
+  check "a path through $name is generated" eval "exits 0 '$mxgen' $name.mtlx --role scatter --interface reduced --stdout && cp out $name.frag"
 done
 check 'a weight above 1 counts as 1' eval 'grep -q "matter.y >= 0.5" covered.frag && grep -q "matter.y >= 0.5" double.frag'
 

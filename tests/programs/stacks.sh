@@ -154,7 +154,7 @@ for target in glsl essl hlsl; do
 done
 check 'stochastic layers are generated for OSL' exits 0 "$mxgen" look.mtlx --stage stage.txt --slots stochastic --target osl -o osl.d
 check 'OSL picks a closure by a hash' eval 'grep -q "if (layerSample" osl.d/*.osl && grep -q "hashnoise(P, time)" osl.d/*.osl'
-check 'stacks are generated for a path tracer' exits 0 stacks --integrator scatter
+check 'stacks are generated for a path tracer' exits 0 stacks --role scatter
 check 'a path tracer picks a layer' eval '[ "$(grep -cE "^    if \(.*(distance|product|random|w)" out.d/$(program /c).frag)" -ge 1 ]'
 
 # Two layers of one material: their locals have one name, and the slot tells them apart, in every target.
@@ -193,8 +193,8 @@ check 'a layer of slabs hides by its coverage' grep -q 'vec3 color = vec3(0.75, 
 shader /c
 check 'light passes a sheet of slabs' eval 'grep -q "medium" main && grep -q "out1 = vec4(color, 1.0);" main'
 for slots in blend stochastic; do
-    check "slabs in layers are traced with $slots" exits 0 stacks --slots $slots --integrator scatter
-    [ -z "$compile" ] || check "it compiles for all targets" exits 0 "$compile" look.mtlx --stage stage.txt --slots $slots --integrator scatter --targets glsl,essl,essl310,vulkan,hlsl --interfaces complete
+    check "slabs in layers are traced with $slots" exits 0 stacks --slots $slots --role scatter
+    [ -z "$compile" ] || check "it compiles for all targets" exits 0 "$compile" look.mtlx --stage stage.txt --slots $slots --role scatter --targets glsl,essl,essl310,vulkan,hlsl --interfaces complete
     check "slabs in layers are generated for OSL with $slots" exits 0 "$mxgen" look.mtlx --stage stage.txt --slots $slots --target osl -o osl.d
     [ -z "$compile" ] || check "slabs, $slots" exits 0 "$compile" look.mtlx --stage stage.txt --slots $slots --targets vulkan,hlsl --interfaces complete
 done

@@ -332,8 +332,8 @@ static void test_functions(struct test *t)
 {
     static float a[NUM_FLOATS], b[NUM_FLOATS], both[NUM_FLOATS];
     static const char *const none[] = {NULL},
-                             *const of_a[] = {"form", "function", "prefix", "left_", NULL},
-                             *const of_b[] = {"form",
+                             *const of_a[] = {"role", "function", "prefix", "left_", NULL},
+                             *const of_b[] = {"role",
                                               "function",
                                               "prefix",
                                               "right_",

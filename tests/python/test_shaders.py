@@ -249,7 +249,7 @@ class Passes(unittest.TestCase):
         self.assertIn("diffuse", context.passes("vulkan", options={"sss": "diffusion"}))
         self.assertIn("u_lightData[1]", passes["light_simple"].pixel)
         document = context.load(common.EXAMPLES / "deferred.mtlx")
-        stored = document.generate("vulkan", "Lacquered", options={"pipeline": "deferred", "interface": "reduced"})
+        stored = document.generate("vulkan", "Lacquered", options={"role": "deferred", "interface": "reduced"})
         self.assertEqual(stored.info.stored_words, 10)
         self.assertEqual(stored.info.stored_classes & passes["light_complex"].info.stored_classes, passes["light_complex"].info.stored_classes)
         self.assertEqual(stored.info.stored_classes & passes["light_special"].info.stored_classes, 0)

@@ -146,7 +146,7 @@ def check_cut(folder, stage):
     """A cut-out whose numbers are uniforms may have any opacity, unless an option says that it is a mask."""
     path = folder / "cut.mtlx"
     path.write_text(document("cut"))
-    stores = ("--interface", "complete", "--pipeline", "deferred")
+    stores = ("--interface", "complete", "--role", "deferred")
     made = generate(path, stage, folder / "made", *stores)
     check("drawn-forward" in made.stderr, f"a cut-out of uniforms is stored: {made.stderr}")
     made = generate(path, stage, folder / "made", *stores, "--transparency", "mask")
@@ -235,7 +235,7 @@ def main():
         check_cut(folder, stage)
         if draws:
             check_traced(folder, stage)
-        stored = generate(folder / "slabs.mtlx", stage, folder / "stored", "--pipeline", "deferred", "--max-slabs", 3)
+        stored = generate(folder / "slabs.mtlx", stage, folder / "stored", "--role", "deferred", "--max-slabs", 3)
         check(stored.returncode == 0 and "drawn-forward" not in stored.stderr, f"the deferred pipeline: {stored.stderr}")
         unknown = run(MXGEN, "inspect", "--slabs", folder / "slabs.mtlx", "--stage", stage, "-e", "/bell")
         check(unknown.returncode == 1 and "did you mean '/ball'" in unknown.stderr, f"a primitive that is not there: {unknown.stderr}")

@@ -159,15 +159,29 @@ def check_semantics():
         check(semantic in known, f"semantics.def: there is no {semantic}")
 
 
+def rows_of_roles():
+    """A row for each role and reason, with the options of the tasks that the role lacks for it."""
+    options = re.findall(r'^OPTION\(\w+, "([\w-]+)", \w+, \w+, (\w+),', text_of(ROOT / "src/api/options.def"), re.MULTILINE)
+    roles = text_of(ROOT / "src/spell/roles.def").partition("---- Roles that no option")[0]
+    storage = re.search(r"#define LACKS_STORAGE(.*?)\n\n", roles, re.DOTALL)[1]
+    for name, traits in re.findall(r"^ROLE\((\w+),(.*?)\)$", roles, re.MULTILINE | re.DOTALL):
+        lacks = dict(re.findall(r'\[TASK_(\w+)\] = "([^"]*)"', traits.replace("LACKS_STORAGE", storage)))
+        reasons = {}
+        for key, task in options:
+            if task in lacks:
+                reasons.setdefault(lacks[task], []).append(f"`{key}`")
+        yield from (f"| `role={name}` | {', '.join(keys)} | {why} |" for why, keys in reasons.items())
+
+
 def check_combinations():
-    """The table of options that mean nothing together has a row for each row of combinations.def."""
-    rows = re.findall(r'^COMBINATION\((\w+), "([^"]*)", (\w+), (?:NULL|"([^"]*)"), "([^"]*)"\)', text_of(ROOT / "src/api/combinations.def"),
-                      re.MULTILINE)
-    key = lambda name: name.replace("_", "-")
-    wanted = [f"| `{key(a)}={value}` | `{key(b)}{f'={other}' if other else ''}` | {why} |" for a, value, b, other, why in rows]
-    section = text_of(ROOT / "docs/deferred.md").partition("## Combinations")[2].partition("\n## ")[0]
+    """The table of options that mean nothing together has the rows of roles.def and combinations.def."""
+    values = text_of(ROOT / "src/api/combinations.def")
+    pairs = [("role", *row) for row in re.findall(r'^ROLE_VALUE\((\w+), (\w+), "([^"]*)", "([^"]*)"\)', values, re.MULTILINE)]
+    pairs += re.findall(r'^COMBINATION\((\w+), "([^"]*)", (\w+), "([^"]*)", "([^"]*)"\)', values, re.MULTILINE)
+    wanted = [*rows_of_roles(), *(f"| `{a}={value}` | `{b}={other}` | {why} |" for a, value, b, other, why in pairs)]
+    section = text_of(ROOT / "docs/deferred.md").partition("## Roles and options")[2].partition("\n## ")[0]
     check(len(wanted) > 20 and re.findall(r"^\| `.*$", section, re.MULTILINE) == wanted,
-          "docs/deferred.md: the table of combinations differs from src/api/combinations.def")
+          "docs/deferred.md: the table of combinations differs from roles.def and combinations.def")
 
 
 def check_pictures():

@@ -37,7 +37,7 @@ static inline void fixture_open(struct fixture *f, const char *source)
     strpool_init(&f->strings, &f->arena, NULL);
     ir_graph_init(&f->graph, &f->arena, &f->strings);
     lang_unit_init(&f->unit, &f->arena, &f->strings, NULL);
-    shader_init(&f->shader, &f->arena, &f->strings, &f->graph, &f->unit);
+    shader_init(&f->shader, &roles[ROLE_raster], &f->arena, &f->strings, &f->graph, &f->unit);
     f->shader.name = word(f, "Gold");
     f->shader.element_type = word(f, "surfacematerial");
     f->color = shader_add_local(&f->shader, word(f, "color"), IR_TYPE_VEC3);

@@ -358,7 +358,7 @@ static unsigned compare_bytes(const struct run *run, mxg_document *document, con
     mxg_options *options = NULL;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     REQUIRE(mxg_options_create(run->context, &options) == MXG_OK);
-    mxg_options_set(options, "pipeline", "deferred");
+    mxg_options_set(options, "role", "deferred");
     mxg_options_set(options, "storage", "round");
     mxg_options_set(options, "interface", "reduced");
     mxg_options_set(options, "slabs", "true");

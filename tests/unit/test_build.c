@@ -6,6 +6,7 @@
 #include "build/build_priv.h"
 
 #include "layers_fixture.h"
+#include "spell/target.h"
 
 #include <stdlib.h>
 
@@ -87,7 +88,7 @@ static void work_open(struct work *w, const char *document)
     strpool_init(&w->strings, arena, &w->layers.lib.strings);
     lang_unit_init(&w->unit, arena, &w->strings, &w->layers.lib.unit);
     ir_graph_init(&w->graph, arena, &w->strings);
-    shader_init(&w->shader, arena, &w->strings, &w->graph, &w->unit);
+    shader_init(&w->shader, &roles[ROLE_raster], arena, &w->strings, &w->graph, &w->unit);
     w->options.colorspace = str_intern_z(&w->strings, "lin_rec709");
     w->options.distance_unit = str_intern_z(&w->strings, "meter");
     w->options.targets = w->targets;
@@ -215,7 +216,7 @@ static void test_variables(void)
 {
     struct work w;
     work_open(&w, authored);
-    w.options.short_names = true;
+    w.options.caps = CAP_SCOPED_PARAMETERS;
     work_build(&w, "n");
     REQUIRE_STR(uniforms(&w), "in=0.25 amount=2");
     const struct shader_variable *v = &w.shader.variables.items[0];

@@ -1,31 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * src/api/combinations.def: every pair of values of its options is generated. A pair of a row is an
- * error that names both options, and all others give a shader. A depth pass does not depend on
- * options of light and storage.
+ * Options that have no meaning with a role or with each other: every pair of their values is
+ * generated. A pair of src/api/combinations.def, or of a task that a role lacks, is an error that
+ * names both options, and all others give a shader. A depth pass does not depend on options of
+ * light and storage.
  */
 #include <mxgen/mxgen.h>
 
+#include "spell/target.h"
 #include "test.h"
 
 #include <string.h>
 
-static const struct row {
-    const char *option, *value, *other, *other_value;
-} rows[] = {
+struct row {
+    const char *option, *value, *other, *other_value; /* other_value NULL: any but the default */
+};
+
+static const struct row values[] = {
+#define ROLE_VALUE(role, option, value, why) {"role", #role, #option, value},
 #define COMBINATION(option, value, other, other_value, why) {#option, value, #other, other_value},
 #include "api/combinations.def"
+#undef ROLE_VALUE
 #undef COMBINATION
 };
-enum { NUM_ROWS = sizeof rows / sizeof *rows };
+enum { NUM_VALUES = sizeof values / sizeof *values, MAX_ROWS = 128 };
+
+static const struct task {
+    const char *option;
+    enum role_task task;
+} tasks[] = {
+#define OPTION(id, key, type, caps, task, values, initial, doc) {#id, TASK_##task},
+#include "api/options.def"
+#undef OPTION
+};
+
+/* The rows of combinations.def, and those of the tasks that roles of the option lack. */
+static struct row rows[MAX_ROWS];
+static size_t num_rows;
+
+static void find_rows(void)
+{
+    for (size_t i = 0; i < NUM_VALUES; i++)
+        rows[num_rows++] = values[i];
+    for (int role = 0; role < ROLE_closures; role++)
+        for (size_t i = 0; i < sizeof tasks / sizeof *tasks; i++)
+            if (roles[role].lacks[tasks[i].task] && REQUIRE(num_rows < MAX_ROWS))
+                rows[num_rows++] = (struct row){"role", roles[role].name, tasks[i].option, NULL};
+}
 
 /* The values of the options that have rows; the first is the default, "" where it is not set. */
 static const struct setting {
-    const char *id, *key, *values[5];
+    const char *id, *key, *values[8];
 } settings[] = {
-    {"pipeline", "pipeline", {"forward", "deferred", "depth"}},
-    {"integrator", "integrator", {"raster", "path", "scatter"}},
-    {"form", "form", {"program", "function", "payload"}},
+    {"role", "role", {"raster", "function", "path", "scatter", "deferred", "depth", "payload"}},
     {"storage", "storage", {"dither", "round", "float"}},
     {"sss", "sss", {"wrap", "diffusion"}},
     {"rough_refraction", "rough-refraction", {"sharp", "blur"}},
@@ -41,7 +68,7 @@ static const struct setting {
     {"max_lights", "max-lights", {"3", "8"}},
 };
 enum { NUM_SETTINGS = sizeof settings / sizeof *settings };
-enum { DEFERRED = 1 }; /* of the first */
+enum { DEFERRED = 4 }; /* of the first */
 
 static const char *key_of(const char *id)
 {
@@ -54,7 +81,7 @@ static const char *key_of(const char *id)
 struct run {
     mxg_context *context;
     mxg_document *document;
-    bool is_found[NUM_ROWS];
+    bool is_found[MAX_ROWS];
     unsigned good, bad;
 };
 
@@ -76,13 +103,13 @@ static bool is_row(const struct row *row, struct choice a, struct choice b)
            && strcmp(row->other, b.setting->id) == 0 && has_other;
 }
 
-/* The row of a pair, in any order; NUM_ROWS: there is none. */
+/* The row of a pair, in any order; num_rows: there is none. */
 static size_t row_of(struct choice a, struct choice b)
 {
-    size_t found = NUM_ROWS;
-    for (size_t r = 0; r < NUM_ROWS; r++)
+    size_t found = num_rows;
+    for (size_t r = 0; r < num_rows; r++)
         if (is_row(&rows[r], a, b) || is_row(&rows[r], b, a)) {
-            REQUIRE(found == NUM_ROWS);
+            REQUIRE(found == num_rows);
             found = r;
         }
     return found;
@@ -102,7 +129,7 @@ static void check_message(const mxg_result *result, const struct row *row)
         REQUIRE(strstr(diagnostic.message, one) && strstr(diagnostic.message, two));
 }
 
-/* Options of what is stored have a meaning in the deferred pipeline alone. */
+/* Options of what is stored have a meaning with the role deferred alone. */
 static bool is_of_storage(struct choice choice)
 {
     return choice.value > 0
@@ -116,42 +143,42 @@ static void test_choices(struct run *run, const struct choice *choices, size_t c
     mxg_options *options = NULL;
     mxg_result *result = NULL;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    size_t size = 0, num_rows = 0, row = NUM_ROWS;
+    size_t size = 0, num_found = 0, row = num_rows;
     REQUIRE(mxg_options_create(run->context, &options) == MXG_OK);
     for (size_t i = 0; i < count; i++) {
         const char *value = text_of(choices[i]);
         REQUIRE(!*value || mxg_options_set(options, choices[i].setting->key, value) == MXG_OK);
         for (size_t k = 0; k < i; k++) {
             size_t found = row_of(choices[i], choices[k]);
-            row = found < NUM_ROWS ? found : row;
-            num_rows += found < NUM_ROWS;
+            row = found < num_rows ? found : row;
+            num_found += found < num_rows;
         }
     }
     desc.target = "vulkan";
     desc.element = "SR";
     desc.options = options;
     mxg_status status = mxg_generate(run->context, run->document, &desc, &result);
-    if (!REQUIRE((status == MXG_OK) == (num_rows == 0)))
+    if (!REQUIRE((status == MXG_OK) == (num_found == 0)))
         for (size_t i = 0; i < count; i++)
             printf("    %s=%s\n", choices[i].setting->key, text_of(choices[i]));
-    else if (num_rows == 0)
+    else if (num_found == 0)
         REQUIRE(mxg_result_source(result, MXG_STAGE_PIXEL, &size) && size > 0);
-    else if (num_rows == 1) {
+    else if (num_found == 1) {
         check_message(result, &rows[row]);
         run->is_found[row] = true;
     } else
-        REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(result)), num_rows);
-    run->good += num_rows == 0;
-    run->bad += num_rows != 0;
+        REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(result)), num_found);
+    run->good += num_found == 0;
+    run->bad += num_found != 0;
     mxg_result_destroy(result);
     mxg_options_destroy(options);
 }
 
 static void test_pair(struct run *run, struct choice a, struct choice b)
 {
-    bool has_pipeline = a.setting == settings || b.setting == settings;
+    bool has_role = a.setting == settings || b.setting == settings;
     struct choice choices[3] = {a, b, {settings, DEFERRED}};
-    test_choices(run, choices, !has_pipeline && (is_of_storage(a) || is_of_storage(b)) ? 3 : 2);
+    test_choices(run, choices, !has_role && (is_of_storage(a) || is_of_storage(b)) ? 3 : 2);
 }
 
 static void test_options(struct run *run, const struct setting *a, const struct setting *b)
@@ -171,7 +198,7 @@ static mxg_result *generate_depth(const struct run *run, const char *key, const 
     mxg_result *result = NULL;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     REQUIRE(mxg_options_create(run->context, &options) == MXG_OK);
-    REQUIRE(mxg_options_set(options, "pipeline", "depth") == MXG_OK);
+    REQUIRE(mxg_options_set(options, "role", "depth") == MXG_OK);
     REQUIRE(mxg_options_set(options, "transparency", "mask") == MXG_OK);
     REQUIRE(!key || mxg_options_set(options, key, value) == MXG_OK);
     desc.target = "vulkan";
@@ -204,6 +231,15 @@ static void test_depth(const struct run *run)
     mxg_result_destroy(plain);
 }
 
+/* True if an option of a row is among the settings. */
+static bool is_tried(const struct row *row)
+{
+    for (size_t i = 0; i < NUM_SETTINGS; i++)
+        if (strcmp(settings[i].id, row->other) == 0)
+            return true;
+    return false;
+}
+
 int main(void)
 {
     static const char text[] =
@@ -214,6 +250,7 @@ int main(void)
         "<input name='bsdf' type='BSDF' nodename='matter'/>"
         "<input name='opacity' type='float' value='0.5'/></surface></materialx>";
     struct run run = {.good = 0};
+    find_rows();
     REQUIRE(mxg_context_create(NULL, &run.context) == MXG_OK);
     mxg_library *library = mxg_library_builtin(run.context);
     REQUIRE(mxg_document_parse(run.context, library, "c.mtlx", text, strlen(text), &run.document)
@@ -221,8 +258,8 @@ int main(void)
     for (size_t i = 0; i < NUM_SETTINGS; i++)
         for (size_t k = i + 1; k < NUM_SETTINGS; k++)
             test_options(&run, &settings[i], &settings[k]);
-    for (size_t r = 0; r < NUM_ROWS; r++)
-        if (!REQUIRE(run.is_found[r]))
+    for (size_t r = 0; r < num_rows; r++)
+        if (!REQUIRE(run.is_found[r] || !is_tried(&rows[r])))
             printf("    no pair has %s=%s, %s\n", rows[r].option, rows[r].value, rows[r].other);
     test_depth(&run);
     printf("%u pairs with a meaning, %u without\n", run.good, run.bad);

@@ -91,7 +91,8 @@ static void steps(struct generation *generation)
     run->generation = generation;
     if (!generation_start(generation) || !generation_build(generation))
         return;
-    generation->result->shader.scatters = true; /* then the view is a stream */
+    generation->role = generation->result->shader.role =
+        &roles[ROLE_scatter]; /* the view is a stream */
     generation_start_closures(generation);
     generation_walk_slabs(generation);
     run->look(run);
@@ -428,10 +429,10 @@ static void test_lights(struct run *run)
 
 /* The least and most that white metal sends back of light from all directions, at any anisotropy.
  */
-static void test_anisotropy(struct run *run, const char *integrator)
+static void test_anisotropy(struct run *run, const char *role)
 {
     double least = 1.0, most = 1.0, whole;
-    REQUIRE(mxg_options_set(run->options, "integrator", integrator) == MXG_OK);
+    REQUIRE(mxg_options_set(run->options, "role", role) == MXG_OK);
     stack_seed(1);
     for (int i = 0; i < 16; ++i) {
         struct stack stack = {.num_nodes = 1};
@@ -450,7 +451,7 @@ static void test_anisotropy(struct run *run, const char *integrator)
         most = fmax(most, whole);
     }
     run->view_turn = 0.0;
-    printf("anisotropic white metal, %s: %.4f to %.4f\n", integrator, least, most);
+    printf("anisotropic white metal, %s: %.4f to %.4f\n", role, least, most);
     REQUIRE(least > 0.985 && most < 1.005);
 }
 
@@ -464,7 +465,7 @@ int main(int argc, char **argv)
     run.library = mxg_library_builtin(run.context);
     REQUIRE(run.library != NULL);
     REQUIRE(mxg_options_create(run.context, &run.options) == MXG_OK
-            && mxg_options_set(run.options, "integrator", "scatter") == MXG_OK);
+            && mxg_options_set(run.options, "role", "scatter") == MXG_OK);
     test_one_top(&run);
     test_many_tops(&run);
     test_truth(&run);

@@ -89,7 +89,7 @@ vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N,
 {
     vec3 even = mx_oren_nayar_diffuse_bsdf_albedo(color, roughness, N, energy_compensation, V)
               * mx_environment_irradiance(mx_facing(N, V));
-    if (option_integrator == 0 || option_environment != 2)
+    if (option_path == 0 || option_environment != 2)
         return even;
     if (roughness <= 0.0) // the mean is exact: a single sample brings it
         return sample_index == 0 ? even : vec3(0.0);
@@ -113,7 +113,7 @@ float mx_burley_albedo(float c, float roughness)
 // The model reflects more than there is where it is rough and seen at grazing angles; a path tracer takes that back.
 float mx_burley_excess(float albedo)
 {
-    return option_integrator == 1 ? max(albedo, 1.0) : 1.0;
+    return option_path == 1 ? max(albedo, 1.0) : 1.0;
 }
 
 // Burley 2012, section 5.3.
@@ -146,7 +146,7 @@ float mx_burley_diffuse_bsdf_pdf(vec3 color, float roughness, vec3 N, vec3 V, ve
 
 vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec3 V, int sample_index)
 {
-    if (option_integrator == 1 && option_environment == 2)
+    if (option_path == 1 && option_environment == 2)
     {
         vec3 L, weight;
         float pdf;
@@ -216,7 +216,7 @@ vec3 mx_subsurface_light(vec3 radius, float curvature, float cos_l)
 vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)
 {
     vec3 Nf = mx_facing(N, V);
-    if (option_integrator == 1 || option_sss == 1) // no screen derivatives, or spread later: what leaves where it entered
+    if (option_path == 1 || option_sss == 1) // no screen derivatives, or spread later: what leaves where it entered
         return color * mx_cosine_pdf(Nf, L);
     if (mx_known(radius.x == radius.y) && mx_known(radius.y == radius.z))
         return color * mx_subsurface_light(radius.x, mx_curvature(Nf, P), dot(Nf, L));

@@ -78,7 +78,7 @@ vec3 mx_filtered_light(vec3 d, float texels)
     return textureLod(u_envRadiance, mx_map_point(d), level).rgb;
 }
 
-// ---- lobes by their own samples: with `--integrator path`, where an average over the hemisphere stands in for them otherwise
+// ---- lobes by their own samples: with `--role path`, where an average over the hemisphere stands in for them otherwise
 
 // Numbers for sample i: powers of the plastic number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
 vec3 mx_lobe_random(int i)

@@ -45,7 +45,7 @@ bool mx_ggx_oval(vec2 roughness)
 // which gains energy.
 bool mx_ggx_by_direction(vec2 roughness)
 {
-    return option_integrator == 1 && mx_ggx_oval(roughness);
+    return option_path == 1 && mx_ggx_oval(roughness);
 }
 
 // Roughness that the formulas can bear.
@@ -165,7 +165,7 @@ vec3 mx_ggx_reflectance(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 
                         float film, float film_ior)
 {
     vec2 albedo = mx_ggx_albedo_of(roughness, by_direction, N, X, V);
-    vec3 f = option_integrator == 0
+    vec3 f = option_path == 0
         ? mix(mx_fresnel_f0(model, n, k), f90, albedo.y)
         : mx_fresnel(max(1.0 - pow(albedo.y, 0.2), MX_EPSILON), model, n, k, f90, exponent, film, film_ior);
     return f * albedo.x * mx_ggx_compensation(albedo, model, n, k, f90, film, film_ior);
@@ -238,7 +238,7 @@ vec3 mx_ggx_eval(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, vec3
 {
     return mx_ggx_compensation(mx_ggx_albedo_of(roughness, by_direction, N, X, V), model, n, k, f90, film, film_ior)
          * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior)
-         * (option_integrator == 1 || by_direction
+         * (option_path == 1 || by_direction
                 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
                 : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness), mx_ggx_wide(roughness), V, L));
 }
@@ -365,7 +365,7 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
                        clamp(dot(s.v, h), MX_EPSILON, 1.0));
 }
 
-// The same with `--integrator path`: wherever light meets the other side of the sphere as much is reflected as on its way in, f, since the
+// The same with `--role path`: wherever light meets the other side of the sphere as much is reflected as on its way in, f, since the
 // angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets all leave at once, as MaterialX does.
 vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                   float film_ior)
@@ -405,7 +405,7 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn,
     if (option_environment == 1)
         return mx_ggx_prefiltered(roughness, mx_ggx_by_direction(roughness), N, X, V, ior, model, n, k, f90, exponent, film, film_ior);
     mx_GgxSamples samples = mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V);
-    if (option_integrator == 1)
+    if (option_path == 1)
         return mx_ggx_solid(samples, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior);
     mx_GgxLight light = mx_ggx_transmitted(samples, ior, i, turn);
     return (1.0 - (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)

@@ -222,7 +222,7 @@ vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, f
                                      vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V,
                                      int sample_index, vec2 sample_turn)
 {
-    if (option_integrator == 1 && option_environment == 2)
+    if (option_path == 1 && option_environment == 2)
     {
         vec3 L, weight;
         float pdf;

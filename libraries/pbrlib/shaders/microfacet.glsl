@@ -14,7 +14,7 @@ vec3 mx_refraction_tint(vec3 tint)
 // Index in front of V over that behind the surface; a path tracer sees backs from inside.
 float mx_index_ahead(float ior, vec3 N, vec3 V)
 {
-    return option_integrator == 1 && dot(N, V) < 0.0 ? 1.0 / ior : ior;
+    return option_path == 1 && dot(N, V) < 0.0 ? 1.0 / ior : ior;
 }
 
 // V as the reflecting lobe of L sees it: a retroreflective one is turned by half around N.

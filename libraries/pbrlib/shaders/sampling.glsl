@@ -3,8 +3,8 @@
 
 #include "frame.glsl"
 
-const int option_integrator = 0; // 0 raster, 1 path tracing
-const int option_stored = 0; // 1: closures come from the storage of the deferred pipeline
+const int option_path = 0; // 1: the caller traces paths, which come from inside bodies, too
+const int option_stored = 0; // 1: a pass, whose closures come from the storage of the deferred pipeline
 const int option_sss = 0; // 1: a pass of that pipeline spreads subsurface light
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.

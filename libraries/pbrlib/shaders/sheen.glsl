@@ -97,7 +97,7 @@ void mx_sheen_bsdf_sample(vec3 color, float roughness, vec3 N, string mode, vec3
 
 vec3 mx_sheen_bsdf_environment(vec3 color, float roughness, vec3 N, string mode, vec3 V, int sample_index)
 {
-    if (option_integrator == 1 && option_environment == 2)
+    if (option_path == 1 && option_environment == 2)
     {
         vec3 L, weight;
         float pdf;

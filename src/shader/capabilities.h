@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What a target can do. Targets have capabilities; roles and options ask for them. */
+#ifndef MXG_SHADER_CAPABILITIES_H
+#define MXG_SHADER_CAPABILITIES_H
+
+enum target_caps {
+    /* a vertex stage computes the inputs of the pixel stage; otherwise shaders read the geometry */
+    CAP_VERTEX_STAGE = 1 << 0,
+    CAP_UNIFORM_BLOCKS = 1 << 1,   /* uniforms must be in blocks */
+    CAP_BLOCK_OPTION = 1 << 2,     /* uniforms can be in blocks: --uniform-blocks */
+    CAP_UNIFORM_DEFAULTS = 1 << 3, /* uniforms can have initial values */
+    CAP_BINDINGS = 1 << 4,         /* layout(binding) and locations */
+    CAP_BLOCK_STAGE_IO = 1 << 5,   /* stage inputs and outputs can be in an interface block */
+    CAP_PRECISION = 1 << 6,        /* needs default precision statements */
+    CAP_OVERLOADS = 1 << 7,        /* functions may be overloaded */
+    CAP_BITWISE = 1 << 8,          /* unsigned integers and bit operators */
+    CAP_IMPLICIT_LOD = 1 << 9,     /* texture() in pixel stages */
+    CAP_STRINGS = 1 << 10,         /* the language has strings */
+    /* the tiles of an image are array layers; otherwise the host or texture() selects the tile */
+    CAP_TEXTURE_ARRAYS = 1 << 11,
+    CAP_NAMED_WHOLES = 1 << 12, /* only variables have parts: v.x, but not (a + b).x */
+    /* texture() returns the required number of channels: one, three or four */
+    CAP_TYPED_TEXTURES = 1 << 13,
+    /* texture() takes the default of a missing image as an argument */
+    CAP_MISSING_COLORS = 1 << 14,
+    /*
+     * textures have samplers, which the host makes; otherwise texture() takes address modes and
+     * filters, but no border colours
+     */
+    CAP_SAMPLERS = 1 << 15,
+    /* each shader has its own scope of parameters, so names need no prefix */
+    CAP_SCOPED_PARAMETERS = 1 << 16,
+    /*
+     * a tangent belongs to the texture coordinates of its index; otherwise to the first ones, as in
+     * MaterialX
+     */
+    CAP_INDEXED_TANGENTS = 1 << 17,
+    CAP_SETS = 1 << 18,              /* with CAP_BINDINGS: layout(set, binding) */
+    CAP_METADATA = 1 << 19,          /* parameters have metadata */
+    CAP_VULKAN_ATTRIBUTES = 1 << 20, /* can write bindings of Vulkan beside its own */
+    CAP_STORES = 1 << 21,            /* pixel stages can write images: the deferred pipeline */
+    CAP_MEDIUMP = 1 << 22,           /* declarations can have a lower precision: --precision */
+    CAP_TWO_SOURCES = 1 << 23,       /* a pixel stage has a second source for blending */
+    CAP_SAMPLER_BINDINGS = 1 << 24, /* with CAP_BINDINGS: a texture and its sampler have one each */
+    /* not in the tables of targets, because they follow from their members */
+    CAP_CLOSURES = 1 << 28, /* the language has closures: its renderer computes lights and layers */
+    CAP_LIGHTING = 1 << 29, /* the shader computes lights and layers: it has no closures */
+    CAP_NETWORKS = 1 << 30, /* has `network` */
+};
+
+#endif

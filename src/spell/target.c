@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What targets and roles say of themselves. */
+#include "spell/spell.h"
+
+#include <string.h>
+
+const struct role roles[NUM_ROLES] = {
+#define ROLE(id, ...) [ROLE_##id] = {.name = #id, __VA_ARGS__},
+#include "spell/roles.def"
+#undef ROLE
+};
+
+const struct role *role_find(const char *name)
+{
+    for (int i = 0; i < NUM_ROLES; i++)
+        if (strcmp(roles[i].name, name) == 0)
+            return &roles[i];
+    return NULL;
+}
+
+uint32_t target_capabilities(const struct target *target)
+{
+    return target->caps | (target->closures ? CAP_CLOSURES : CAP_LIGHTING)
+           | (target->network ? CAP_NETWORKS : 0u);
+}
+
+uint32_t target_lacks(const struct target *target, const char *version, uint32_t wanted)
+{
+    uint32_t lacks = wanted & ~target_capabilities(target);
+    bool is_early =
+        version && *version && target->since.caps && strcmp(version, target->since.version) < 0;
+    return is_early ? lacks | (wanted & target->since.caps) : lacks;
+}
