@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// OpenPBR Surface specification, "Microfacet model".
+// Squared roughness along X and across (OpenPBR Surface specification, "Microfacet model").
 vec2 mx_open_pbr_anisotropy(float roughness, float anisotropy)
 {
     float aspect = 1.0 - anisotropy;

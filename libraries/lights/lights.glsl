@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light sources; the falloff pow(distance + 1, -decay) stays finite at the light.
 
+// A light from one direction.
 void mx_directional_light(vec3 direction, vec3 color, float intensity, vec3 P, out vec3 to_light, out vec3 radiance)
 {
     to_light = -direction;
     radiance = color * intensity;
 }
 
+// Intensity of a light at the vector d from it: pow(distance + 1, -decay_rate), which stays finite at the light.
 float mx_falloff(vec3 d, float intensity, float decay_rate)
 {
     return intensity / pow(length(d) + 1.0, decay_rate);
 }
 
+// A light at a position that shines alike in all directions.
 void mx_point_light(vec3 position, vec3 color, float intensity, float decay_rate, vec3 P, out vec3 to_light,
                     out vec3 radiance)
 {
@@ -20,12 +23,15 @@ void mx_point_light(vec3 position, vec3 color, float intensity, float decay_rate
     radiance = color * mx_falloff(d, intensity, decay_rate);
 }
 
-// inner_angle and outer_angle are cosines; the edge is never quite sharp, where smoothstep would be undefined.
+// Share of a cone of light that arrives from to_light; inner_angle and outer_angle are cosines.
+//
+// The edge is never quite sharp, where smoothstep would be undefined.
 float mx_cone(vec3 to_light, vec3 direction, float inner_angle, float outer_angle)
 {
     return smoothstep(min(inner_angle, outer_angle) - 1e-5, inner_angle, -dot(to_light, direction));
 }
 
+// A light at a position that shines into a cone; inner_angle and outer_angle are cosines.
 void mx_spot_light(vec3 position, vec3 direction, vec3 color, float intensity, float decay_rate, float inner_angle,
                    float outer_angle, vec3 P, out vec3 to_light, out vec3 radiance)
 {
@@ -35,7 +41,8 @@ void mx_spot_light(vec3 position, vec3 direction, vec3 color, float intensity, f
     radiance = color * (mx_falloff(d, intensity, decay_rate) * cone);
 }
 
-// The irradiance of a surface that faces a sphere of radiance 1, pi r^2 / d^2; within the sphere that of its surface.
+// A sphere of radiance 1: the irradiance of a surface that faces it is pi r^2 / d^2; within the sphere that of its
+// surface.
 void mx_sphere_light(vec3 position, vec3 direction, vec3 color, float intensity, float radius, float inner_angle,
                      float outer_angle, vec3 P, out vec3 to_light, out vec3 radiance)
 {
@@ -45,7 +52,9 @@ void mx_sphere_light(vec3 position, vec3 direction, vec3 color, float intensity,
     radiance = color * (3.14159265 * part * intensity * mx_cone(to_light, direction, inner_angle, outer_angle));
 }
 
-// The same for a disk of radiance 1, pi r^2 / (r^2 + d^2), which is exact on its axis; beside it the disk seems smaller.
+// A disk of radiance 1: the irradiance of a surface that faces it is pi r^2 / (r^2 + d^2).
+//
+// This is exact on its axis; beside it the disk seems smaller.
 void mx_disk_light(vec3 position, vec3 direction, vec3 color, float intensity, float radius, float inner_angle,
                    float outer_angle, vec3 P, out vec3 to_light, out vec3 radiance)
 {

@@ -11,37 +11,40 @@ uniform float u_layerSample; // in OSL a number for each point
 // ---- diffuse reflection of an opaque medium --------------------------------------------------------------------------
 // Chan 2018, "Material Advances in Call of Duty: WWII", divided by its directional albedo, which is 0.31 to 1.12.
 
-// Gloss of Chan's lobe for a roughness, 0 to 1.
+// Gloss of Chan's diffuse lobe for a roughness, 0 to 1 (Chan 2018, "Material Advances in Call of Duty: WWII").
 float mx_chan_gloss(float roughness)
 {
     float square = clamp(roughness * roughness, 1e-3, 1.0);
     return clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
 }
 
+// x^5.
 float mx_power5(float x)
 {
     return x * x * x * x * x;
 }
 
-// Share of the smooth surface.
+// Share of the smooth surface in Chan's lobe of gloss g.
 float mx_chan_smoothness(float g)
 {
     return clamp(2.2 * g - 0.5, 0.0, 1.0);
 }
 
-// Height and fall of the bump of light that a rough surface sends back.
+// Height and fall of the bump of light that a rough surface of gloss g sends back.
 vec2 mx_chan_bump(float g)
 {
     return vec2((34.5 * g - 59.0) * g + 24.5, max(73.2 * g - 21.2, 8.9));
 }
 
-// What a smooth surface lets in or out.
+// Part of the light that a smooth surface lets in or out at the cosine c.
 float mx_chan_even(float c)
 {
     return 1.0 - 0.75 * mx_power5(1.0 - c);
 }
 
-// 1 / (pi times the directional albedo). The program fits/chan.c makes the constants; within 0.0012.
+// 1 / (pi times the directional albedo) of Chan's lobe of gloss g at the cosine c, within 0.0012.
+//
+// The program fits/chan.c makes the constants.
 float mx_chan_share(float c, float g)
 {
     const mat4 FIT = mat4(0.7111, 0.0005, 0.4749, 0.0263, 0.1526, 0.0031, 1.0260, -0.7185, 0.1026, -0.0048, -2.2232, 0.3473,
@@ -52,7 +55,8 @@ float mx_chan_share(float c, float g)
     return 1.0 / (MX_PI * (plain + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c)));
 }
 
-// The lobe for a light whose half vector is cos_d from V, times the directional albedo; `even` is what the viewer sees of a smooth surface.
+// Chan's diffuse lobe of gloss g, times its directional albedo, for a light whose half vector has the cosine cos_d
+// to V; `even` is the part that a smooth surface lets out to the viewer.
 float mx_chan_lobe(float g, float cos_v, float cos_l, float cos_d, float even)
 {
     vec2 bump = mx_chan_bump(g);
@@ -61,7 +65,7 @@ float mx_chan_lobe(float g, float cos_v, float cos_l, float cos_d, float even)
     return max(mix(rough, even * mx_chan_even(cos_l), mx_chan_smoothness(g)) + bump.x * cos_d * exp2(-bump.y * sqrt(cos_h)), 0.0);
 }
 
-// The lobe times the light's cosine, for albedo 1.
+// Chan's diffuse lobe over its directional albedo, times the cosine of L, for the albedo 1.
 float mx_chan(float g, vec3 N, vec3 V, vec3 L)
 {
     float cos_v = mx_view_cosine(N, V);
@@ -69,8 +73,10 @@ float mx_chan(float g, vec3 N, vec3 V, vec3 L)
     return mx_chan_lobe(g, cos_v, cos_l, mx_half_cosine(V, L), mx_chan_even(cos_v)) * cos_l * mx_chan_share(cos_v, g);
 }
 
-// Around where the lobe receives light: the normal, bent towards the viewer as far as the mean direction of the lobe, within 0.023 radians by
-// the program fits/chan.c. A smooth surface does not bend it.
+// The direction around which Chan's lobe of gloss g receives light: the normal, bent to the viewer as far as the
+// mean direction of the lobe.
+//
+// Within 0.023 radians by the program fits/chan.c. A smooth surface does not bend it.
 vec3 mx_chan_axis(float g, vec3 N, vec3 V)
 {
     float s = mx_chan_smoothness(g);
@@ -87,14 +93,15 @@ const float MX_MEAN_WAY = 1.1458980; // over cosine-weighted directions: 4.5 - 1
 const float MX_CLEAR_PATH = 1e6; // of a clear medium, by which src/slabs/recognise.c knows matter that is an interface only
 const float MX_MOST_ANISOTROPIC = 0.95; // of phase functions: beyond, all light would go straight on
 
+// How far light goes through a medium of index 1.5, over the thickness, on its way to or from V.
 float mx_way(vec3 N, vec3 V)
 {
     float c = dot(N, V);
     return 1.5 * inversesqrt(1.25 + c * c);
 }
 
-// s of Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks": the albedo of one scattering is 1 - s^2 where the medium
-// scatters evenly and reflects `color` at infinite thickness.
+// The number s of a medium that reflects `color` at infinite thickness: the albedo of one scattering is 1 - s^2
+// (Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks").
 vec3 mx_medium_loss(vec3 color)
 {
     vec3 c = clamp(color, 0.0, 1.0);
@@ -102,16 +109,19 @@ vec3 mx_medium_loss(vec3 color)
     return mix(s, vec3(1.0), step(c, vec3(0.0))); // exactly: no albedo, no scattering
 }
 
-// Optical depth along the normal of the even medium that stands for one with the phase anisotropy g, by similarity.
+// Optical depth, along the normal, of the medium that scatters evenly and stands for one with the phase anisotropy
+// g, by similarity.
 vec3 mx_medium_depth(vec3 loss, vec3 mean_free_path, float g, float thickness)
 {
     float forward = clamp(g, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC);
     return max(thickness, 0.0) / max(mean_free_path, 1e-6) * (1.0 - forward) / (1.0 - forward * loss * loss);
 }
 
-// What the layer of the medium reflects and lets through, with all orders of scattering, of light on a way x. Kubelka and Munk's layer (1931)
-// with coefficients by the program fits/medium.c, which follows light at random; within 0.0053. Nothing is lost where the albedo is 1.
-// a: albedo of one scattering, t: optical depth
+// Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a
+// way: a is the albedo of one scattering, t the optical depth (after Kubelka and Munk 1931).
+//
+// Coefficients by the program fits/medium.c, which follows light at random; within 0.0053. Nothing is lost where
+// the albedo is 1.
 vec3 mx_medium_layer(vec3 a, vec3 t, float way, out vec3 transmitted)
 {
     vec3 u = t / (1.0 + t);
@@ -133,7 +143,9 @@ bool mx_is_black(vec3 color)
     return max(color.x, max(color.y, color.z)) <= 0.0;
 }
 
-// What the layer of a medium lets through; the same as of mx_medium_layer. A medium without scattering has only absorption (Beer, Lambert).
+// Light that the layer of a medium lets through on a way.
+//
+// A medium without scattering has only absorption (Beer, Lambert).
 vec3 mx_medium_through(vec3 color, vec3 mean_free_path, float g, float thickness, float way)
 {
     vec3 loss = mx_medium_loss(color);
@@ -145,6 +157,7 @@ vec3 mx_medium_through(vec3 color, vec3 mean_free_path, float g, float thickness
     return through;
 }
 
+// Light that the layer of a medium reflects on a way.
 vec3 mx_medium_reflected(vec3 color, vec3 mean_free_path, float g, float thickness, float way)
 {
     if (mx_is_black(color))
@@ -154,8 +167,10 @@ vec3 mx_medium_reflected(vec3 color, vec3 mean_free_path, float g, float thickne
     return mx_medium_layer(1.0 - loss * loss, mx_medium_depth(loss, mean_free_path, g, thickness), way, ignored);
 }
 
-// Coefficients of the medium over a length, for light that walks through it at random; 0 where it is opaque. g by similarity, see
-// mx_medium_depth.
+// Scattering coefficient of a medium over a length, for light that walks through it at random; 0 where it is
+// opaque.
+//
+// g by similarity, see mx_medium_depth.
 vec3 mx_medium_scattering(vec3 color, vec3 mean_free_path, float g, float length)
 {
     if (mx_is_black(mean_free_path) || mx_is_black(color))
@@ -164,6 +179,8 @@ vec3 mx_medium_scattering(vec3 color, vec3 mean_free_path, float g, float length
     return max(length, 0.0) / max(mean_free_path, 1e-6) * (1.0 - loss * loss) / (1.0 - clamp(g, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC) * loss * loss);
 }
 
+// Absorption coefficient of a medium over a length, for light that walks through it at random; 0 where it is
+// opaque.
 vec3 mx_medium_absorption(vec3 color, vec3 mean_free_path, float g, float length)
 {
     if (mx_is_black(mean_free_path))
@@ -173,14 +190,16 @@ vec3 mx_medium_absorption(vec3 color, vec3 mean_free_path, float g, float length
 
 // ---- values of the lobes ---------------------------------------------------------------------------------------------
 
-// The hue of f90 with the brightness 1. The interface fades out where f0 falls below 0.02, less than any matter reflects.
+// Reflectance at grazing angles: the hue of f90 with the brightness 1. The interface fades out where f0 falls below
+// 0.02, less than any matter reflects.
 vec3 mx_slab_grazing(vec3 f0, vec3 f90)
 {
     vec3 hue = max(f90, 0.0) / max(max(f90.x, max(f90.y, f90.z)), MX_EPSILON);
     return hue * clamp(50.0 * max(f0.x, max(f0.y, f0.z)), 0.0, 1.0);
 }
 
-// Of a medium that lets `transmittance` through a thickness (Beer, Lambert): 0 lets nothing through, and nearly 1 nearly all.
+// Mean free path of a medium that lets `transmittance` through a thickness (Beer, Lambert): 0 lets nothing through,
+// and nearly 1 nearly all.
 vec3 mx_slab_mean_free_path(vec3 transmittance, float thickness)
 {
     vec3 through = clamp(transmittance, 0.0, 0.99999);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Range and color adjustments.
 
-// Defined for low >= high too, where smoothstep() is not.
+// A smooth step from 0 at `low` to 1 at `high`; where low >= high, a sharp one at `high`.
 float mx_smoothstep(float x, float low, float high)
 {
-    return x >= high ? 1.0 : x <= low ? 0.0 : smoothstep(low, high, x);
+    return low < high ? smoothstep(low, high, x) : step(high, x);
 }
 
 vec2 mx_smoothstep(vec2 x, vec2 low, vec2 high)

@@ -9,11 +9,13 @@
 // Hashing: Bob Jenkins, "lookup3.c", 2006. A key of n words starts from three equal words, takes three words at a
 // time with a mix between, and ends with the final scramble.
 
+// The bits of x, rotated to the left.
 uint mx_rotate_left(uint x, int bits)
 {
     return (x << bits) | (x >> (32 - bits));
 }
 
+// Mixes three words of a hash (Bob Jenkins, "lookup3.c", 2006).
 void mx_hash_mix(inout uint a, inout uint b, inout uint c)
 {
     a -= c; a ^= mx_rotate_left(c,  4); c += b;
@@ -24,6 +26,7 @@ void mx_hash_mix(inout uint a, inout uint b, inout uint c)
     c -= b; c ^= mx_rotate_left(b,  4); b += a;
 }
 
+// Final scramble of a hash (Bob Jenkins, "lookup3.c", 2006).
 uint mx_hash_final(uint x, uint y, uint z)
 {
     uint a = x;
@@ -39,23 +42,27 @@ uint mx_hash_final(uint x, uint y, uint z)
     return c;
 }
 
+// The number that a hash of so many words starts from (Bob Jenkins, "lookup3.c", 2006).
 uint mx_hash_start(uint words)
 {
     return 0xdeadbeefu + (words << 2) + 13u;
 }
 
+// A hash of two integers.
 uint mx_hash(int x, int y)
 {
     uint start = mx_hash_start(2u);
     return mx_hash_final(start + uint(x), start + uint(y), start);
 }
 
+// A hash of three integers.
 uint mx_hash(int x, int y, int z)
 {
     uint start = mx_hash_start(3u);
     return mx_hash_final(start + uint(x), start + uint(y), start + uint(z));
 }
 
+// A hash of four integers.
 uint mx_hash(int x, int y, int z, int w)
 {
     uint start = mx_hash_start(4u);
@@ -66,6 +73,7 @@ uint mx_hash(int x, int y, int z, int w)
     return mx_hash_final(a + uint(w), b, c);
 }
 
+// A hash of five integers.
 uint mx_hash(int x, int y, int z, int w, int v)
 {
     uint start = mx_hash_start(5u);
@@ -81,16 +89,19 @@ uint mx_hash(int x, int y, int z, int w, int v)
 const float MX_PERLIN_SCALE_2D = 0.6616; // what brings the sums of gradients below to the range -1 to 1
 const float MX_PERLIN_SCALE_3D = 0.9820;
 
+// The curve 6t^5 - 15t^4 + 10t^3 between lattice points (Perlin 2002, "Improving Noise").
 vec2 mx_fade(vec2 t)
 {
     return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
 
+// The curve 6t^5 - 15t^4 + 10t^3 between lattice points (Perlin 2002, "Improving Noise").
 vec3 mx_fade(vec3 t)
 {
     return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
 
+// x, negative where `negative` is not 0.
 float mx_signed(float x, uint negative)
 {
     return negative != 0u ? -x : x;
@@ -114,17 +125,19 @@ float mx_gradient(uint hash, vec3 p)
     return mx_signed(u, h & 1u) + mx_signed(v, h & 2u);
 }
 
-// Each byte of a hash serves one component.
+// A gradient for each component: each byte of the hash serves one.
 vec3 mx_gradient_vec3(uint hash, vec2 p)
 {
     return vec3(mx_gradient(hash, p), mx_gradient(hash >> 8, p), mx_gradient(hash >> 16, p));
 }
 
+// A gradient for each component: each byte of the hash serves one.
 vec3 mx_gradient_vec3(uint hash, vec3 p)
 {
     return vec3(mx_gradient(hash, p), mx_gradient(hash >> 8, p), mx_gradient(hash >> 16, p));
 }
 
+// Perlin noise at the point p, from -1 to 1.
 float mx_noise_float(vec2 p)
 {
     vec2 cell = floor(p);
@@ -139,6 +152,7 @@ float mx_noise_float(vec2 p)
     return MX_PERLIN_SCALE_2D * mix(mix(v00, v10, w.x), mix(v01, v11, w.x), w.y);
 }
 
+// Perlin noise at the point p, in three components.
 vec3 mx_noise_vec3(vec2 p)
 {
     vec2 cell = floor(p);
@@ -153,7 +167,8 @@ vec3 mx_noise_vec3(vec2 p)
     return MX_PERLIN_SCALE_2D * mix(mix(v00, v10, w.x), mix(v01, v11, w.x), w.y);
 }
 
-// One face of the cube around a point, at height z.
+// Perlin noise on one face of the lattice cube around a point, at the height z; f is the point in the cube, w its
+// weights.
 float mx_noise_face(int x, int y, int z, vec3 f, vec3 w)
 {
     float v00 = mx_gradient(mx_hash(x, y, z), f);
@@ -163,6 +178,7 @@ float mx_noise_face(int x, int y, int z, vec3 f, vec3 w)
     return mix(mix(v00, v10, w.x), mix(v01, v11, w.x), w.y);
 }
 
+// Perlin noise at the point p, from -1 to 1.
 float mx_noise_float(vec3 p)
 {
     vec3 cell = floor(p);
@@ -175,6 +191,7 @@ float mx_noise_float(vec3 p)
                                  mx_noise_face(x, y, z + 1, f - vec3(0.0, 0.0, 1.0), w), w.z);
 }
 
+// Perlin noise, in three components, on one face of the lattice cube around a point, at the height z.
 vec3 mx_noise_face_vec3(int x, int y, int z, vec3 f, vec3 w)
 {
     vec3 v00 = mx_gradient_vec3(mx_hash(x, y, z), f);
@@ -184,6 +201,7 @@ vec3 mx_noise_face_vec3(int x, int y, int z, vec3 f, vec3 w)
     return mix(mix(v00, v10, w.x), mix(v01, v11, w.x), w.y);
 }
 
+// Perlin noise at the point p, in three components.
 vec3 mx_noise_vec3(vec3 p)
 {
     vec3 cell = floor(p);
@@ -203,6 +221,8 @@ vec4 mx_noise_vec4(vec3 p) { return vec4(mx_noise_vec3(p), mx_noise_float(p + ve
 
 // Fractal noise: octaves of Perlin noise, each finer by lacunarity and weaker by diminish.
 
+// Fractal noise in one component: octaves of Perlin noise, each finer by `lacunarity` and weaker by `diminish` than
+// the one before.
 float mx_fractal_float(vec2 p, int octaves, float lacunarity, float diminish)
 {
     float sum = 0.0;
@@ -216,6 +236,8 @@ float mx_fractal_float(vec2 p, int octaves, float lacunarity, float diminish)
     return sum;
 }
 
+// Fractal noise in one component: octaves of Perlin noise, each finer by `lacunarity` and weaker by `diminish` than
+// the one before.
 float mx_fractal_float(vec3 p, int octaves, float lacunarity, float diminish)
 {
     float sum = 0.0;
@@ -229,6 +251,8 @@ float mx_fractal_float(vec3 p, int octaves, float lacunarity, float diminish)
     return sum;
 }
 
+// Fractal noise in three components: octaves of Perlin noise, each finer by `lacunarity` and weaker by `diminish`
+// than the one before.
 vec3 mx_fractal_vec3(vec2 p, int octaves, float lacunarity, float diminish)
 {
     vec3 sum = vec3(0.0);
@@ -242,6 +266,8 @@ vec3 mx_fractal_vec3(vec2 p, int octaves, float lacunarity, float diminish)
     return sum;
 }
 
+// Fractal noise in three components: octaves of Perlin noise, each finer by `lacunarity` and weaker by `diminish`
+// than the one before.
 vec3 mx_fractal_vec3(vec3 p, int octaves, float lacunarity, float diminish)
 {
     vec3 sum = vec3(0.0);
@@ -283,29 +309,34 @@ vec4 mx_fractal_vec4(vec3 p, int octaves, float lacunarity, float diminish)
 
 // Cell noise: a random number, from 0 to 1, for each cell of the integer lattice.
 
+// A number from 0 to 1 from the bits of a hash.
 float mx_unit(uint hash)
 {
     return float(hash) / 4294967295.0;
 }
 
+// Cell noise: a random number from 0 to 1 for each cell of the integer lattice.
 float mx_cellnoise_float(vec2 p)
 {
     vec2 cell = floor(p);
     return mx_unit(mx_hash(int(cell.x), int(cell.y)));
 }
 
+// Cell noise: a random number from 0 to 1 for each cell of the integer lattice.
 float mx_cellnoise_float(vec3 p)
 {
     vec3 cell = floor(p);
     return mx_unit(mx_hash(int(cell.x), int(cell.y), int(cell.z)));
 }
 
+// Cell noise: a random number from 0 to 1 for each cell of the integer lattice.
 float mx_cellnoise_float(vec4 p)
 {
     vec4 cell = floor(p);
     return mx_unit(mx_hash(int(cell.x), int(cell.y), int(cell.z), int(cell.w)));
 }
 
+// Cell noise: three random numbers from 0 to 1 for each cell of the integer lattice.
 vec3 mx_cellnoise_vec3(vec2 p)
 {
     vec2 cell = floor(p);
@@ -314,6 +345,7 @@ vec3 mx_cellnoise_vec3(vec2 p)
     return vec3(mx_unit(mx_hash(x, y, 0)), mx_unit(mx_hash(x, y, 1)), mx_unit(mx_hash(x, y, 2)));
 }
 
+// Cell noise: three random numbers from 0 to 1 for each cell of the integer lattice.
 vec3 mx_cellnoise_vec3(vec3 p)
 {
     vec3 cell = floor(p);
@@ -323,6 +355,7 @@ vec3 mx_cellnoise_vec3(vec3 p)
     return vec3(mx_unit(mx_hash(x, y, z, 0)), mx_unit(mx_hash(x, y, z, 1)), mx_unit(mx_hash(x, y, z, 2)));
 }
 
+// Cell noise: three random numbers from 0 to 1 for each cell of the integer lattice.
 vec3 mx_cellnoise_vec3(vec4 p)
 {
     vec4 cell = floor(p);
@@ -346,7 +379,8 @@ vec3 mx_insert_distance(vec3 nearest, float d)
     return vec3(nearest.xy, min(nearest.z, d));
 }
 
-// Returns the nearest point, and the squared distances to the three nearest.
+// The nearest feature point around p, and the squared distances to the three nearest; `jitter` moves the points
+// about the centres of the cells (Worley 1996, "A Cellular Texture Basis Function").
 vec2 mx_worley(vec2 p, float jitter, out vec3 distances)
 {
     vec2 cell = floor(p);
@@ -366,6 +400,8 @@ vec2 mx_worley(vec2 p, float jitter, out vec3 distances)
     return p + nearest;
 }
 
+// The nearest feature point around p, and the squared distances to the three nearest; `jitter` moves the points
+// about the centres of the cells (Worley 1996, "A Cellular Texture Basis Function").
 vec3 mx_worley(vec3 p, float jitter, out vec3 distances)
 {
     vec3 cell = floor(p);
@@ -387,6 +423,7 @@ vec3 mx_worley(vec3 p, float jitter, out vec3 distances)
     return p + nearest;
 }
 
+// Worley noise: the distance to the nearest feature point, or with style 1 the cell noise at it.
 float mx_worley_float(vec2 p, float jitter, int style)
 {
     vec3 distances;
@@ -394,6 +431,7 @@ float mx_worley_float(vec2 p, float jitter, int style)
     return style == 1 ? mx_cellnoise_float(nearest) : sqrt(distances.x);
 }
 
+// Worley noise: the distance to the nearest feature point, or with style 1 the cell noise at it.
 float mx_worley_float(vec3 p, float jitter, int style)
 {
     vec3 distances;
@@ -401,6 +439,7 @@ float mx_worley_float(vec3 p, float jitter, int style)
     return style == 1 ? mx_cellnoise_float(nearest) : sqrt(distances.x);
 }
 
+// Worley noise: the distances to the three nearest feature points, or with style 1 the cell noise at the nearest.
 vec3 mx_worley_vec3(vec2 p, float jitter, int style)
 {
     vec3 distances;
@@ -408,6 +447,7 @@ vec3 mx_worley_vec3(vec2 p, float jitter, int style)
     return style == 1 ? mx_cellnoise_vec3(nearest) : sqrt(distances);
 }
 
+// Worley noise: the distances to the three nearest feature points, or with style 1 the cell noise at the nearest.
 vec3 mx_worley_vec3(vec3 p, float jitter, int style)
 {
     vec3 distances;
@@ -420,12 +460,13 @@ vec2 mx_worley_vec2(vec3 p, float jitter, int style) { return mx_worley_vec3(p, 
 
 // Random values of a signal: the cell noise of (signal, seed).
 
+// A random number between low and high for a signal: the cell noise of (signal, seed).
 float mx_randomfloat(float signal, float low, float high, float seed)
 {
     return clamp(low + mx_cellnoise_float(vec2(signal, seed)) * (high - low), low, high);
 }
 
-// Hue, saturation and value, from seeds far apart.
+// A random colour between low and high for a signal, by hue, saturation and value.
 vec3 mx_randomhsv(float signal, vec3 low, vec3 high, int seed)
 {
     vec3 seeds = ceil(float(seed) + vec3(413.3, 1522.4, 1813.8));
@@ -439,6 +480,7 @@ vec3 mx_randomhsv(float signal, vec3 low, vec3 high, int seed)
 
 const float MX_JITTER_TURN = 90000.0; // degrees
 
+// A noise from 0 to 1, moved to the range from low to high.
 float mx_fit(float value, float low, float high, bool limit)
 {
     float fitted = low + value * (high - low);

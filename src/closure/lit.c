@@ -95,17 +95,25 @@ void emitter_comment(struct emitter *e, str_id text)
     shader_effect(e->shader, STAGE_PIXEL, (struct effect){.kind = EFFECT_COMMENT, .text = text});
 }
 
-/* Writes a comment such as "metal, reflection": the leaves of the next parts, each once. */
-static void comment_leaves(struct emitter *e, const struct closure_part *parts, uint32_t count)
+/*
+ * Writes a comment such as "environment: metal, reflection": the section and the leaves of the next
+ * parts, each once. section "": the leaves alone; NULL: no comment.
+ */
+static void comment_leaves(struct emitter *e, const char *section, const struct closure_part *parts,
+                           uint32_t count)
 {
     struct text names;
     text_init(&names, e->shader->arena);
     str_id last = 0;
+    if (!section)
+        return;
+    text_str(&names, section);
+    size_t opening = names.len;
     for (uint32_t i = 0; i < count; i++) {
         str_id name = e->graph->origins.items[ir_get(e->graph, parts[i].leaf)->origin].name;
         if (!name || name == last)
             continue;
-        text_str(&names, names.len ? ", " : "");
+        text_str(&names, names.len > opening ? ", " : opening ? ": " : "");
         text_str(&names, str_text(e->shader->strings, name));
         last = name;
     }
@@ -114,14 +122,15 @@ static void comment_leaves(struct emitter *e, const struct closure_part *parts, 
 }
 
 /* Parts [begin, end) as one statement; guard 0: unconditionally. */
-static void accumulate_parts(struct emitter *e, const struct closure_part *parts, uint32_t count,
-                             ir_ref guard, ir_ref factor)
+static void accumulate_parts(struct emitter *e, const char *section,
+                             const struct closure_part *parts, uint32_t count, ir_ref guard,
+                             ir_ref factor)
 {
     struct ir_graph *g = e->graph;
     ir_ref sum = 0;
     for (uint32_t i = 0; i < count; i++)
         sum = add(e, sum, parts[i].value);
-    comment_leaves(e, parts, count);
+    comment_leaves(e, section, parts, count);
     if (guard) {
         ir_ref condition = ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f));
         closure_name(e->shader, condition, parts->leaf, "visible");
@@ -133,11 +142,12 @@ static void accumulate_parts(struct emitter *e, const struct closure_part *parts
 }
 
 /*
- * color += factor · Σ parts. Leaves without a branch share one line, which comes first: their
- * weights need no registers in the others. Neighbours with the same guard share a branch.
+ * color += factor · Σ parts. section: as in comment_leaves. Leaves without a branch share one line,
+ * which comes first: their weights need no registers in the others. Neighbours with the same guard
+ * share a branch.
  */
-static void accumulate_all(struct emitter *e, struct closure_parts *list, bool in_loop,
-                           ir_ref factor)
+static void accumulate_all(struct emitter *e, const char *section, struct closure_parts *list,
+                           bool in_loop, ir_ref factor)
 {
     struct closure_parts plain = {0}, dear = {0};
     closure_find_guarded(e->shader, list, in_loop);
@@ -147,13 +157,13 @@ static void accumulate_all(struct emitter *e, struct closure_parts *list, bool i
         vec_push(e->shader->arena, part->is_guarded ? &dear.parts : &plain.parts, *part);
     }
     if (plain.parts.len)
-        accumulate_parts(e, plain.parts.items, plain.parts.len, 0, factor);
+        accumulate_parts(e, section, plain.parts.items, plain.parts.len, 0, factor);
     for (uint32_t i = 0, end; i < dear.parts.len; i = end) {
         const struct closure_part *first = &dear.parts.items[i];
         for (end = i + 1; end < dear.parts.len; end++)
             if (dear.parts.items[end].scalar != first->scalar)
                 break;
-        accumulate_parts(e, first, end - i, first->scalar, factor);
+        accumulate_parts(e, section, first, end - i, first->scalar, factor);
     }
 }
 
@@ -232,12 +242,25 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
     }
 }
 
+/* A value that only the first sample brings needs no loop. */
+static ir_ref out_of_loop(struct emitter *e, ir_ref value)
+{
+    struct ir_graph *g = e->graph;
+    if (!value || !(ir_get(g, value)->flags & IR_NODE_LOOP))
+        return value;
+    struct closure_copies later = {.shader = e->shader}, first = later;
+    ir_ref index = ir_build(g, IR_SAMPLE, IR_TYPE_INT, IR_SAMPLE_INDEX, NULL, 0);
+    ir_ref is_first = ir_op2(g, IR_EQ, index, ir_const_int(g, 0));
+    bool is_rest_black = ir_const_is(g, closure_chosen(&later, value, is_first, false), 0.0f);
+    return is_rest_black ? closure_chosen(&first, value, is_first, true) : value;
+}
+
 static bool add_surrounding_part(struct emitter *e, const struct closure_list *list, uint32_t order,
                                  ir_ref value)
 {
     const struct closure_leaf *leaf = &list->leaves.items[order];
     ir_ref way = value && leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
-    value = weighted(e, leaf, value, way);
+    value = weighted(e, leaf, out_of_loop(e, value), way);
     bool is_sampled = value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
     add_part(e, is_sampled ? PLACE_SAMPLE : PLACE_WHOLE, list, order, value);
     return value != 0;
@@ -292,7 +315,7 @@ const bool *emitter_find_parts(struct emitter *e, ir_ref bsdf, const struct clos
 }
 
 /* Only the first light has a shadow map: its factor is 1 in the later rounds of the loop. */
-static void loop_lights(struct emitter *e, struct closure_parts *lit)
+static void loop_lights(struct emitter *e, struct closure_parts *lit, bool is_one_of_several)
 {
     ir_ref factor = e->lit.light.intensity;
     uint32_t local = 0;
@@ -302,14 +325,15 @@ static void loop_lights(struct emitter *e, struct closure_parts *lit)
         factor = ir_op2(e->graph, IR_MUL, factor,
                         ir_build(e->graph, IR_LOCAL, IR_TYPE_FLOAT, local, NULL, 0));
     }
-    emitter_comment(e, STR_lights);
+    comment_leaves(e, str_text(e->shader->strings, STR_lights), lit->parts.items,
+                   is_one_of_several ? lit->parts.len : 0);
     emitter_effect(e, EFFECT_LIGHTS, 0, 0);
     closure_enter_loop(&e->copies, e->shader->num_light_loops++);
     for (uint32_t i = 0; i < e->lit.light.choice.len; i++) {
         const struct effect *part = &e->lit.light.choice.items[i];
         emitter_effect(e, (enum effect_kind)part->kind, part->index, part->value);
     }
-    accumulate_all(e, lit, true, factor);
+    accumulate_all(e, "", lit, true, factor);
     if (e->lighting->shadow)
         emitter_effect(e, EFFECT_ASSIGN, local, ir_const_float(e->graph, 1.0f));
     emitter_effect(e, EFFECT_END, 0, 0);
@@ -323,7 +347,7 @@ static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref f
     if (list->parts.len == 1)
         accumulate(e, factor, list->parts.items[0].value);
     else
-        accumulate_all(e, list, true, factor);
+        accumulate_all(e, NULL, list, true, factor);
     if (turn.next)
         emitter_effect(e, EFFECT_NEXT, 0, turn.next);
     emitter_effect(e, EFFECT_END, 0, 0);
@@ -374,10 +398,11 @@ static ir_ref is_any_visible(struct emitter *e, const struct closure_parts *list
     return any;
 }
 
-static void gather_samples(struct emitter *e, struct closure_sample_loop *loop, ir_ref factor)
+static void gather_samples(struct emitter *e, const char *section, struct closure_sample_loop *loop,
+                           ir_ref factor)
 {
     ir_ref visible = is_any_visible(e, &loop->list);
-    comment_leaves(e, loop->list.parts.items, loop->list.parts.len);
+    comment_leaves(e, section, loop->list.parts.items, loop->list.parts.len);
     if (visible)
         emitter_effect(e, EFFECT_IF, 0, visible);
     loop_samples_by_choice(e, loop, factor);
@@ -386,18 +411,19 @@ static void gather_samples(struct emitter *e, struct closure_sample_loop *loop, 
 }
 
 /* The light of a batch. open: the part of the environment that is not occluded; 0: all. */
-static void write_batch(struct emitter *e, struct closure_parts *at, ir_ref open)
+static void write_batch(struct emitter *e, struct closure_parts *at, bool is_one_of_several,
+                        ir_ref open)
 {
     if (at[PLACE_LIGHT].parts.len)
-        loop_lights(e, &at[PLACE_LIGHT]);
+        loop_lights(e, &at[PLACE_LIGHT], is_one_of_several);
     if (!at[PLACE_SAMPLE].parts.len && !at[PLACE_WHOLE].parts.len)
         return;
-    emitter_comment(e, STR_environment);
-    accumulate_all(e, &at[PLACE_WHOLE], false, open);
+    const char *section = str_text(e->shader->strings, STR_environment);
+    accumulate_all(e, section, &at[PLACE_WHOLE], false, open);
     struct closure_sample_loops samples = {0};
     closure_find_sample_loops(e->shader, &at[PLACE_SAMPLE], &samples);
     for (uint32_t i = 0; i < samples.loops.len; i++)
-        gather_samples(e, &samples.loops.items[i], open);
+        gather_samples(e, section, &samples.loops.items[i], open);
 }
 
 void emitter_write_lit(struct emitter *e)
@@ -422,7 +448,7 @@ void emitter_write_lit(struct emitter *e)
                     break;
                 vec_push(e->shader->arena, &batch[place].parts, *part);
             }
-        write_batch(e, batch, open);
+        write_batch(e, batch, batches.ends.len > 1, open);
     }
     e->shader->lit = true;
 }

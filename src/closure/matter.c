@@ -40,7 +40,11 @@ static ir_ref where(struct closure_scatter *s, ir_ref condition, ir_ref value, i
 
 static ir_ref is_at(struct closure_scatter *s, uint32_t i)
 {
-    return scatter_op2(s, IR_EQ, s->level, scatter_number(s, (float)i));
+    struct text name;
+    text_init(&name, s->shader->arena);
+    text_fmt(&name, "is_level_%u", (unsigned)i);
+    return scatter_named(s, scatter_op2(s, IR_EQ, s->level, scatter_number(s, (float)i)),
+                         text_cstr(&name));
 }
 
 /* The value of the level at hand among values[i], where 0 is `other`. */
@@ -108,6 +112,7 @@ static ir_ref straight_through(struct closure_scatter *s)
             continue;
         }
         ir_ref passed = scatter_op2(s, IR_MUL, product, straight(s, level, slope));
+
         product = where(s, scatter_both(s->graph, is_above, level->is_here), passed, product);
     }
     return product;
@@ -133,6 +138,9 @@ static struct choice choose(struct closure_scatter *s, const struct closure_leve
     c.passes = scatter_mean_of(s, c.through);
     c.passes = scatter_op2(s, IR_MAX, c.passes, scatter_number(s, 0.0f));
     c.all = scatter_op2(s, IR_ADD, c.lobe, c.passes);
+    closure_name(s->shader, c.lobe, level->leaf, "chance");
+    closure_name(s->shader, c.passes, level->leaf, "passing");
+    closure_name(s->shader, c.all, level->leaf, "chances");
     return c;
 }
 
@@ -180,9 +188,9 @@ ir_ref matter_response(struct closure_scatter *s, ir_ref direction, ir_ref solid
         if (level->is_body)
             continue;
         ir_ref more = scatter_op2(s, IR_ADD, above, level->extinction);
-        above = where(s, level->is_here, more, above);
+        above = scatter_named(s, where(s, level->is_here, more, above), "extinction_above");
     }
-    return at_hand(s, values, black);
+    return scatter_named(s, at_hand(s, values, black), "response");
 }
 
 /* ---- The function ---- */
@@ -197,7 +205,7 @@ static ir_ref next_level(struct closure_scatter *s, ir_ref after)
             is_it = scatter_both(s->graph, is_it, scatter_op2(s, IR_LT, after, number));
         next = where(s, is_it, number, next);
     }
-    return next;
+    return scatter_named(s, next, after ? "next_level" : "first_level");
 }
 
 /* The lobe that leads out of a solid, where one is there; else `other`. */
@@ -221,7 +229,7 @@ static ir_ref medium_above(struct closure_scatter *s)
         ir_ref is_it = scatter_op2(s, IR_GT, s->level, number);
         above = where(s, scatter_both(s->graph, is_it, level->is_here), number, above);
     }
-    return above;
+    return scatter_named(s, above, "medium_above");
 }
 
 /* A lobe reflects light, or lets it go on. */
@@ -277,11 +285,12 @@ void matter_sample(struct closure_scatter *s)
 {
     ir_ref matter = shader_stream(s->shader, STR_matter, IR_TYPE_VEC2);
     ir_ref asked = ir_component(s->graph, matter, 0), nothing = scatter_number(s, 0.0f);
-    ir_ref enters = scatter_op2(s, IR_LT, asked, nothing);
+    ir_ref enters = scatter_named(s, scatter_op2(s, IR_LT, asked, nothing), "enters");
     ir_ref first = next_level(s, 0);
     s->enters = enters;
     s->exits = scatter_op2(s, IR_LT, asked, scatter_number(s, -1.5f));
     s->level = where(s, enters, where(s, s->exits, way_out(s, first), first), asked);
+    scatter_named(s, s->level, "level");
     /* what lies on the pile shines once */
     ir_ref on_top = where(s, enters, s->emission, scatter_grey(s, 0.0f));
     s->emission = scatter_op2(s, IR_ADD, on_top, emission_at_hand(s));

@@ -76,6 +76,12 @@ ir_ref scatter_both(struct ir_graph *g, ir_ref a, ir_ref b)
     return a && b ? ir_op2(g, IR_LAND, a, b) : a ? a : b;
 }
 
+ir_ref scatter_named(struct closure_scatter *s, ir_ref value, const char *name)
+{
+    ir_suggest_name(s->graph, value, str_intern_z(s->shader->strings, name), IR_NAME_ROLE);
+    return value;
+}
+
 ir_ref scatter_mean_of(struct closure_scatter *s, ir_ref color)
 {
     return scatter_op2(s, IR_DOT, color, scatter_grey(s, 1.0f / 3.0f));
@@ -137,7 +143,9 @@ static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *lea
                             scatter_likely(s, ir_convert(s->graph, IR_TYPE_VEC3, albedo)));
     assert(ir_type_of(s->graph, light) == IR_TYPE_VEC3);
     ir_ref mean = scatter_mean_of(s, light);
-    return scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
+    mean = scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
+    closure_name(s->shader, mean, leaf->leaf, "share");
+    return mean;
 }
 
 /* True if the light from L comes from the visible side. */
@@ -317,8 +325,10 @@ static ir_ref lit_parts(struct closure_scatter *s, const struct closure_light *l
         s->parts[p].lit = scatter_op2(s, IR_MUL, light->intensity, seen);
         most = most ? scatter_op2(s, IR_MAX, most, s->parts[p].lit) : s->parts[p].lit;
     }
+    scatter_named(s, most, "lit");
     ir_ref mean = scatter_mean_of(s, most);
-    return scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
+    mean = scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
+    return scatter_named(s, mean, "brightness");
 }
 
 /* The choice of a light: locals. */
@@ -336,7 +346,8 @@ static void consider_light(struct closure_scatter *s, const struct closure_light
         return;
     scatter_effect(s, EFFECT_ACCUMULATE, c->sum, mean);
     ir_ref all = scatter_read(s, c->sum),
-           point = scatter_op2(s, IR_MUL, scatter_read(s, c->chance), all),
+           point =
+               scatter_named(s, scatter_op2(s, IR_MUL, scatter_read(s, c->chance), all), "point"),
            is_it = scatter_op2(s, IR_LT, point, mean);
     scatter_effect(s, EFFECT_IF, 0, is_it);
     scatter_effect(s, EFFECT_ASSIGN, c->to_light, light->direction);

@@ -57,6 +57,8 @@ ir_ref scatter_grey(struct closure_scatter *s, float value);
 ir_ref scatter_op2(struct closure_scatter *s, enum ir_op op, ir_ref a, ir_ref b);
 /* True where both are; 0: always. */
 ir_ref scatter_both(struct ir_graph *graph, ir_ref a, ir_ref b);
+/* Names a value of the shader; returns it. */
+ir_ref scatter_named(struct closure_scatter *s, ir_ref value, const char *name);
 ir_ref scatter_mean_of(struct closure_scatter *s, ir_ref color);
 /*
  * How much of the light a lobe is likely to reflect, by an albedo (float or vec3): 0.1 + 0.9

@@ -52,13 +52,27 @@ void deferred_write_get(struct text *out)
     text_str(out, "    return c;\n}\n\n");
 }
 
+/* Continues a list of parameters, in the next line where this one is full. */
+static void add_param(struct text *out, size_t *line_begin, const char *type, const char *name)
+{
+    enum { MAX_COLUMNS = 100 };
+    bool is_full = out->len + strlen(type) + strlen(name) > *line_begin + MAX_COLUMNS;
+    text_str(out, is_full ? ",\n" : ", ");
+    if (is_full) {
+        *line_begin = out->len;
+        text_str(out, "                     ");
+    }
+    text_fmt(out, "%s %s", type, name);
+}
+
 void deferred_write_store(struct text *out)
 {
     text_str(out, "\n// A material calls it for each slab, from the top down.\n"
                   "int mx_store_closure(int before");
+    size_t line_begin = out->len;
     for (size_t i = 0; i < NUM_VALUES; i++)
         if (values[i].from != PIXEL)
-            text_fmt(out, ", %s %s", values[i].type, values[i].name);
+            add_param(out, &line_begin, values[i].type, values[i].name);
     text_str(out, ")\n{\n    MxClosure c;\n");
     for (size_t i = 0; i < NUM_VALUES; i++)
         if (values[i].from != PIXEL)

@@ -36,6 +36,20 @@ static float hermite_step(float low, float high, float x)
     return t * t * (3.0f - 2.0f * t);
 }
 
+/*
+ * The sine of x + `quarters` quarter turns. A float that is nearest to a number of quarter turns
+ * stands for it: the cosine of 90 degrees is 0, not the error of the float.
+ */
+static float sine(float x, unsigned quarters)
+{
+    static const float exact[] = {0.0f, 1.0f, 0.0f, -1.0f};
+    enum { MOST = 1024 }; /* more of them lie nearer than the floats around them */
+    double turns = round((double)x / (PI / 2.0));
+    if (turns != 0.0 && fabs(turns) < MOST && (float)(turns * (PI / 2.0)) == x)
+        return exact[((int)turns + (int)quarters) & 3];
+    return (float)(quarters ? cos((double)x) : sin((double)x));
+}
+
 /* w: three operand words, 0 if the op has fewer. */
 typedef bool kernel_fn(const union ir_word *w, union ir_word *out);
 

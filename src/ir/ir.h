@@ -277,7 +277,7 @@ struct ir_graph {
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */
-    bool no_fold; /* no folding; for tests */
+    bool no_fold; /* no folding; for tests, and while a pass copies nodes */
 };
 
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings);
@@ -385,7 +385,7 @@ bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all comp
 /*
  * node_names.c: suggests names for the locals of a shader. The rank of a library function decreases
  * with the depth of its inlining. If two document nodes have the same result, the first one names
- * it. A node with several names of the same rank has no name.
+ * it. A node with several names of the same rank has the first.
  */
 enum ir_name_rank {
     IR_NAME_NONE = 0,

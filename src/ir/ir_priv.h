@@ -40,9 +40,8 @@ ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, 
 /* rules.c */
 
 /*
- * A rewrite in prefix form: ops are enum ir_op, all other tokens enum rule_token. A pattern is an
- * op whose operands are variables, constants, or ops of these; a replacement is any cheaper
- * expression.
+ * A rewrite in prefix form: ops are enum ir_op, all other tokens enum rule_token. A pattern nests
+ * at most RULE_DEPTH ops; a replacement is any cheaper expression.
  */
 enum rule_token {
     /* any node; a repeated variable is the same node */
@@ -50,6 +49,7 @@ enum rule_token {
     RULE_B,
     RULE_C,
     RULE_D,
+    RULE_E,
     RULE_K, /* any constant */
     RULE_ZERO,
     RULE_ONE,
@@ -62,7 +62,7 @@ enum rule_token {
     RULE_END
 };
 
-enum { RULE_LENGTH = 10 };
+enum { RULE_LENGTH = 10, RULE_DEPTH = 3, RULE_VARIABLES = RULE_E - RULE_A + 1 };
 
 struct rule {
     const char *name;

@@ -20,8 +20,6 @@ static void suggest(struct ir_graph *graph, ir_ref ref, str_id name, unsigned ra
     if (rank > label->rank || (rank == IR_NAME_RESULT && is_inside)) {
         label->name = name;
         label->rank = (uint8_t)rank;
-    } else if (rank != IR_NAME_RESULT && label->name != name) {
-        label->name = 0;
     }
 }
 

@@ -15,6 +15,7 @@ enum {
     B = RULE_B,
     C = RULE_C,
     D = RULE_D,
+    E = RULE_E,
     K = RULE_K,
     ZERO = RULE_ZERO,
     ONE = RULE_ONE,
@@ -51,9 +52,9 @@ static float token_value(unsigned token)
 
 struct match {
     const struct ir_graph *graph;
-    bool exact;      /* the rule is exact */
-    bool linear;     /* the root is a product of linear algebra */
-    ir_ref bound[4]; /* nodes bound to A B C D; 0 = not bound yet */
+    bool exact;                   /* the rule is exact */
+    bool linear;                  /* the root is a product of linear algebra */
+    ir_ref bound[RULE_VARIABLES]; /* nodes bound to A B C D E; 0 = not bound yet */
 };
 
 static bool has_word(const struct match *m, unsigned token, ir_type_id scalar, union ir_word w)
@@ -100,26 +101,33 @@ static bool match_leaf(struct match *m, unsigned token, ir_ref ref)
     return node->op == IR_CONST && (token == RULE_K || match_constant(m, token, node));
 }
 
-/* Patterns are at most two ops deep, so the match needs no stack. */
+struct operands { /* of an op of the pattern: those not compared yet */
+    const ir_ref *next, *end;
+};
+
 static bool match(struct match *m, const struct rule *rule, const ir_ref *args, unsigned num_args)
 {
+    struct operands open[RULE_DEPTH] = {{args, args + num_args}};
     const uint8_t *token = rule->pattern + 1;
     memset(m->bound, 0, sizeof m->bound);
-    for (unsigned i = 0; i < num_args; i++) {
+    for (unsigned depth = 1; depth > 0;) {
+        if (open[depth - 1].next == open[depth - 1].end) {
+            depth--;
+            continue;
+        }
+        ir_ref ref = *open[depth - 1].next++;
         unsigned t = *token++;
         if (t >= RULE_A) {
-            if (!match_leaf(m, t, args[i]))
+            if (!match_leaf(m, t, ref))
                 return false;
             continue;
         }
-        const struct ir_node *inner = ir_get(m->graph, args[i]);
-        assert(t < IR_NUM_OPS);
+        const struct ir_node *inner = ir_get(m->graph, ref);
+        assert(t < IR_NUM_OPS && depth < RULE_DEPTH);
         if (inner->op != t)
             return false;
         const ir_ref *inner_args = m->graph->args.items + inner->first_arg;
-        for (uint32_t k = 0; k < inner->num_args; k++)
-            if (!match_leaf(m, *token++, inner_args[k]))
-                return false;
+        open[depth++] = (struct operands){inner_args, inner_args + inner->num_args};
     }
     return true;
 }

@@ -369,27 +369,52 @@ static uint32_t declare_function(struct parser *p, const struct token *at, str_i
     return p->unit->base_functions + p->unit->functions.len - 1;
 }
 
-/* The first sentence of a comment, without slashes and line ends; 0 if it is empty. */
+/* Moves *at behind the slashes and blanks that begin a line of a comment. Returns the blanks. */
+static size_t open_comment_line(const char **at, const char *end)
+{
+    while (*at < end && (**at == ' ' || **at == '\t'))
+        ++*at;
+    while (*at < end && **at == '/')
+        ++*at;
+    const char *slashes_end = *at;
+    while (*at < end && (**at == ' ' || **at == '\t'))
+        ++*at;
+    return (size_t)(*at - slashes_end);
+}
+
+static size_t length_of_line(const char *at, const char *end)
+{
+    size_t len = 0;
+    while (at + len < end && at[len] != '\n')
+        len++;
+    while (len > 0 && (at[len - 1] == ' ' || at[len - 1] == '\t' || at[len - 1] == '\r'))
+        len--;
+    return len;
+}
+
+/*
+ * The first paragraph of a comment, without slashes; 0 if it is empty. Its lines are joined, but a
+ * line that is set in (a formula) stays a line.
+ */
 static str_id doc_of(struct parser *p, const struct token *first)
 {
+    enum { SET_IN = 3 }; /* blanks after the slashes */
     struct text doc;
     text_init(&doc, p->unit->arena);
     const char *at = first->comment, *end = at ? at + first->comment_len : NULL;
-    bool is_blank = false, line_begins = true;
-    for (; at < end && *at; at++) {
-        if (*at == ' ' || *at == '\t' || *at == '\r' || *at == '\n') {
-            is_blank = doc.len > 0;
-            line_begins |= *at == '\n';
-        } else if (*at != '/' || !line_begins) {
-            /* "et al. 2023" is no end of a sentence */
-            bool is_new = is_blank && doc.data[doc.len - 1] == '.' && *at >= 'A' && *at <= 'Z';
-            if (is_new)
-                break;
-            if (is_blank)
-                text_char(&doc, ' ');
-            text_char(&doc, *at);
-            is_blank = line_begins = false;
-        }
+    bool is_own = false;
+    while (at && at < end) {
+        bool was_own = is_own;
+        is_own = open_comment_line(&at, end) >= SET_IN;
+        size_t len = length_of_line(at, end);
+        if (len == 0)
+            break;
+        if (doc.len)
+            text_char(&doc, is_own || was_own ? '\n' : ' ');
+        text_str(&doc, is_own ? "    " : "");
+        text_mem(&doc, at, len);
+        at = memchr(at, '\n', (size_t)(end - at));
+        at += at != NULL;
     }
     return doc.len ? str_intern(p->unit->strings, doc.data, doc.len) : 0;
 }

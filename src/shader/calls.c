@@ -2,11 +2,13 @@
 /*
  * The last pass over the graph, when all remaining calls are known. Each portable function gets the
  * version that its calls share (specialise/plan.c). The pass builds the graph again with calls of
- * these versions, without the arguments that a version lacks. If the target has typed textures, a
- * read of a texture gets the type of its use.
+ * these versions, without the arguments that a version lacks. A version that shrank to a constant
+ * is the constant, and the nodes above it fold. If the target has typed textures, a read of a
+ * texture gets the type of its use.
  */
 #include "shader/shader.h"
 #include "specialise/specialise.h"
+#include "tree/ast.h"
 
 #include <assert.h>
 
@@ -14,6 +16,7 @@ struct final_pass {
     struct shader *shader;
     const uint32_t *planned; /* by call: the result of lang_plan_call */
     bool typed_textures;
+    VEC(ir_ref) constants; /* that calls became, and what folds with them */
 };
 
 /* Visits the value of each effect of all stages. */
@@ -83,7 +86,21 @@ static const uint32_t *plan_calls(struct shader *shader, const uint8_t *needed)
     return planned;
 }
 
-static ir_ref build_call(const struct final_pass *pass, struct ir_graph *graph, ir_ref old,
+/* The constant that a version without parameters returns; 0: another version. */
+static ir_ref constant_result(struct ir_graph *graph, const struct lang_unit *unit,
+                              uint32_t version)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(unit, version, &layer);
+    lang_ref returned = fn->num_params ? 0 : ast_returned(layer, fn);
+    const struct lang_node *value = returned ? ast_node(layer, returned) : NULL;
+    if (!value || value->kind != LANG_CONST)
+        return 0;
+    struct ir_value constant = ast_value(value->type, ast_words(layer, value));
+    return ir_const(graph, &constant);
+}
+
+static ir_ref build_call(struct final_pass *pass, struct ir_graph *graph, ir_ref old,
                          const struct ir_node *node, ir_ref *args)
 {
     const struct lang_unit *unit = pass->shader->unit, *layer;
@@ -91,6 +108,11 @@ static ir_ref build_call(const struct final_pass *pass, struct ir_graph *graph, 
     uint32_t given = callee.index, version = lang_plan_version(unit, pass->planned[old]), read = 0,
              kept = 0;
     const struct lang_function *fn = lang_function(unit, given, &layer);
+    ir_ref constant = constant_result(graph, unit, version);
+    if (constant) {
+        vec_push(pass->shader->arena, &pass->constants, constant);
+        return constant;
+    }
     for (uint32_t i = 0; i < fn->num_params; i++) {
         if (!has_operand(layer, fn, i))
             continue;
@@ -113,15 +135,39 @@ static bool is_first_part(const struct ir_node *swizzle)
     return swizzle->attr == 0x100 || swizzle->attr == (0x300 | 0x24);
 }
 
+static bool may_fold(const struct final_pass *pass, const ir_ref *args, uint32_t num_args)
+{
+    for (uint32_t i = 0; i < pass->constants.len; i++)
+        for (uint32_t k = 0; k < num_args; k++)
+            if (args[k] == pass->constants.items[i])
+                return true;
+    return false;
+}
+
+static ir_ref build_folded(struct final_pass *pass, struct ir_graph *graph,
+                           const struct ir_node *node, const ir_ref *args)
+{
+    bool no_fold = graph->no_fold;
+    graph->no_fold = false;
+    ir_ref ref =
+        ir_build(graph, (enum ir_op)node->op, node->type, node->attr, args, node->num_args);
+    graph->no_fold = no_fold;
+    if (ir_get(graph, ref)->op == IR_CONST)
+        vec_push(pass->shader->arena, &pass->constants, ref);
+    return ref;
+}
+
 static ir_ref build_node(void *user_data, struct ir_graph *graph, ir_ref old,
                          const struct ir_node *node, ir_ref *args)
 {
-    const struct final_pass *pass = user_data;
+    struct final_pass *pass = user_data;
     if (node->op == IR_CALL)
         return build_call(pass, graph, old, node, args);
     if (node->op == IR_SWIZZLE && pass->typed_textures && is_first_part(node)
         && ir_get(graph, *args)->op == IR_TEX)
         return ir_build(graph, IR_TEX, node->type, 0, ir_args(graph, *args), 2);
+    if (may_fold(pass, args, node->num_args))
+        return build_folded(pass, graph, node, args);
     return ir_build(graph, (enum ir_op)node->op, node->type, node->attr, args, node->num_args);
 }
 

@@ -128,10 +128,17 @@ static lang_ref simplify_mix(struct spec *s, const struct lang_node *op, const l
     return 0;
 }
 
-/* Simplifies components of a spread scalar. */
+/* Simplifies components of a spread scalar, and of a negative vector: (-v).z is -v.z. */
 static lang_ref simplify_swizzle(struct spec *s, const struct lang_node *op, lang_ref a)
 {
     const struct lang_node *inner = spec_node(s, a);
+    if (inner->kind == LANG_OP && inner->op == IR_NEG) {
+        struct lang_node part = *op;
+        part.a = inner->a;
+        part.a = spec_add(s, part);
+        return spec_add(
+            s, (struct lang_node){.kind = LANG_OP, .op = IR_NEG, .type = op->type, .a = part.a});
+    }
     if (inner->kind != LANG_OP || inner->op != IR_CONSTRUCT || ast_is_user_type(inner->type)
         || !inner->a || ir_type_is_matrix(inner->type))
         return 0;
@@ -163,6 +170,23 @@ static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_r
     return 0;
 }
 
+/* Any part of a constant whose components are equal. */
+static lang_ref simplify_index(struct spec *s, const struct lang_node *op, const lang_ref *args)
+{
+    struct ir_value value;
+    if (!spec_get(s, args[0], &value) || !is_splat(&value) || lang_has_effects(s->unit, args[1]))
+        return 0;
+    value.type = op->type;
+    return spec_constant(s, &value);
+}
+
+static lang_ref simplify_div(struct spec *s, const struct lang_node *op, const lang_ref *args)
+{
+    if (is_number(s, args[0], 0))
+        return zero(s, op, args[1]);
+    return is_number(s, args[1], 1) ? as_result(s, op, args[0]) : 0;
+}
+
 /* The packer of a library does not know the arguments of a generation, so it leaves the op. */
 static lang_ref simplify_known(struct spec *s, lang_ref a)
 {
@@ -180,13 +204,14 @@ static lang_ref simplify(struct spec *s, const struct lang_node *op, const lang_
                : is_number(s, args[1], 0) ? as_result(s, op, args[0])
                                           : 0;
     case IR_SUB: return simplify_sub(s, op, args[0], args[1]);
-    case IR_DIV:
+    case IR_DIV: return simplify_div(s, op, args);
     case IR_POW: return is_number(s, args[1], 1) ? as_result(s, op, args[0]) : 0;
     case IR_LAND:
     case IR_LOR: return simplify_logic(s, op, args[0], args[1]);
     case IR_MIX: return simplify_mix(s, op, args);
     case IR_CONVERT: return spec_node(s, args[0])->type == op->type ? as_result(s, op, args[0]) : 0;
     case IR_SWIZZLE: return simplify_swizzle(s, op, args[0]);
+    case IR_INDEX: return simplify_index(s, op, args);
     case IR_KNOWN: return simplify_known(s, args[0]);
     default: return 0;
     }

@@ -146,3 +146,22 @@ bool lang_param_dropped(const struct lang_unit *unit, uint32_t version, uint32_t
     const uint32_t *dropped = unit->versions.items[version - unit->base_functions].dropped;
     return dropped[index / 32] >> index % 32 & 1;
 }
+
+const struct lang_version *lang_version_of(const struct lang_unit *unit, uint32_t id)
+{
+    if (id < unit->base_functions || id - unit->base_functions >= unit->versions.len)
+        return NULL;
+    const struct lang_version *version = &unit->versions.items[id - unit->base_functions];
+    return version->origin == LANG_NONE ? NULL : version;
+}
+
+const union ir_word *lang_param_bound(const struct lang_unit *unit, uint32_t version,
+                                      unsigned index)
+{
+    const struct lang_version *record = lang_version_of(unit, version);
+    if (!record)
+        return NULL;
+    const struct variant *variant = &unit->plan->variants.items[record->variant];
+    fact known = unit->plan->facts.items[variant->first_fact + index];
+    return known == FACT_UNSEEN || known == FACT_VARIES ? NULL : unit->words.items + known - 1;
+}

@@ -3,6 +3,7 @@
  * The last step over a version's body: replaces variables with a single read by their values.
  *
  *     float d = dot(e, e);  return 1.0 / d;      →      return 1.0 / dot(e, e);
+ *     vec2 v = vec2(a, b);  return vec3(v, c);   →      return vec3(a, b, c);
  *
  * A value moves if its declaration and its read are in one list of statements, and nothing assigns
  * to its operands.
@@ -134,6 +135,41 @@ static lang_ref forward_list(struct forwarder *f, lang_ref first)
     return kept.first;
 }
 
+/* The last operand of a constructor of a vector by parts; 0: the operand is no such constructor. */
+static lang_ref last_of_vector(const struct spec *s, lang_ref operand)
+{
+    const struct lang_node *node = ast_node(s->unit, operand);
+    if (node->kind != LANG_OP || node->op != IR_CONSTRUCT || ast_is_user_type(node->type)
+        || ir_type_is_matrix(node->type) || !node->a || !ast_node(s->unit, node->a)->next)
+        return 0;
+    lang_ref last = node->a;
+    while (ast_node(s->unit, last)->next)
+        last = ast_node(s->unit, last)->next;
+    return last;
+}
+
+/* vec3(vec2(a, b), c) is vec3(a, b, c) */
+static bool flatten(void *user_data, lang_ref ref, unsigned access)
+{
+    struct spec *s = user_data;
+    struct lang_node *node = spec_node(s, ref);
+    (void)access;
+    if (node->kind != LANG_OP || node->op != IR_CONSTRUCT || ast_is_user_type(node->type))
+        return true;
+    ir_type_id scalar = ir_type_info(node->type)->scalar;
+    for (lang_ref *place = &node->a; *place;) {
+        struct lang_node *operand = spec_node(s, *place);
+        lang_ref last = last_of_vector(s, *place);
+        if (last && ir_type_info(operand->type)->scalar == scalar) {
+            spec_node(s, last)->next = operand->next;
+            *place = operand->a;
+        } else {
+            place = &operand->next;
+        }
+    }
+    return true;
+}
+
 lang_ref spec_single(struct spec *s, lang_ref first)
 {
     struct forwarder f = {.s = s, .reads = ARENA_ARRAY(s->unit->arena, uint16_t, s->fn.num_slots)};
@@ -144,6 +180,8 @@ lang_ref spec_single(struct spec *s, lang_ref first)
     }
     first = forward_list(&f, first);
     s->changed |= f.any;
+    for (lang_ref ref = first; ref && f.any; ref = spec_node(s, ref)->next)
+        lang_walk(s->unit, ref, LANG_READ, flatten, s);
     uint32_t kept = 0; /* removes VAR nodes that became values */
     for (uint32_t i = 0; i < s->vars.len; i++) {
         uint8_t kind = spec_node(s, s->vars.items[i])->kind;

@@ -171,7 +171,7 @@ static uint32_t add_version(struct spec *s, lang_ref body)
 {
     struct lang_unit *unit = s->unit;
     struct lang_function fn = s->fn;
-    struct lang_version version = {.origin = variant_of(s)->function};
+    struct lang_version version = {.origin = variant_of(s)->function, .variant = s->variant};
     fn.flags &= LANG_FN_EXPRESSION;
     finish_slots(s, &fn, &version);
     assert(fn.num_params <= s->fn.num_params);
@@ -179,7 +179,7 @@ static uint32_t add_version(struct spec *s, lang_ref body)
     lang_uses_record(&s->uses, unit, &fn);
     lang_inherit_flags(unit, &fn);
     while (unit->versions.len < unit->functions.len) /* functions that the parser wrote */
-        vec_push(unit->arena, &unit->versions, (struct lang_version){LANG_NONE});
+        vec_push(unit->arena, &unit->versions, (struct lang_version){.origin = LANG_NONE});
     vec_push(unit->arena, &unit->functions, fn);
     vec_push(unit->arena, &unit->versions, version);
     assert(unit->versions.len == unit->functions.len);

@@ -25,6 +25,13 @@ uint32_t lang_plan_version(const struct lang_unit *generated, uint32_t call);
 bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uint32_t given,
                         unsigned index);
 
+/* The constant that a version has compiled in for parameter `index` of its origin; NULL: none. */
+const union ir_word *lang_param_bound(const struct lang_unit *generated, uint32_t version,
+                                      unsigned index);
+
+/* The version's record; NULL: the function is no version. */
+const struct lang_version *lang_version_of(const struct lang_unit *generated, uint32_t id);
+
 /*
  * canonical.c: replaces the trees of a layer's functions by specialised trees without constant
  * arguments. For a library, after its last parse and before its first generation.

@@ -2,9 +2,8 @@
 /*
  * Names of locals. A local has the name that the library or the document gives its value: `H`,
  * `alpha`, `coat_roughness`. If several locals of a function want one name, each has its origin as
- * prefix: `coat_alpha`, `metal_alpha`. If the value has no name, or several, its operation gives
- * the name: `n_dot_l`, `clamped_roughness`, `metal_product`. A value with several origins has no
- * prefix.
+ * prefix: `coat_alpha`, `metal_alpha`. If the value has no name, its operation gives the name:
+ * `n_dot_l`, `clamped_roughness`, `metal_product`. A value with several origins has no prefix.
  */
 #include "spell/spell.h"
 

@@ -189,17 +189,6 @@ void spell_title(struct spell *spell)
     write_plural(spell->out, textures, "texture");
 }
 
-void spell_function_doc(struct spell *spell, uint32_t function)
-{
-    str_id doc = lang_function(spell->shader->unit, function, NULL)->doc;
-    if (!doc || !spell->options->comments || spell->shader->rules.neutral_names)
-        return;
-    spell_text(spell, "// ");
-    spell_comment(spell, str_text(spell->shader->strings, doc),
-                  str_len(spell->shader->strings, doc));
-    spell_text(spell, "\n");
-}
-
 static void write_functions(struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;

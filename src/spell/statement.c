@@ -335,6 +335,38 @@ static void write_first_turn(struct spell *spell, unsigned indent, ir_ref turn)
     text_mem(spell->out, ";\n", 2);
 }
 
+/*
+ * A comment at the first occurrence of a text, and "text (2)" at the second: no two sections have
+ * one name.
+ */
+static void write_comment(struct spell *spell, unsigned indent, str_id text)
+{
+    if (!spell->options->comments || spell->shader->rules.neutral_names)
+        return;
+    struct text comment;
+    text_init(&comment, spell->scratch);
+    text_mem(&comment, str_text(spell->shader->strings, text),
+             str_len(spell->shader->strings, text));
+    size_t len = comment.len;
+    for (uint32_t number = 2; !names_take(&spell->paths, text_cstr(&comment), comment.len);
+         number++) {
+        comment.len = len;
+        text_fmt(&comment, " (%u)", (unsigned)number);
+    }
+    open_line(spell, indent, 0);
+    text_mem(spell->out, "// ", 3);
+    spell_comment(spell, comment.data, comment.len);
+    text_char(spell->out, '\n');
+}
+
+static void explain_order(struct spell *spell, unsigned indent)
+{
+    if (!spell->options->comments || spell->shader->rules.neutral_names)
+        return;
+    open_line(spell, indent, 0);
+    spell_text(spell, "// from the last light, so that drivers do not unroll the loop\n");
+}
+
 /* A part of the loop's head: '0' its start, '1' its condition, '2' its step. */
 static void write_loop_part(struct spell *spell, const struct effect *effect, char part)
 {
@@ -362,6 +394,8 @@ static void write_loop(struct spell *spell, unsigned indent, const struct effect
         write_first_turn(spell, indent, effect->value);
     if (!spell->loop_index)
         spell->loop_index = names_unique(&spell->names, "i", 1).text;
+    if (effect->kind == EFFECT_LIGHTS)
+        explain_order(spell, indent);
     open_line(spell, indent, 0);
     const char *rest = spell->style->phrases[PHRASE_FOR];
     for (char part; (part = lang_next(&rest, spell->out));)
@@ -430,17 +464,6 @@ static struct spell_name position_name(const struct spell *spell)
     const char *position = spell->target->position ? spell->target->position : "gl_Position";
     text_fmt(&name, "%s%s", *position == '.' ? spell_frame_name(spell, "vd") : "", position);
     return (struct spell_name){text_cstr(&name), name.len};
-}
-
-static void write_comment(struct spell *spell, unsigned indent, str_id text)
-{
-    if (!spell->options->comments || spell->shader->rules.neutral_names)
-        return;
-    open_line(spell, indent, 0);
-    text_mem(spell->out, "// ", 3);
-    spell_comment(spell, str_text(spell->shader->strings, text),
-                  str_len(spell->shader->strings, text));
-    text_char(spell->out, '\n');
 }
 
 static void write_effect(struct spell *spell, unsigned indent, const struct effect *effect)

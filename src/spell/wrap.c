@@ -52,11 +52,13 @@ static const uint8_t meanings[256] = {
 
 /*
  * Finds the break of [from, end), which starts at column `column`. Among the places within
- * MAX_COLUMNS it is the last one with the fewest open brackets. NULL: there is none.
+ * MAX_COLUMNS it is the last one with the fewest open brackets; where there is none, it is behind
+ * the sign of an assignment. NULL: there is no such place either.
  */
 static const char *find_break(const char *from, const char *end, size_t column)
 {
-    const char *best = NULL, *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from;
+    const char *best = NULL, *assigned = NULL,
+               *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from;
     size_t room = column < MAX_COLUMNS ? MAX_COLUMNS - column + 1 : 0;
     const char *stop = (size_t)(end - from) < room ? end : from + room;
     int depth = 0, best_depth = 0;
@@ -69,13 +71,15 @@ static const char *find_break(const char *from, const char *end, size_t column)
             at = end_of_string(at, end);
         else if (meaning == SLASH && at + 1 < end && at[1] == '/')
             return NULL;
+        else if (meaning == SPACE && at > from + 1 && at[-1] == '=' && at[-2] == ' ')
+            assigned = at;
         else if (meaning == SPACE && at >= first && at > from && (!best || depth <= best_depth)
                  && may_break(at, end)) {
             best = at;
             best_depth = depth;
         }
     }
-    return best;
+    return best ? best : assigned;
 }
 
 /* Copies the text before `to` that is not copied yet. */
@@ -109,11 +113,11 @@ static void break_line(struct wrapper *w, size_t line_begin)
     }
 }
 
-/* The break of a comment on a line of its own: a space. */
+/* The break of a comment on a line of its own: a space that is not beside a sign of equality. */
 static const char *comment_break(const char *from, const char *end, size_t indent)
 {
     const char *at = from + MAX_COLUMNS - indent < end ? from + MAX_COLUMNS - indent : end;
-    while (at > from + MIN_COLUMNS && *at != ' ')
+    while (at > from + MIN_COLUMNS && (*at != ' ' || at[-1] == '=' || at[1] == '='))
         at--;
     return *at == ' ' ? at : NULL;
 }

@@ -89,7 +89,7 @@ enum lang_function_flags {
 
 struct lang_function {
     str_id name;
-    str_id doc; /* the first sentence of the comment above it; 0 = none */
+    str_id doc; /* the first paragraph of the comment above it (parse/declaration.c); 0 = none */
     uint16_t flags;
     ir_type_id return_type;
     uint16_t num_params, num_slots; /* parameters come first among the slots */
@@ -107,6 +107,7 @@ struct lang_function {
 
 struct lang_version {    /* the origin of a function in a generation's layer (plan.c) */
     uint32_t origin;     /* id of the original function */
+    uint32_t variant;    /* in the plan */
     uint32_t dropped[2]; /* bit i: the copy lacks parameter i of the original */
 };
 

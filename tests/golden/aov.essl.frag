@@ -44,6 +44,7 @@ void main()
     vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
     // SR/base
     vec3 diffuse_facing = faceforward(N, -normalize(u_viewPosition - P), N);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -70,7 +71,8 @@ void main()
             * (max(dot(L, diffuse_facing), 1e-8) * 0.31830987 * vec3(0.8, 0.1, 0.1)));
     }
     vec3 color_2 = vec3(0.0);
-    // lights
+    // lights (2)
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -93,7 +95,7 @@ void main()
                     -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
             }
         }
-        // diffuse
+        // diffuse (2)
         color_2 += u_lightData[i].color * (intensity
             * (max(dot(diffuse_facing, L), 1e-8) * 0.31830987 * vec3(0.8, 0.1, 0.1)));
     }

@@ -34,19 +34,19 @@ layout(location = 6) out int aov_is_paint;
 layout(location = 7) out int aov_id;
 layout(location = 8) out vec4 aov_normal;
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -69,6 +69,7 @@ void main()
     vec3 diffuse_N = faceforward(N, -normalize(u_viewPosition - P), N);
     // SR
     const vec3 base_constant = vec3(0.8, 0.1, 0.1);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -93,13 +94,13 @@ void main()
         // diffuse
         color += u_lightData[i].color * (intensity * (max(dot(L, diffuse_N), 1e-8) * 0.31830987 * base_constant));
     }
-    // environment
-    // diffuse
+    // environment: diffuse
     vec3 diffuse_response = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * diffuse_N)), 0.0).xyz
         * u_envLightIntensity * base_constant;
     color += diffuse_response;
     vec3 color_2 = vec3(0.0);
-    // lights
+    // lights (2)
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -122,11 +123,10 @@ void main()
                     -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
             }
         }
-        // diffuse
+        // diffuse (2)
         color_2 += u_lightData[i].color * (intensity * (max(dot(diffuse_N, L), 1e-8) * 0.31830987 * base_constant));
     }
-    // environment
-    // diffuse
+    // environment: diffuse (2)
     color_2 += diffuse_response;
     // opacity
     if (0.5 < u_alphaThreshold)

@@ -23,14 +23,16 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+// Here y = 0.04.
 float mx_bicubic(const mat4 m, const float x)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
+// Here a = 0.04.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
     float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -39,9 +41,10 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+// Here re = 2.1025.
 float mx_fresnel_permittivity(const float cosine)
 {
     float c2 = cosine * cosine;
@@ -51,14 +54,16 @@ float mx_fresnel_permittivity(const float cosine)
     return (cg2 + s * s) * (r * r);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = true.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
 {
     return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = true.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -83,6 +88,7 @@ void main()
     mx_GgxLobe coat_vector = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     vec3 paint_product = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75 * 0.31830987
         * vec3(0.6, 0.1, 0.05);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
         float light_intensity = u_lightData[i].intensity;

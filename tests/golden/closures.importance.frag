@@ -64,14 +64,16 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+// Here y = 0.04.
 float mx_bicubic(const mat4 m, const float x)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
+// Here a = 0.04.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
     float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -80,9 +82,10 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+// Here re = 2.1025.
 float mx_fresnel_permittivity(const float cosine)
 {
     float c2 = cosine * cosine;
@@ -92,14 +95,16 @@ float mx_fresnel_permittivity(const float cosine)
     return (cg2 + s * s) * (r * r);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = true.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
 {
     return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = true.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -110,19 +115,19 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -131,18 +136,21 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here roughness = vec2(0.04), is_round = true.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 {
     float cosine = max(abs(dot(N, V)), 1e-8);
     return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.04), sqrt(0.0016 + 0.9984 * (cosine * cosine)));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here roughness = vec2(0.04), is_round = true.
 mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
-    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
+    vec3 v = vec3(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
@@ -153,29 +161,29 @@ mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
         * weight);
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 vec3 mx_filtered_light(const vec3 d, const float texels)
 {
     return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -209,6 +217,7 @@ void main()
     mx_GgxLobe coat_vector = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
     vec3 paint_product = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -238,13 +247,12 @@ void main()
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         color += u_lightData[i].color * (intensity * (coat_product * mx_ggx_light(coat_vector, V, L) + paint_response));
     }
-    // environment
-    // paint
+    // environment: paint
     vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
         * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
     color += paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
-    // coat
+    // environment: coat
     mx_GgxSamples coat_ggx_samples = mx_ggx_samples(normal_N, V);
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {

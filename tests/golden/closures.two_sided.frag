@@ -28,14 +28,16 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+// Here y = 0.04.
 float mx_bicubic(const mat4 m, const float x)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
+// Here a = 0.04.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
     float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -44,9 +46,10 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+// Here re = 2.1025.
 float mx_fresnel_permittivity(const float cosine)
 {
     float c2 = cosine * cosine;
@@ -56,14 +59,16 @@ float mx_fresnel_permittivity(const float cosine)
     return (cg2 + s * s) * (r * r);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = true.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
 {
     return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = true.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -74,19 +79,19 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -95,13 +100,17 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y).
+// What a white GGX lobe reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it (y).
+// Here roughness = vec2(0.04).
 vec2 mx_ggx_albedo(const float c)
 {
     return mx_ggx_albedo_fit(0.04 / (0.04 + c), c);
 }
 
-// A map whose mip levels are filtered for rising roughness.
+// Light that the lobe reflects, from a map whose levels of detail are filtered for rising roughness; with refract_ior >
+// 0 light through a solid sphere of that index.
+// Here roughness = vec2(0.04), by_direction = false, refract_ior = 0.0, model = "dielectric", n = vec3(1.45),
+// k = vec3(0.0), f90 = vec3(1.0), exponent = 0.0, film = 0.0, film_ior = 1.5.
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
@@ -123,6 +132,7 @@ void main()
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
     mx_GgxLobe coat_vector = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float coat_throughput = 1.0 - mix(0.03373595, 1.0, coat_albedo.y) * coat_albedo.x * scale;
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // coat, paint
         float light_intensity = u_lightData[i].intensity;
@@ -140,8 +150,7 @@ void main()
         vec3 sum = coat_product * mx_ggx_light(coat_vector, V, L) + paint_response;
         color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
     }
-    // environment
-    // coat, paint
+    // environment: coat, paint
     vec3 paint_product = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * h)), 0.0).xyz
         * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);

@@ -18,11 +18,13 @@ float mx_gradient(const uint hash, const vec3 p)
     return ((h & 1u) != 0u ? -u : u) + ((h & 2u) != 0u ? -v : v);
 }
 
+// A gradient for each component: each byte of the hash serves one.
 vec3 mx_gradient_vec3(const uint hash, const vec3 p)
 {
     return vec3(mx_gradient(hash, p), mx_gradient(hash >> 8, p), mx_gradient(hash >> 16, p));
 }
 
+// Final scramble of a hash (Bob Jenkins, "lookup3.c", 2006).
 uint mx_hash_final(const uint x, const uint y, const uint z)
 {
     uint a = x;
@@ -45,6 +47,7 @@ uint mx_hash_final(const uint x, const uint y, const uint z)
     return c;
 }
 
+// Perlin noise, in three components, on one face of the lattice cube around a point, at the height z.
 vec3 mx_noise_face_vec3(const int x, const int y, const int z, const vec3 f, const vec3 w)
 {
     return mix(mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u + uint(z)),
@@ -55,11 +58,13 @@ vec3 mx_noise_face_vec3(const int x, const int y, const int z, const vec3 f, con
         - vec3(1.0, 1.0, 0.0)), w.x), w.y);
 }
 
+// The curve 6t^5 - 15t^4 + 10t^3 between lattice points (Perlin 2002, "Improving Noise").
 vec3 mx_fade(const vec3 t)
 {
     return t * t * t * (t * (t * 6.0 - vec3(15.0)) + vec3(10.0));
 }
 
+// Perlin noise at the point p, in three components.
 vec3 mx_noise_vec3(const vec3 p)
 {
     vec3 cell = floor(p);

@@ -26,11 +26,13 @@ float mx_gradient(uint hash, float3 p)
     return ((h & 1u) != 0u ? -u : u) + ((h & 2u) != 0u ? -v : v);
 }
 
+// A gradient for each component: each byte of the hash serves one.
 float3 mx_gradient_vec3(uint hash, float3 p)
 {
     return float3(mx_gradient(hash, p), mx_gradient(hash >> 8, p), mx_gradient(hash >> 16, p));
 }
 
+// Final scramble of a hash (Bob Jenkins, "lookup3.c", 2006).
 uint mx_hash_final(uint x, uint y, uint z)
 {
     uint a = x;
@@ -53,6 +55,7 @@ uint mx_hash_final(uint x, uint y, uint z)
     return c;
 }
 
+// Perlin noise, in three components, on one face of the lattice cube around a point, at the height z.
 float3 mx_noise_face_vec3(int x, int y, int z, float3 f, float3 w)
 {
     return lerp(lerp(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u
@@ -63,11 +66,13 @@ float3 mx_noise_face_vec3(int x, int y, int z, float3 f, float3 w)
         3735928584u + uint(z)), f - float3(1.0, 1.0, 0.0)), w.x), w.y);
 }
 
+// The curve 6t^5 - 15t^4 + 10t^3 between lattice points (Perlin 2002, "Improving Noise").
 float3 mx_fade(float3 t)
 {
     return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
 
+// Perlin noise at the point p, in three components.
 float3 mx_noise_vec3(float3 p)
 {
     float3 cell = floor(p);

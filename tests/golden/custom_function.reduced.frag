@@ -12,6 +12,7 @@ vec2 wave(const float x, const float frequency)
     return vec2(sin(phase), 6.2831855 * frequency * cos(phase)) / frequency;
 }
 
+// Here count = 3.
 void waves(const vec2 uv, out float height, out float slope)
 {
     vec2 sum = vec2(0.0);

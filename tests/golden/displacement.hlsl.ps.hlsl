@@ -22,25 +22,26 @@ struct VertexData {
     float2 texcoord_0 : TEXCOORD3;
 };
 
+// Here radius = 0.1, point1 = float2(0.25, 0.25), point2 = float2(0.75, 0.75).
 float mx_line(float2 p)
 {
     float2 from = p - float2(0.25, 0.25);
     return distance(from, float2(0.5, 0.5) * clamp(dot(from, float2(0.5, 0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(float sine, float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(float3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
@@ -54,8 +55,7 @@ void main(
     out float4 out1 : SV_Target0)
 {
     float3 color = float3(0.0, 0.0, 0.0);
-    // environment
-    // bsdf
+    // environment: bsdf
     float3 direction = normalize(vd.normalWorld);
     float both = height_file.Sample(height_file_sampler, vd.texcoord_0).x * mx_line(vd.texcoord_0);
     float3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;

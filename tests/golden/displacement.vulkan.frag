@@ -19,25 +19,26 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
+// Here radius = 0.1, point1 = vec2(0.25), point2 = vec2(0.75).
 float mx_line(const vec2 p)
 {
     vec2 from = p - vec2(0.25);
     return distance(from, vec2(0.5) * clamp(dot(from, vec2(0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -49,8 +50,7 @@ vec2 mx_map_point(const vec3 d)
 void main()
 {
     vec3 color = vec3(0.0);
-    // environment
-    // bsdf
+    // environment: bsdf
     vec3 direction = normalize(vd.normalWorld);
     float both = texture(height_file, vd.texcoord_0).x * mx_line(vd.texcoord_0);
     vec3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;

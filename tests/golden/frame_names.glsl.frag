@@ -27,6 +27,7 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+// Here count = 4.
 float vd_2(const float x)
 {
     float product = 1.0;
@@ -43,19 +44,19 @@ float scatter_2()
     return sum;
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -77,6 +78,7 @@ void main()
     float cos_v = max(abs(dot(normal_N, V)), 1e-8);
     float LightData_2 = scatter_2();
     float diffuse_product = LightData_2 * 0.31830987 * 0.18;
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -104,8 +106,7 @@ void main()
             * ((ab.x + ab.y * max(dot(L, V) - cos_l * cos_v, 0.0) / max(cos_l, cos_v)) * (cos_l * diffuse_product));
         color += u_lightData[i].color * diffuse_product_2;
     }
-    // environment
-    // diffuse
+    // environment: diffuse
     if (LightData_2 > 0.0) {
         vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
             * vec2(1.4385, 2.0315)) + vec2(1.0);

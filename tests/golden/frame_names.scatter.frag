@@ -39,6 +39,7 @@ float scatter_2()
     return sum;
 }
 
+// Here count = 4.
 float vd_2(const float x)
 {
     float product = 1.0;
@@ -65,9 +66,9 @@ void scatter()
     float cos_v = max(abs(dot(normal_N, vd.viewWorld)), 1e-8);
     vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
         * vec2(1.4385, 2.0315)) + vec2(1.0);
-    float greater = max(dot(vec3(LightData_2 * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * 0.9 + 0.1)), vec3(0.33333334)),
-        0.0);
-    float pick = greater * vd.random.w;
+    float diffuse_share = max(dot(vec3(LightData_2 * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * 0.9 + 0.1)),
+        vec3(0.33333334)), 0.0);
+    float pick = diffuse_share * vd.random.w;
     vec3 L = vec3(0.0);
     float inside = 0.0;
     vec3 weight = vec3(0.0);
@@ -76,8 +77,8 @@ void scatter()
     vec3 diffuse_N = faceforward(normal_N, -vd.viewWorld, normal_N);
     vec2 ab = PublicUniforms_2 * PublicUniforms_2 * vec2(-0.5, 0.45)
         / (PublicUniforms_2 * PublicUniforms_2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
-    float ratio = greater / greater;
-    if (pick >= 0.0 && pick < greater) {
+    float scaled_diffuse_share = diffuse_share / diffuse_share;
+    if (pick >= 0.0 && pick < diffuse_share) {
         mat3 any_frame = mx_frame(diffuse_N, abs(diffuse_N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
         vec3 L_2 = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
@@ -87,10 +88,11 @@ void scatter()
         float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, L_2) - cos_v * diffuse_cos_l, 0.0)
             / max(diffuse_cos_l, cos_v);
         float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
-        weight = vec3(LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum / max(pdf, 1e-8)) * ratio);
-        density = pdf * ratio;
+        weight = vec3(LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum / max(pdf, 1e-8))
+            * scaled_diffuse_share);
+        density = pdf * scaled_diffuse_share;
     }
-    pick += -greater;
+    pick += -diffuse_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
@@ -99,14 +101,15 @@ void scatter()
     float diffuse_cos_l = max(diffuse_n_dot_l, 1e-8);
     float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l, 0.0)
         / max(diffuse_cos_l, cos_v);
-    float sum = vd.lightWorld.w * (ratio * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float ratio_2 = LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / sum;
-    out5 = vec4(ratio_2, ratio_2, ratio_2, 0.0);
+    float sum = vd.lightWorld.w * (scaled_diffuse_share * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
+    float ratio = LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / sum;
+    out5 = vec4(ratio, ratio, ratio, 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_2 = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L_4;
         float intensity;
@@ -119,31 +122,31 @@ void scatter()
         } else {
             vec3 to_light = normalize(d);
             L_4 = to_light;
-            float ratio_3 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float ratio_2 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio_3;
+                intensity = ratio_2;
             } else {
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio_3 : 0.0;
+                    -dot(u_lightData[i].direction, to_light)) * ratio_2 : 0.0;
             }
         }
         float diffuse_cos_l_2 = max(dot(diffuse_N, L_4), 1e-8);
         float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, L_4) - cos_v * diffuse_cos_l_2, 0.0)
             / max(diffuse_cos_l_2, cos_v);
         float product = LightData_2 * (diffuse_cos_l_2 * 0.31830987 * 0.18 * diffuse_sum_2);
-        vec3 product_2 = u_lightData[i].color * intensity * product;
-        float greater_2 = max(dot(product_2, vec3(0.33333334)), 0.0);
-        sum_2 += greater_2;
-        if (sum_2 * chance < greater_2) {
+        vec3 lit = u_lightData[i].color * intensity * product;
+        float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
+        sum_2 += brightness;
+        if (sum_2 * chance < brightness) {
             L_3 = L_4;
-            distance_ = light_type == 1 ? 1e30 : light_type == 2 ? magnitude_d : light_type == 3 ? magnitude_d : 1e30;
-            light = product_2 / greater_2;
+            distance_ = light_type == 1 ? 1e30 : light_type == 3 || light_type == 2 ? magnitude_d : 1e30;
+            light = lit / brightness;
         }
-        if (greater_2 > 0.0) {
-            float ratio_4 = (sum_2 * chance - greater_2) / (sum_2 - greater_2);
-            chance = sum_2 * chance < greater_2 ? sum_2 * chance / greater_2 : ratio_4;
+        if (brightness > 0.0) {
+            float ratio_3 = (sum_2 * chance - brightness) / (sum_2 - brightness);
+            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio_3;
         }
     }
     out6 = vec4(L_3, distance_);

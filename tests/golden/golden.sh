@@ -55,12 +55,18 @@ for document in *.mtlx; do
         run_line "$document" "${words[@]}"
     done < <(sed -n 's/^<!-- mxgen: \(.*\) -->$/\1/p' "$document")
 done
+check 'passes of the deferred pipeline' exits 0 "$mxgen" pipeline passes.d --target vulkan
+for pass in light_complex compose; do
+    kept[pipeline.vulkan.$pass.comp]=1
+    check "pipeline.vulkan.$pass.comp" same "$golden/pipeline.vulkan.$pass.comp" "passes.d/$pass.comp"
+    [ -z "$update" ] || cat check.log
+done
 targets=$("$mxgen" --help | sed -n '/^Targets:/,$ s/^  \([a-z][^ ]*\) .*/\1/p')
 check 'there are targets' test -n "$targets"
 for target in $targets; do # the shading models in every language
     check "models.mtlx has a run '$target'" ls "$golden/models.$target".standard_surface.*
 done
-for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.hlsl "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
+for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.hlsl "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
 done

@@ -23,14 +23,16 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+// Here y = 0.05.
 float mx_bicubic(const mat4 m, const float x)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.05, 0.0025, 0.000125));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
+// Here a = 0.05.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
     float x = clamp(1.0 - c - 0.05 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -39,9 +41,10 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
-// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
-// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
+// Unpolarised reflectance of an interface with the permittivity re + i im, with c for the cosine and u + iv for the
+// index times the cosine behind (Born and Wolf 1999, "Principles of Optics", section 14.4):
+//     F = (P + P Q) / 2,  P = (a - g) / (a + g),  Q = (b - g s) / (b + g s)
+//     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(const float cosine, const float re, const float im)
 {
     float c2 = cosine * cosine;
@@ -54,7 +57,8 @@ float mx_fresnel_conductor(const float cosine, const float re, const float im)
     return (a - g) * b / ((a + g) * (b + g * s));
 }
 
-// One channel after the other, which needs a third of the registers.
+// Unpolarised reflectance of a conductor with the permittivity re + i im of each channel.
+// Here re = vec3(-11.690287, -5.326475, -1.2477709), im = vec3(1.253184, 1.975332, 4.86042).
 vec3 mx_fresnel_conductor(const float cosine)
 {
     vec3 color = vec3(0.0);
@@ -64,14 +68,16 @@ vec3 mx_fresnel_conductor(const float cosine)
     return color;
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = true.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
 {
     return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = true.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -94,6 +100,7 @@ void main()
         * vec3(0.94687766, 0.78681135, 0.40318817) + vec3(1.0)) * 0.15;
     float ggx_masking = sqrt(cos_v * cos_v * 0.9975 + 0.0025);
     mx_GgxLobe metal_vector = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.05), ggx_masking);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // metal, red, blue
         float light_intensity = u_lightData[i].intensity;

@@ -18,6 +18,7 @@ wall_Surface wall_surface(vec3 positionWorld, vec3 normalWorld)
     // lights
     vec3 N = normalize(normalWorld);
     vec3 bsdf_facing = faceforward(N, -normalize(wall_u_viewPosition - positionWorld), N);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
         // bsdf
         vec3 light_L, light_radiance;

@@ -21,6 +21,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     // lights
     float3 N = normalize(normalWorld);
     float3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - positionWorld), N);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
         // bsdf
         float3 light_L, light_radiance;

@@ -23,6 +23,7 @@ void main()
     // lights
     vec3 N = normalize(vd.normalWorld);
     vec3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         vec3 intensity;

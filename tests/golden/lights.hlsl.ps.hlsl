@@ -34,6 +34,7 @@ void main(
     // lights
     float3 N = normalize(vd.normalWorld);
     float3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
         float3 intensity;

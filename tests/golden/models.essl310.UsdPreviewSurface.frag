@@ -80,20 +80,21 @@ layout(location = 3) in vec3 vd_bitangentWorld;
 layout(location = 0) out vec4 out1;
 
 // A texel of zeros is a missing map, and means the normal itself.
+// Here scale = vec2(1.0).
 vec3 mx_normalmap(const vec3 texel, const vec3 normal, const vec3 tangent, const vec3 bitangent)
 {
     vec3 n = dot(texel, texel) == 0.0 ? vec3(0.0, 0.0, 1.0) : texel * 2.0 - vec3(1.0);
     return normalize(tangent * n.x + bitangent * n.y + normal * n.z);
 }
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(const mat4 m, const float x, const float y)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
 vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -102,21 +103,25 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here bend = vec3(0.0), exponent = 5.0.
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
 {
     float x = 1.0 - cosine;
     return mix(f0, f90, x * x * x * x * x);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = false.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
     vec3 slope = H - cos_h * lobe.N;
     return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = false.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -127,8 +132,8 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
-// over it, hence factors.
+// Index and extinction of a conductor with this reflectivity facing the viewer, and this colour at the edge
+// (Gulbrandsen 2014, "Artist Friendly Metallic Fresnel").
 void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 ior, out vec3 extinction)
 {
     vec3 s = sqrt(clamp(reflectivity, vec3(0.0), vec3(0.99)));
@@ -137,9 +142,10 @@ void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 io
     extinction = sqrt(max((greatest - ior) * (ior - vec3(1.0) / greatest), vec3(0.0)));
 }
 
-// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
-// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
-// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
+// Unpolarised reflectance of an interface with the permittivity re + i im, with c for the cosine and u + iv for the
+// index times the cosine behind (Born and Wolf 1999, "Principles of Optics", section 14.4):
+//     F = (P + P Q) / 2,  P = (a - g) / (a + g),  Q = (b - g s) / (b + g s)
+//     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(const float cosine, const float re, const float im)
 {
     float c2 = cosine * cosine;
@@ -152,7 +158,7 @@ float mx_fresnel_conductor(const float cosine, const float re, const float im)
     return (a - g) * b / ((a + g) * (b + g * s));
 }
 
-// One channel after the other, which needs a third of the registers.
+// Unpolarised reflectance of a conductor with the permittivity re + i im of each channel.
 vec3 mx_fresnel_conductor(const float cosine, const vec3 re, const vec3 im)
 {
     vec3 color = vec3(0.0);
@@ -161,19 +167,19 @@ vec3 mx_fresnel_conductor(const float cosine, const vec3 re, const vec3 im)
     return color;
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -182,12 +188,15 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(const float cosine, const float area)
 {
     return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = true.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -195,12 +204,13 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
     return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = true.
 mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
-    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
+    vec3 v = vec3(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
@@ -211,29 +221,29 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
         * weight);
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 vec3 mx_filtered_light(const vec3 d, const float texels)
 {
     return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -253,14 +263,14 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
 vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
     vec3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light that comes through it and a solid sphere of an index behind it.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -269,9 +279,9 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
         / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
 float mx_fresnel_permittivity(const float cosine, const float re)
 {
     float k = 0.5 * (re - 1.0);
@@ -300,7 +310,7 @@ void main()
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
     float coating_scale = mix(coating_fresnel_f0, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
+    float coating_throughput = 1.0 - SR_UsdPreviewSurface_clearcoat
         * dot(vec3(mix(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
         vec3(0.33333334));
     bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
@@ -312,7 +322,7 @@ void main()
     vec2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
     float difference = 1.0 / albedo.x - 1.0;
     vec3 reflection_scale = mix(reflection_fresnel_f0, f90, 0.04761905) * difference + vec3(1.0);
-    float body_weight = coating_difference
+    float body_weight = coating_throughput
         * (1.0 - dot(mix(reflection_fresnel_f0, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
     float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
     float diffuse_weight = 1.0 - metal_weight;
@@ -329,11 +339,12 @@ void main()
     vec3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     vec3 im = metal_extinction * (metal_ior * 2.0);
     vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, re, im), vec3(1.0), 0.04761905) + vec3(1.0))
-        * (metal_weight * coating_difference);
+        * (metal_weight * coating_throughput);
     float ggx_masking = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
         * (1.0 - specular_roughness * specular_roughness));
     mx_GgxLobe vector = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(specular_roughness), ggx_masking);
-    vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
+    vec3 reflection_product = reflection_scale * (diffuse_weight * coating_throughput);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -375,14 +386,13 @@ void main()
             color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
     }
-    // environment
-    // diffuse
+    // environment: diffuse
     if (diffuse_weight_2 > 0.0) {
         vec3 diffuse_product_2 = diffuseColor
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz;
         color += diffuse_product_2 * (body_weight * diffuse_weight_2 * u_envLightIntensity);
     }
-    // coating
+    // environment: coating
     if (SR_UsdPreviewSurface_clearcoat > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_roughness), shading_normal, V);
         vec2 turn = vec2(1.0, 0.0);
@@ -393,17 +403,15 @@ void main()
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // metal, reflection
+    // environment: metal, reflection
     if (metal_weight > 0.0 || diffuse_weight > 0.0) {
         mx_GgxSamples ggx_samples = mx_ggx_samples(vec2(specular_roughness), shading_normal, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            // metal
             mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
             if (metal_weight > 0.0)
                 color += metal_product * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
-            // reflection
             if (diffuse_weight > 0.0)
                 color += reflection_product
                     * (metal_ggx_reflected.color
@@ -412,7 +420,7 @@ void main()
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // refraction
+    // environment: refraction
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
         mx_GgxSamples samples = mx_ggx_samples(vec2(0.0), shading_normal, V);

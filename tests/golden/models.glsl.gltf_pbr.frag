@@ -79,14 +79,14 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(const mat4 m, const float x, const float y)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
 vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -95,7 +95,9 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-// What Gaussian i sees of one polarisation after interference.
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
+// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
+// micrometres (Belcour and Barla 2017, section 3.3).
 float mx_film_light(const float a, const vec2 r, const float d, const int i)
 {
     vec4 gaussian = mat4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
@@ -112,14 +114,15 @@ float mx_film_light(const float a, const vec2 r, const float d, const int i)
         * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
 }
 
-// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
-// film is lower.
+// Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind
+// the film is lower.
 vec3 mx_film_turned(const vec3 f0, const vec3 f, const float ior)
 {
     return (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * f, vec3(0.0)));
 }
 
+// Reflectance, facing the viewer, of a film on an interface of colour f0.
 vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -135,6 +138,8 @@ vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_io
         1.0093968) * xyz, vec3(0.0), vec3(1.0));
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "schlick", k = vec3(0.0).
 vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -142,15 +147,17 @@ vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
     return n;
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = false.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
     vec3 slope = H - cos_h * lobe.N;
     return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = false.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -161,9 +168,9 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
 float mx_fresnel_permittivity(const float cosine, const float re)
 {
     float k = 0.5 * (re - 1.0);
@@ -174,13 +181,15 @@ float mx_fresnel_permittivity(const float cosine, const float re)
     return (cg2 + s * s) * (r * r);
 }
 
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here bend = vec3(0.0), exponent = 5.0.
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
 {
     float x = 1.0 - cosine;
     return mix(f0, f90, x * x * x * x * x);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of a film's own interface, of perpendicular and parallel light; `inside` is the cosine in the film.
 vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
 {
     vec2 x = vec2(cosine, ior * cosine);
@@ -188,7 +197,8 @@ vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
     return (x - u) / (x + u);
 }
 
-// A film on a colour.
+// Reflectance of a film on an interface with Schlick's curve.
+// Here bend = vec3(0.0), exponent = 5.0.
 vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -209,6 +219,8 @@ vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const fl
         1.0093968) * (0.5 * xyz), vec3(0.0), vec3(1.0));
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "schlick", k = vec3(0.0), exponent = 5.0.
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -216,19 +228,22 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float fi
     return mx_fresnel_schlick(cosine, n, f90);
 }
 
-// Rodrigues' formula; the axis has unit length.
+// The vector v turned clockwise around an axis of unit length, by an angle in radians (Rodrigues' formula).
 vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
 {
     float c = cos(angle);
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(const float cosine, const float area)
 {
     return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = false.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -237,15 +252,17 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
         mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = false, is_wide = false.
 float mx_ggx_stretched_2(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
     vec2 parts = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = false, is_wide = false.
 float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -256,19 +273,19 @@ float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -277,6 +294,8 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = true.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -284,12 +303,13 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
     return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = true.
 mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
-    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
+    vec3 v = vec3(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
@@ -300,29 +320,29 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
         * weight);
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 vec3 mx_filtered_light(const vec3 d, const float texels)
 {
     return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -342,7 +362,8 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = false.
 mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
@@ -358,14 +379,14 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
         * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
 vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
     vec3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light that comes through it and a solid sphere of an index behind it.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -401,14 +422,14 @@ void main()
     float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
     float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
-    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
+    float coating_throughput = 1.0 - SR_gltf_pbr_clearcoat
         * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
     float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
     float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (sheen_rough + 0.2)), 0.0, 1.0);
-    float substrate_weight = coating_difference * (1.0 - sheen_weight * sheen_albedo);
+    float substrate_weight = coating_throughput * (1.0 - sheen_weight * sheen_albedo);
     float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
         SR_gltf_pbr_iridescence) * substrate_weight;
     float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
@@ -417,7 +438,7 @@ void main()
     float ggx_masking = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
     mx_GgxLobe coating_vector = mx_GgxLobe(Nf, cos_v, vec3(0.0), vec2(coat_lobe), ggx_masking);
     float s = 1.0 / max(sheen_rough, 0.005);
-    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
+    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_throughput);
     float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
     vec3 fresnel_facing = max(SR_gltf_pbr_base_color, 0.0);
     vec3 metal_film_product = (difference
@@ -434,6 +455,7 @@ void main()
         * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
     float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
     vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -497,17 +519,16 @@ void main()
             color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_f0, f90))));
     }
-    // environment
-    // fuzz
+    // environment: fuzz
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     if (sheen_weight > 0.0) {
-        float fuzz_product_3 = u_envLightIntensity * (sheen_albedo * (sheen_weight * coating_difference));
+        float fuzz_product_3 = u_envLightIntensity * (sheen_albedo * (sheen_weight * coating_throughput));
         color += SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product_3;
     }
-    // diffuse
+    // environment: diffuse
     if (diffuse_weight > 0.0)
         color += SR_gltf_pbr_base_color * part * (body_weight * diffuse_weight * u_envLightIntensity);
-    // coating
+    // environment: coating
     if (SR_gltf_pbr_clearcoat > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), N, V);
         vec2 turn = vec2(1.0, 0.0);
@@ -518,13 +539,12 @@ void main()
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // metal_film, metal_bare, reflection_film, reflection
+    // environment: metal_film, metal_bare, reflection_film, reflection
     mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
     if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (SR_gltf_pbr_iridescence_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal_film
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
@@ -532,20 +552,17 @@ void main()
                         * (metal_film_ggx_reflected.weight
                         * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0),
                         SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior)));
-                // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0))));
-                // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90,
                         SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior)));
-                // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
                         * (metal_film_ggx_reflected.color
@@ -556,26 +573,23 @@ void main()
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal_film, metal_bare
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0)));
                 color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
-                // reflection_film
                 vec3 reflection_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90));
                 if (reflection_film_visible)
                     color += reflection_film_product * reflection_product_2;
-                // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product * reflection_product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
-    // refraction
+    // environment: refraction
     if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
         vec3 refraction_tint = fresnel_facing * (u_refractionTwoSided ? fresnel_facing : vec3(1.0));
         vec3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));

@@ -92,14 +92,16 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-// The same facing the viewer.
+// Reflectance of a dielectric that faces the viewer.
 float mx_fresnel_dielectric_facing(const float ior)
 {
     float r = (1.0 - ior) / (1.0 + ior);
     return r * r;
 }
 
-// What Gaussian i sees of one polarisation after interference.
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
+// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
+// micrometres (Belcour and Barla 2017, section 3.3).
 float mx_film_light(const float a, const vec2 r, const float d, const int i)
 {
     vec4 gaussian = mat4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
@@ -116,14 +118,15 @@ float mx_film_light(const float a, const vec2 r, const float d, const int i)
         * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
 }
 
-// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
-// x the cosine in the perpendicular part, and the permittivity times the cosine in the parallel part.
+// Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x
+// is the cosine for perpendicular light, and the permittivity times the cosine for parallel light.
 vec2 mx_film_amplitude(const vec2 x, const vec2 u)
 {
     return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
 }
 
-// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+// The index times the cosine behind an interface, u + iv, from the cosine in front of it and the permittivity:
+//     (u + iv)^2 = re + i im - sin^2
 vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
 {
     float t = re + (cosine * cosine - 1.0);
@@ -131,7 +134,7 @@ vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
     return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
-// Facing the viewer both polarisations are alike.
+// Reflectance, facing the viewer, of a film on an interface with the permittivity re + i im.
 vec3 mx_film_index_facing(const vec3 re, const vec3 im, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -148,6 +151,8 @@ vec3 mx_film_index_facing(const vec3 re, const vec3 im, const float film, const 
         1.0093968) * xyz, vec3(0.0), vec3(1.0));
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "dielectric", k = vec3(0.0).
 vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -155,7 +160,8 @@ vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
     return vec3(mx_fresnel_dielectric_facing(n.x));
 }
 
-// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
+// Squared roughness along X and across: the aspect ratio stretches one axis and shrinks the other (Burley 2012, section
+// 5.4).
 vec2 mx_roughness_anisotropy(const float roughness, const float anisotropy)
 {
     float squared = clamp(roughness * roughness, 1e-8, 1.0);
@@ -163,14 +169,14 @@ vec2 mx_roughness_anisotropy(const float roughness, const float anisotropy)
     return vec2(min(squared / aspect, 1.0), squared * aspect);
 }
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(const mat4 m, const float x, const float y)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
 vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -179,19 +185,22 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-// Rodrigues' formula; the axis has unit length.
+// The vector v turned clockwise around an axis of unit length, by an angle in radians (Rodrigues' formula).
 vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
 {
     float c = cos(angle);
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(const float cosine, const float area)
 {
     return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = false.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -200,15 +209,17 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
         mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = false, is_wide = false.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
     vec2 parts = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = false, is_wide = false.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -219,9 +230,9 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
 float mx_fresnel_permittivity(const float cosine, const float re)
 {
     float k = 0.5 * (re - 1.0);
@@ -232,8 +243,8 @@ float mx_fresnel_permittivity(const float cosine, const float re)
     return (cg2 + s * s) * (r * r);
 }
 
-// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
-// over it, hence factors.
+// Index and extinction of a conductor with this reflectivity facing the viewer, and this colour at the edge
+// (Gulbrandsen 2014, "Artist Friendly Metallic Fresnel").
 void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 ior, out vec3 extinction)
 {
     vec3 s = sqrt(clamp(reflectivity, vec3(0.0), vec3(0.99)));
@@ -242,9 +253,10 @@ void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 io
     extinction = sqrt(max((greatest - ior) * (ior - vec3(1.0) / greatest), vec3(0.0)));
 }
 
-// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
-// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
-// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
+// Unpolarised reflectance of an interface with the permittivity re + i im, with c for the cosine and u + iv for the
+// index times the cosine behind (Born and Wolf 1999, "Principles of Optics", section 14.4):
+//     F = (P + P Q) / 2,  P = (a - g) / (a + g),  Q = (b - g s) / (b + g s)
+//     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(const float cosine, const float re, const float im)
 {
     float c2 = cosine * cosine;
@@ -257,7 +269,7 @@ float mx_fresnel_conductor(const float cosine, const float re, const float im)
     return (a - g) * b / ((a + g) * (b + g * s));
 }
 
-// One channel after the other, which needs a third of the registers.
+// Unpolarised reflectance of a conductor with the permittivity re + i im of each channel.
 vec3 mx_fresnel_conductor(const float cosine, const vec3 re, const vec3 im)
 {
     vec3 color = vec3(0.0);
@@ -266,6 +278,8 @@ vec3 mx_fresnel_conductor(const float cosine, const vec3 re, const vec3 im)
     return color;
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "conductor".
 vec3 mx_fresnel_facing(const vec3 n, const vec3 k, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -273,7 +287,7 @@ vec3 mx_fresnel_facing(const vec3 n, const vec3 k, const float film, const float
     return mx_fresnel_conductor(1.0, n, k);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of a film's own interface, of perpendicular and parallel light; `inside` is the cosine in the film.
 vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
 {
     vec2 x = vec2(cosine, ior * cosine);
@@ -281,7 +295,7 @@ vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
     return (x - u) / (x + u);
 }
 
-// A film on a permittivity.
+// Reflectance of a film on an interface with the permittivity re + i im.
 vec3 mx_film_index(const float cosine, const vec3 re, const vec3 im, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -303,6 +317,8 @@ vec3 mx_film_index(const float cosine, const vec3 re, const vec3 im, const float
         1.0093968) * (0.5 * xyz), vec3(0.0), vec3(1.0));
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "conductor", f90 = vec3(1.0), exponent = 0.0.
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -310,6 +326,8 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film
     return mx_fresnel_conductor(cosine, n, k);
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "dielectric", k = vec3(0.0), f90 = vec3(1.0), exponent = 0.0.
 vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -317,7 +335,9 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float 
     return vec3(mx_fresnel_permittivity(cosine, n.x * n.x));
 }
 
-// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
+// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
+// shading").
 float mx_subsurface_light(const float radius, const float curvature, const float cos_l)
 {
     float x = curvature * max(radius, 0.1);
@@ -326,7 +346,7 @@ float mx_subsurface_light(const float radius, const float curvature, const float
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
+// Light that arrives by subsurface scattering, with a radius for each channel.
 vec3 mx_subsurface_light(const vec3 radius, const float curvature, const float cos_l)
 {
     vec3 light = vec3(0.0);
@@ -335,19 +355,19 @@ vec3 mx_subsurface_light(const vec3 radius, const float curvature, const float c
     return light;
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -356,7 +376,8 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = false.
 mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
@@ -372,29 +393,29 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
         * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 vec3 mx_filtered_light(const vec3 d, const float texels)
 {
     return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -414,14 +435,14 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
 vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
     vec3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light that comes through it and a solid sphere of an index behind it.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -464,12 +485,12 @@ void main()
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float coating_difference = 1.0 - SR_standard_surface_coat
+    float coating_throughput = 1.0 - SR_standard_surface_coat
         * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     vec3 clamped_coat_tint = clamp(mix(vec3(1.0), SR_standard_surface_coat_color, SR_standard_surface_coat), 0.0, 1.0);
     vec3 body_weight = (vec3(1.0) - reflection_scale
         * (SR_standard_surface_specular * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
-        * (coating_difference * clamped_coat_tint);
+        * (coating_throughput * clamped_coat_tint);
     float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
@@ -500,17 +521,18 @@ void main()
     vec3 im = metal_extinction * (metal_ior * 2.0);
     vec3 metal_scale = difference * mix(mx_fresnel_facing(re, im, SR_standard_surface_thin_film_thickness,
         SR_standard_surface_thin_film_IOR), vec3(1.0), 0.04761905) + vec3(1.0);
-    vec3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
+    vec3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_throughput));
     vec3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
     bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
     vec3 reflection_weight = clamped_coat_tint
-        * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
+        * (coating_throughput * (SR_standard_surface_specular * dielectric_weight));
     vec3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
     float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale;
     float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
     vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -569,8 +591,7 @@ void main()
             color += light_color * (intensity
                 * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_product));
     }
-    // environment
-    // fuzz, scatter, diffuse
+    // environment: fuzz, scatter, diffuse
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     vec2 fit = SR_standard_surface_diffuse_roughness
         * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
@@ -578,11 +599,11 @@ void main()
     vec3 diffuse_response = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     vec3 fuzz_response = fuzz_product * part * (sheen_albedo * u_envLightIntensity);
     color += diffuse_response + (fuzz_response + u_envLightIntensity * (scatter_product * part));
-    // translucent
+    // environment: translucent
     if (translucent_weight > 0.0)
         color += u_envLightIntensity * (translucent_product
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
-    // coating
+    // environment: coating
     if (SR_standard_surface_coat > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
@@ -593,14 +614,13 @@ void main()
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // metal, reflection
+    // environment: metal, reflection
     float scaled_specular_IOR = SR_standard_surface_specular_IOR * SR_standard_surface_specular_IOR;
     if (metal_visible || reflection_visible) {
         mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
         if (SR_standard_surface_thin_film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
@@ -608,7 +628,6 @@ void main()
                         * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, re, im, SR_standard_surface_thin_film_thickness,
                         SR_standard_surface_thin_film_IOR)));
-                // reflection
                 if (reflection_visible)
                     color += reflection_product
                         * (metal_ggx_reflected.color
@@ -620,13 +639,11 @@ void main()
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
-                // reflection
                 if (reflection_visible)
                     color += reflection_product
                         * (metal_ggx_reflected.color
@@ -636,7 +653,7 @@ void main()
             }
         }
     }
-    // refraction
+    // environment: refraction
     if (SR_standard_surface_transmission * dielectric_weight > 0.0) {
         vec3 tint = max(SR_standard_surface_transmission_color, 0.0);
         vec3 refraction_tint = tint * (u_refractionTwoSided ? tint : vec3(1.0));

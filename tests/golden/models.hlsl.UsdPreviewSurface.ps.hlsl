@@ -132,20 +132,21 @@ mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
 }
 
 // A texel of zeros is a missing map, and means the normal itself.
+// Here scale = float2(1.0, 1.0).
 float3 mx_normalmap(float3 texel, float3 normal, float3 tangent, float3 bitangent)
 {
     float3 n = dot(texel, texel) == 0.0 ? float3(0.0, 0.0, 1.0) : texel * 2.0 - 1.0;
     return normalize(tangent * n.x + bitangent * n.y + normal * n.z);
 }
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(float4x4 m, float x, float y)
 {
     return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
 float2 mx_ggx_albedo_fit(float a, float u, float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
@@ -155,21 +156,25 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
         * x);
 }
 
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here bend = float3(0.0, 0.0, 0.0), exponent = 5.0.
 float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
 {
     float x = 1.0 - cosine;
     return lerp(f0, f90, x * x * x * x * x);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = false.
 float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
 {
     float3 slope = H - cos_h * lobe.N;
     return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = false.
 float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -180,8 +185,8 @@ float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
-// over it, hence factors.
+// Index and extinction of a conductor with this reflectivity facing the viewer, and this colour at the edge
+// (Gulbrandsen 2014, "Artist Friendly Metallic Fresnel").
 void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out float3 extinction)
 {
     float3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
@@ -190,9 +195,10 @@ void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out
     extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
 }
 
-// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
-// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
-// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
+// Unpolarised reflectance of an interface with the permittivity re + i im, with c for the cosine and u + iv for the
+// index times the cosine behind (Born and Wolf 1999, "Principles of Optics", section 14.4):
+//     F = (P + P Q) / 2,  P = (a - g) / (a + g),  Q = (b - g s) / (b + g s)
+//     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(float cosine, float re, float im)
 {
     float c2 = cosine * cosine;
@@ -205,7 +211,7 @@ float mx_fresnel_conductor(float cosine, float re, float im)
     return (a - g) * b / ((a + g) * (b + g * s));
 }
 
-// One channel after the other, which needs a third of the registers.
+// Unpolarised reflectance of a conductor with the permittivity re + i im of each channel.
 float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
 {
     float3 color = float3(0.0, 0.0, 0.0);
@@ -214,19 +220,19 @@ float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
     return color;
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(float sine, float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(float3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
@@ -235,12 +241,15 @@ float2 mx_map_point(float3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(float cosine, float area)
 {
     return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = true.
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
@@ -249,12 +258,13 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
         mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = true.
 mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     float3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
-    float3 v = float3(float2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
+    float3 v = float3(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
     float3 stretch = float3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
@@ -265,30 +275,30 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
         u_envLightIntensity * weight);
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 float3 mx_filtered_light(float3 d, float texels)
 {
     return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
         * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 {
     return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 {
     float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -308,14 +318,14 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
 float3 mx_refract_sphere(float3 v, float3 h, float ior)
 {
     float3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light that comes through it and a solid sphere of an index behind it.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -324,9 +334,9 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
         * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
 float mx_fresnel_permittivity(float cosine, float re)
 {
     float k = 0.5 * (re - 1.0);
@@ -357,7 +367,7 @@ void main(
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     float2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
     float coating_scale = lerp(coating_fresnel_f0, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
+    float coating_throughput = 1.0 - SR_UsdPreviewSurface_clearcoat
         * dot((float3)(lerp(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
         float3(0.33333334, 0.33333334, 0.33333334));
     bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
@@ -369,7 +379,7 @@ void main(
     float2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
     float difference = 1.0 / albedo.x - 1.0;
     float3 reflection_scale = lerp(reflection_fresnel_f0, f90, 0.04761905) * difference + float3(1.0, 1.0, 1.0);
-    float body_weight = coating_difference
+    float body_weight = coating_throughput
         * (1.0 - dot(lerp(reflection_fresnel_f0, f90, albedo.y) * albedo.x * reflection_scale,
         float3(0.33333334, 0.33333334, 0.33333334)));
     float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
@@ -388,11 +398,12 @@ void main(
     float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     float3 im = metal_extinction * (metal_ior * 2.0);
     float3 metal_product = (difference * lerp(mx_fresnel_conductor(1.0, re, im), float3(1.0, 1.0, 1.0), 0.04761905)
-        + float3(1.0, 1.0, 1.0)) * (metal_weight * coating_difference);
+        + float3(1.0, 1.0, 1.0)) * (metal_weight * coating_throughput);
     float ggx_masking = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
         * (1.0 - specular_roughness * specular_roughness));
     mx_GgxLobe vector_ = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), (float2)specular_roughness, ggx_masking);
-    float3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
+    float3 reflection_product = reflection_scale * (diffuse_weight * coating_throughput);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
         float intensity;
@@ -434,15 +445,14 @@ void main(
             color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
     }
-    // environment
-    // diffuse
+    // environment: diffuse
     if (diffuse_weight_2 > 0.0) {
         float3 diffuse_product_2 = diffuseColor
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
             mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
         color += diffuse_product_2 * (body_weight * diffuse_weight_2 * u_envLightIntensity);
     }
-    // coating
+    // environment: coating
     if (SR_UsdPreviewSurface_clearcoat > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
@@ -453,17 +463,15 @@ void main(
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // metal, reflection
+    // environment: metal, reflection
     if (metal_weight > 0.0 || diffuse_weight > 0.0) {
         mx_GgxSamples ggx_samples = mx_ggx_samples((float2)specular_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
-            // metal
             mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
             if (metal_weight > 0.0)
                 color += metal_product * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
-            // reflection
             if (diffuse_weight > 0.0)
                 color += reflection_product
                     * (metal_ggx_reflected.color
@@ -472,7 +480,7 @@ void main(
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // refraction
+    // environment: refraction
     float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
     if (refraction_weight > 0.0) {
         mx_GgxSamples samples = mx_ggx_samples(float2(0.0, 0.0), shading_normal, V);

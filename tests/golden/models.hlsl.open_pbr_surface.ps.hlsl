@@ -152,21 +152,21 @@ mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
     return made;
 }
 
-// OpenPBR Surface specification, "Microfacet model".
+// Squared roughness along X and across (OpenPBR Surface specification, "Microfacet model").
 float2 mx_open_pbr_anisotropy(float roughness, float anisotropy)
 {
     float aspect = 1.0 - anisotropy;
     return roughness * roughness * sqrt(2.0 / (1.0 + aspect * aspect)) * float2(1.0, aspect);
 }
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(float4x4 m, float x, float y)
 {
     return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
 float2 mx_ggx_albedo_fit(float a, float u, float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
@@ -176,14 +176,16 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
         * x);
 }
 
-// The same facing the viewer.
+// Reflectance of a dielectric that faces the viewer.
 float mx_fresnel_dielectric_facing(float ior)
 {
     float r = (1.0 - ior) / (1.0 + ior);
     return r * r;
 }
 
-// What Gaussian i sees of one polarisation after interference.
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
+// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
+// micrometres (Belcour and Barla 2017, section 3.3).
 float mx_film_light(float a, float2 r, float d, int i)
 {
     float4 gaussian = float4x4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
@@ -200,14 +202,15 @@ float mx_film_light(float a, float2 r, float d, int i)
         * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
 }
 
-// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
-// x the cosine in the perpendicular part, and the permittivity times the cosine in the parallel part.
+// Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x
+// is the cosine for perpendicular light, and the permittivity times the cosine for parallel light.
 float2 mx_film_amplitude(float2 x, float2 u)
 {
     return float2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
 }
 
-// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+// The index times the cosine behind an interface, u + iv, from the cosine in front of it and the permittivity:
+//     (u + iv)^2 = re + i im - sin^2
 float2 mx_fresnel_refract(float cosine, float re, float im)
 {
     float t = re + (cosine * cosine - 1.0);
@@ -215,7 +218,8 @@ float2 mx_fresnel_refract(float cosine, float re, float im)
     return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
 }
 
-// Facing the viewer both polarisations are alike.
+// Reflectance, facing the viewer, of a film on an interface with the permittivity re + i im.
+// Here im = float3(0.0, 0.0, 0.0).
 float3 mx_film_index_facing(float3 re, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -225,13 +229,14 @@ float3 mx_film_index_facing(float3 re, float film, float film_ior)
     for (int i = 0; i < 4; ++i) {
         int channel = max(i - 1, 0);
         xyz[channel] += mx_film_light(a,
-            mx_film_amplitude(float2(1.0, 0.0),
-            mx_fresnel_refract(1.0, re[channel] / (ior * ior), float3(0.0, 0.0, 0.0)[channel] / (ior * ior))), d, i);
+            mx_film_amplitude(float2(1.0, 0.0), mx_fresnel_refract(1.0, re[channel] / (ior * ior), 0.0)), d, i);
     }
     return clamp(mul(xyz, float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338,
         0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "dielectric", k = float3(0.0, 0.0, 0.0).
 float3 mx_fresnel_facing(float3 n, float film, float film_ior)
 {
     if (film > 0.0)
@@ -239,25 +244,28 @@ float3 mx_fresnel_facing(float3 n, float film, float film_ior)
     return (float3)mx_fresnel_dielectric_facing(n.x);
 }
 
-// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+// The numbers a and b of the linear transform that makes the sheen lobe of roughness r, at the cosine c of the viewer,
+// of a clamped cosine (Zeltner, Burley and Chiang 2022):
+//     M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N
 float2 mx_sheen_transform(float c, float r)
 {
     return float2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c)
         * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
 }
 
-// Into the tangent space around N with x along the unit tangent `x`, and out of it.
+// The direction w in the tangent space around N, whose x lies along the unit tangent `x`.
 float3 mx_enter_frame(float3 w, float3 N, float3 x)
 {
     return float3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
 }
 
-// Unit tangent along X.
+// The unit tangent along X at the normal N.
 float3 mx_tangent(float3 N, float3 X)
 {
     return normalize(X - dot(X, N) * N);
 }
 
+// The sheen lobe of roughness r from L to V, where V has the cosine c (Zeltner, Burley and Chiang 2022).
 float mx_sheen_zeltner(float3 N, float3 V, float3 L, float c, float r)
 {
     float2 m = mx_sheen_transform(c, r);
@@ -267,12 +275,15 @@ float mx_sheen_zeltner(float3 N, float3 V, float3 L, float c, float r)
     return max(w.z, 0.0) / 3.1415927 * scale * scale;
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(float cosine, float area)
 {
     return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = false.
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
@@ -281,15 +292,17 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
         mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = false, is_wide = false.
 float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
 {
     float2 parts = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = false, is_wide = false.
 float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -300,9 +313,9 @@ float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
 float mx_fresnel_permittivity(float cosine, float re)
 {
     float k = 0.5 * (re - 1.0);
@@ -313,14 +326,15 @@ float mx_fresnel_permittivity(float cosine, float re)
     return (cg2 + s * s) * (r * r);
 }
 
-// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
-// film is lower.
+// Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind
+// the film is lower.
 float3 mx_film_turned(float3 f0, float3 f, float ior)
 {
     return (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * f, 0.0));
 }
 
+// Reflectance, facing the viewer, of a film on an interface of colour f0.
 float3 mx_film_schlick_facing(float3 f0, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -336,6 +350,8 @@ float3 mx_film_schlick_facing(float3 f0, float film, float film_ior)
         0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "schlick".
 float3 mx_fresnel_facing_2(float3 n, float film, float film_ior)
 {
     if (film > 0.0)
@@ -343,6 +359,8 @@ float3 mx_fresnel_facing_2(float3 n, float film, float film_ior)
     return n;
 }
 
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here f90 = float3(1.0, 1.0, 1.0), exponent = 5.0.
 float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
 {
     float x = 1.0 - cosine;
@@ -350,7 +368,7 @@ float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
     return lerp(f0, float3(1.0, 1.0, 1.0), x3 * x * x) - bend * (cosine * x3 * x3);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of a film's own interface, of perpendicular and parallel light; `inside` is the cosine in the film.
 float2 mx_film_amplitudes(float cosine, float inside, float ior)
 {
     float2 x = float2(cosine, ior * cosine);
@@ -358,7 +376,8 @@ float2 mx_film_amplitudes(float cosine, float inside, float ior)
     return (x - u) / (x + u);
 }
 
-// A film on a colour.
+// Reflectance of a film on an interface with Schlick's curve.
+// Here f90 = float3(1.0, 1.0, 1.0), exponent = 5.0.
 float3 mx_film_schlick(float cosine, float3 f0, float3 bend, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -379,6 +398,8 @@ float3 mx_film_schlick(float cosine, float3 f0, float3 bend, float film, float f
         0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "schlick", f90 = float3(1.0, 1.0, 1.0), exponent = 5.0.
 float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
 {
     if (film > 0.0)
@@ -386,7 +407,8 @@ float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
     return mx_fresnel_schlick(cosine, n, k);
 }
 
-// A film on a permittivity.
+// Reflectance of a film on an interface with the permittivity re + i im.
+// Here im = float3(0.0, 0.0, 0.0).
 float3 mx_film_index(float cosine, float3 re, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -396,7 +418,7 @@ float3 mx_film_index(float cosine, float3 re, float film, float film_ior)
     float3 xyz = float3(0.0, 0.0, 0.0);
     for (int i = 0; i < 4; ++i) {
         int channel = max(i - 1, 0);
-        float2 below = float2(re[channel], float3(0.0, 0.0, 0.0)[channel]) / (ior * ior);
+        float2 below = float2(re[channel], 0.0) / (ior * ior);
         float2 u = mx_fresnel_refract(c, below.x, below.y);
         float2 x = float2(c, 0.0);
         for (int p = 0; p < 2; ++p) {
@@ -408,6 +430,8 @@ float3 mx_film_index(float cosine, float3 re, float film, float film_ior)
         0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "dielectric", k = float3(0.0, 0.0, 0.0), f90 = float3(1.0, 1.0, 1.0), exponent = 0.0.
 float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
 {
     if (film > 0.0)
@@ -415,7 +439,9 @@ float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
     return (float3)mx_fresnel_permittivity(cosine, n.x * n.x);
 }
 
-// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
+// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
+// shading").
 float mx_subsurface_light(float radius, float curvature, float cos_l)
 {
     float x = curvature * max(radius, 0.1);
@@ -425,7 +451,7 @@ float mx_subsurface_light(float radius, float curvature, float cos_l)
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
+// Light that arrives by subsurface scattering, with a radius for each channel.
 float3 mx_subsurface_light(float3 radius, float curvature, float cos_l)
 {
     float3 light = float3(0.0, 0.0, 0.0);
@@ -434,7 +460,7 @@ float3 mx_subsurface_light(float3 radius, float curvature, float cos_l)
     return light;
 }
 
-// Directional albedo of Fujii's lobe.
+// Directional albedo of Fujii's lobe of roughness r (Fujii 2012, "A tiny improvement of Oren-Nayar reflectance model").
 float mx_fujii_albedo(float cosine, float r)
 {
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
@@ -443,19 +469,19 @@ float mx_fujii_albedo(float cosine, float r)
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(float sine, float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(float3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
@@ -464,13 +490,15 @@ float2 mx_map_point(float3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Albedo of what the lobe scatters more than once, relative to `color`.
+// Albedo of the light that Fujii's lobe scatters more than once, relative to `color`; `mean` is the mean albedo of the
+// lobe.
 float3 mx_fujii_multiple(float3 color, float mean)
 {
     return color * mean / (1.0 - color * max(1.0 - mean, 0.0));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = false.
 mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
@@ -486,30 +514,30 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
         * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 float3 mx_filtered_light(float3 d, float texels)
 {
     return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
         * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 {
     return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 {
     float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -529,14 +557,14 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
 float3 mx_refract_sphere(float3 v, float3 h, float ior)
 {
     float3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light that comes through it and a solid sphere of an index behind it.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -564,7 +592,7 @@ void main(
     float thin = float(SR_open_pbr_surface_geometry_thin_walled);
     float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
     float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
-    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
+    float sheet_transmission_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
     float ior_relative = lerp(SR_open_pbr_surface_specular_ior,
         max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
     float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
@@ -615,7 +643,7 @@ void main(
     float3 body_weight = lerp(reflection_throughput, float3(1.0, 1.0, 1.0) - product * reflection_film_scale,
         SR_open_pbr_surface_thin_film_weight) * substrate_weight;
     float3 sheet_front_product = subsurface_positive
-        * (scaled_sheet_weight * (body_weight
+        * (sheet_transmission_weight * (body_weight
         * clamp(SR_open_pbr_surface_subsurface_color * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0,
         1.0)));
     float3 Nf = faceforward(N, -V, N);
@@ -623,7 +651,7 @@ void main(
     float2 ab = base_diffuse_roughness * base_diffuse_roughness * float2(-0.5, 0.45)
         / (base_diffuse_roughness * base_diffuse_roughness + float2(0.33, 0.09)) + float2(1.0, 0.0);
     float3 sheet_back_product = subsurface_positive
-        * (scaled_sheet_weight * (body_weight
+        * (sheet_transmission_weight * (body_weight
         * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
         1.0)));
     float limited_cos_v = min(cos_v, 1.0);
@@ -665,6 +693,7 @@ void main(
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
     float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
     float diffuse_greater_2 = max(1.0 - mean, 1e-8);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
         float intensity;
@@ -740,8 +769,7 @@ void main(
                 + diffuse_product_2))));
         }
     }
-    // environment
-    // fuzz, sheet_front, scatter
+    // environment: fuzz, sheet_front, scatter
     float envLightIntensity = u_envLightIntensity;
     float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
         mx_map_point(normalize(mul(Nf, (float3x3)u_envMatrix))), 0.0).xyz;
@@ -750,16 +778,16 @@ void main(
     float3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     float3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
     color += envLightIntensity * (scatter_product * part) + sum;
-    // sheet_back
-    if (scaled_sheet_weight > 0.0)
+    // environment: sheet_back
+    if (sheet_transmission_weight > 0.0)
         color += envLightIntensity * (sheet_back_product
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
             mx_map_point(normalize(mul(-Nf, (float3x3)u_envMatrix))), 0.0).xyz);
-    // diffuse
+    // environment: diffuse
     if (diffuse_weight > 0.0)
         color += envLightIntensity * (lerp(mx_fujii_multiple(base_positive, mean), float3(1.0, 1.0, 1.0),
             diffuse_fujii_albedo) * (diffuse_product * part));
-    // coating
+    // environment: coating
     if (coat_weight > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, X, V);
         float2 turn = float2(1.0, 0.0);
@@ -770,13 +798,12 @@ void main(
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // metal_film, metal_bare, reflection_film, reflection
+    // environment: metal_film, metal_bare, reflection_film, reflection
     mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
     if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal_film
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
@@ -784,20 +811,17 @@ void main(
                         * (metal_film_ggx_reflected.weight
                         * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend, film_thickness,
                         thin_film_ior)));
-                // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend)));
-                // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_film_index(metal_film_ggx_reflected.cosine, (float3)scaled_ior, film_thickness,
                         thin_film_ior)));
-                // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
                         * (metal_film_ggx_reflected.color
@@ -808,30 +832,26 @@ void main(
         } else {
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal_film
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 float3 metal_bare_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend));
                 if (metal_film_weight > 0.0)
                     color += metal_film_product * metal_bare_product_2;
-                // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product * metal_bare_product_2;
-                // reflection_film
                 float3 reflection_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
                 if (reflection_film_visible)
                     color += reflection_film_product * reflection_product_2;
-                // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product * reflection_product_2;
                 turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
-    // refraction
+    // environment: refraction
     if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
         float3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? float3(1.0, 1.0, 1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);

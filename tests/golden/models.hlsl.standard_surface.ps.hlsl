@@ -152,14 +152,16 @@ mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
     return made;
 }
 
-// The same facing the viewer.
+// Reflectance of a dielectric that faces the viewer.
 float mx_fresnel_dielectric_facing(float ior)
 {
     float r = (1.0 - ior) / (1.0 + ior);
     return r * r;
 }
 
-// What Gaussian i sees of one polarisation after interference.
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
+// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
+// micrometres (Belcour and Barla 2017, section 3.3).
 float mx_film_light(float a, float2 r, float d, int i)
 {
     float4 gaussian = float4x4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
@@ -176,14 +178,15 @@ float mx_film_light(float a, float2 r, float d, int i)
         * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
 }
 
-// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
-// x the cosine in the perpendicular part, and the permittivity times the cosine in the parallel part.
+// Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x
+// is the cosine for perpendicular light, and the permittivity times the cosine for parallel light.
 float2 mx_film_amplitude(float2 x, float2 u)
 {
     return float2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
 }
 
-// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+// The index times the cosine behind an interface, u + iv, from the cosine in front of it and the permittivity:
+//     (u + iv)^2 = re + i im - sin^2
 float2 mx_fresnel_refract(float cosine, float re, float im)
 {
     float t = re + (cosine * cosine - 1.0);
@@ -191,7 +194,7 @@ float2 mx_fresnel_refract(float cosine, float re, float im)
     return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
 }
 
-// Facing the viewer both polarisations are alike.
+// Reflectance, facing the viewer, of a film on an interface with the permittivity re + i im.
 float3 mx_film_index_facing(float3 re, float3 im, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -208,6 +211,8 @@ float3 mx_film_index_facing(float3 re, float3 im, float film, float film_ior)
         0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "dielectric", k = float3(0.0, 0.0, 0.0).
 float3 mx_fresnel_facing(float3 n, float film, float film_ior)
 {
     if (film > 0.0)
@@ -215,7 +220,8 @@ float3 mx_fresnel_facing(float3 n, float film, float film_ior)
     return (float3)mx_fresnel_dielectric_facing(n.x);
 }
 
-// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
+// Squared roughness along X and across: the aspect ratio stretches one axis and shrinks the other (Burley 2012, section
+// 5.4).
 float2 mx_roughness_anisotropy(float roughness, float anisotropy)
 {
     float squared = clamp(roughness * roughness, 1e-8, 1.0);
@@ -223,14 +229,14 @@ float2 mx_roughness_anisotropy(float roughness, float anisotropy)
     return float2(min(squared / aspect, 1.0), squared * aspect);
 }
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(float4x4 m, float x, float y)
 {
     return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
 float2 mx_ggx_albedo_fit(float a, float u, float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
@@ -240,19 +246,22 @@ float2 mx_ggx_albedo_fit(float a, float u, float c)
         * x);
 }
 
-// Rodrigues' formula; the axis has unit length.
+// The vector v turned clockwise around an axis of unit length, by an angle in radians (Rodrigues' formula).
 float3 mx_rotate3d(float3 v, float angle, float3 axis)
 {
     float c = cos(angle);
     return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(float cosine, float area)
 {
     return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = false.
 mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
@@ -261,15 +270,17 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
         mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = false, is_wide = false.
 float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
 {
     float2 parts = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = false, is_wide = false.
 float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -280,9 +291,9 @@ float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
 float mx_fresnel_permittivity(float cosine, float re)
 {
     float k = 0.5 * (re - 1.0);
@@ -293,8 +304,8 @@ float mx_fresnel_permittivity(float cosine, float re)
     return (cg2 + s * s) * (r * r);
 }
 
-// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
-// over it, hence factors.
+// Index and extinction of a conductor with this reflectivity facing the viewer, and this colour at the edge
+// (Gulbrandsen 2014, "Artist Friendly Metallic Fresnel").
 void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out float3 extinction)
 {
     float3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
@@ -303,9 +314,10 @@ void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out
     extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
 }
 
-// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of
-// Optics", section 14.4): F = (P + P Q) / 2, P = (a - g) / (a + g), Q = (b - g s) / (b + g s) a = |u + iv|^2 + c^2, g =
-// 2uc, s = 1 - c^2, b = |u + iv|^2 c^2 + s^2
+// Unpolarised reflectance of an interface with the permittivity re + i im, with c for the cosine and u + iv for the
+// index times the cosine behind (Born and Wolf 1999, "Principles of Optics", section 14.4):
+//     F = (P + P Q) / 2,  P = (a - g) / (a + g),  Q = (b - g s) / (b + g s)
+//     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(float cosine, float re, float im)
 {
     float c2 = cosine * cosine;
@@ -318,7 +330,7 @@ float mx_fresnel_conductor(float cosine, float re, float im)
     return (a - g) * b / ((a + g) * (b + g * s));
 }
 
-// One channel after the other, which needs a third of the registers.
+// Unpolarised reflectance of a conductor with the permittivity re + i im of each channel.
 float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
 {
     float3 color = float3(0.0, 0.0, 0.0);
@@ -327,6 +339,8 @@ float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
     return color;
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "conductor".
 float3 mx_fresnel_facing(float3 n, float3 k, float film, float film_ior)
 {
     if (film > 0.0)
@@ -334,7 +348,7 @@ float3 mx_fresnel_facing(float3 n, float3 k, float film, float film_ior)
     return mx_fresnel_conductor(1.0, n, k);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of a film's own interface, of perpendicular and parallel light; `inside` is the cosine in the film.
 float2 mx_film_amplitudes(float cosine, float inside, float ior)
 {
     float2 x = float2(cosine, ior * cosine);
@@ -342,7 +356,7 @@ float2 mx_film_amplitudes(float cosine, float inside, float ior)
     return (x - u) / (x + u);
 }
 
-// A film on a permittivity.
+// Reflectance of a film on an interface with the permittivity re + i im.
 float3 mx_film_index(float cosine, float3 re, float3 im, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -364,6 +378,8 @@ float3 mx_film_index(float cosine, float3 re, float3 im, float film, float film_
         0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "conductor", f90 = float3(1.0, 1.0, 1.0), exponent = 0.0.
 float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
 {
     if (film > 0.0)
@@ -371,6 +387,8 @@ float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
     return mx_fresnel_conductor(cosine, n, k);
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "dielectric", k = float3(0.0, 0.0, 0.0), f90 = float3(1.0, 1.0, 1.0), exponent = 0.0.
 float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
 {
     if (film > 0.0)
@@ -378,7 +396,9 @@ float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
     return (float3)mx_fresnel_permittivity(cosine, n.x * n.x);
 }
 
-// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
+// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
+// shading").
 float mx_subsurface_light(float radius, float curvature, float cos_l)
 {
     float x = curvature * max(radius, 0.1);
@@ -388,7 +408,7 @@ float mx_subsurface_light(float radius, float curvature, float cos_l)
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
+// Light that arrives by subsurface scattering, with a radius for each channel.
 float3 mx_subsurface_light(float3 radius, float curvature, float cos_l)
 {
     float3 light = float3(0.0, 0.0, 0.0);
@@ -397,19 +417,19 @@ float3 mx_subsurface_light(float3 radius, float curvature, float cos_l)
     return light;
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(float sine, float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(float3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
@@ -418,7 +438,8 @@ float2 mx_map_point(float3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = false.
 mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
@@ -434,30 +455,30 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
         * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 float3 mx_filtered_light(float3 d, float texels)
 {
     return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
         * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
 {
     return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 {
     float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -477,14 +498,14 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
 float3 mx_refract_sphere(float3 v, float3 h, float ior)
 {
     float3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light that comes through it and a solid sphere of an index behind it.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -529,12 +550,12 @@ void main(
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     float coating_scale = lerp(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float coating_difference = 1.0 - coat
+    float coating_throughput = 1.0 - coat
         * (lerp(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     float3 clamped_coat_tint = clamp(lerp(float3(1.0, 1.0, 1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
     float3 body_weight = (float3(1.0, 1.0, 1.0) - reflection_scale
         * (SR_standard_surface_specular * (lerp(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
-        * (coating_difference * clamped_coat_tint);
+        * (coating_throughput * clamped_coat_tint);
     float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
         23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
@@ -564,17 +585,18 @@ void main(
     float3 im = metal_extinction * (metal_ior * 2.0);
     float3 metal_scale = difference * lerp(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR),
         float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0);
-    float3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
+    float3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_throughput));
     float3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
     bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
     float3 reflection_weight = clamped_coat_tint
-        * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
+        * (coating_throughput * (SR_standard_surface_specular * dielectric_weight));
     float3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
     float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
     float3 scatter_radius = SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale;
     float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
     float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
         float intensity;
@@ -630,8 +652,7 @@ void main(
             color += light_color * (intensity
                 * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_product));
     }
-    // environment
-    // fuzz, scatter, diffuse
+    // environment: fuzz, scatter, diffuse
     float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
         mx_map_point(normalize(mul(Nf, (float3x3)u_envMatrix))), 0.0).xyz;
     float2 fit = SR_standard_surface_diffuse_roughness
@@ -640,12 +661,12 @@ void main(
     float3 diffuse_response = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     float3 fuzz_response = fuzz_product * part * (sheen_albedo * u_envLightIntensity);
     color += diffuse_response + (fuzz_response + u_envLightIntensity * (scatter_product * part));
-    // translucent
+    // environment: translucent
     if (translucent_weight > 0.0)
         color += u_envLightIntensity * (translucent_product
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
             mx_map_point(normalize(mul(-Nf, (float3x3)u_envMatrix))), 0.0).xyz);
-    // coating
+    // environment: coating
     if (coat > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         float2 turn = float2(1.0, 0.0);
@@ -656,21 +677,19 @@ void main(
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // metal, reflection
+    // environment: metal, reflection
     float scaled_specular_IOR = specular_IOR * specular_IOR;
     if (metal_visible || reflection_visible) {
         mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
         if (thin_film_thickness > 0.0) {
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
-                // reflection
                 if (reflection_visible)
                     color += reflection_product
                         * (metal_ggx_reflected.color
@@ -682,13 +701,11 @@ void main(
         } else {
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_visible)
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
-                // reflection
                 if (reflection_visible)
                     color += reflection_product
                         * (metal_ggx_reflected.color
@@ -698,7 +715,7 @@ void main(
             }
         }
     }
-    // refraction
+    // environment: refraction
     if (SR_standard_surface_transmission * dielectric_weight > 0.0) {
         float3 tint = max(SR_standard_surface_transmission_color, 0.0);
         float3 refraction_tint = tint * (u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0));

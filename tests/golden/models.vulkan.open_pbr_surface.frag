@@ -99,21 +99,21 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-// OpenPBR Surface specification, "Microfacet model".
+// Squared roughness along X and across (OpenPBR Surface specification, "Microfacet model").
 vec2 mx_open_pbr_anisotropy(const float roughness, const float anisotropy)
 {
     float aspect = 1.0 - anisotropy;
     return roughness * roughness * sqrt(2.0 / (1.0 + aspect * aspect)) * vec2(1.0, aspect);
 }
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(const mat4 m, const float x, const float y)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
 vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -122,14 +122,16 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
-// The same facing the viewer.
+// Reflectance of a dielectric that faces the viewer.
 float mx_fresnel_dielectric_facing(const float ior)
 {
     float r = (1.0 - ior) / (1.0 + ior);
     return r * r;
 }
 
-// What Gaussian i sees of one polarisation after interference.
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
+// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
+// micrometres (Belcour and Barla 2017, section 3.3).
 float mx_film_light(const float a, const vec2 r, const float d, const int i)
 {
     vec4 gaussian = mat4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
@@ -146,14 +148,15 @@ float mx_film_light(const float a, const vec2 r, const float d, const int i)
         * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
 }
 
-// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it,
-// x the cosine in the perpendicular part, and the permittivity times the cosine in the parallel part.
+// Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x
+// is the cosine for perpendicular light, and the permittivity times the cosine for parallel light.
 vec2 mx_film_amplitude(const vec2 x, const vec2 u)
 {
     return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
 }
 
-// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+// The index times the cosine behind an interface, u + iv, from the cosine in front of it and the permittivity:
+//     (u + iv)^2 = re + i im - sin^2
 vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
 {
     float t = re + (cosine * cosine - 1.0);
@@ -161,7 +164,8 @@ vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
     return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
-// Facing the viewer both polarisations are alike.
+// Reflectance, facing the viewer, of a film on an interface with the permittivity re + i im.
+// Here im = vec3(0.0).
 vec3 mx_film_index_facing(const vec3 re, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -171,13 +175,14 @@ vec3 mx_film_index_facing(const vec3 re, const float film, const float film_ior)
     for (int i = 0; i < 4; ++i) {
         int channel = max(i - 1, 0);
         xyz[channel] += mx_film_light(a,
-            mx_film_amplitude(vec2(1.0, 0.0),
-            mx_fresnel_refract(1.0, re[channel] / (ior * ior), vec3(0.0)[channel] / (ior * ior))), d, i);
+            mx_film_amplitude(vec2(1.0, 0.0), mx_fresnel_refract(1.0, re[channel] / (ior * ior), 0.0)), d, i);
     }
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
         1.0093968) * xyz, vec3(0.0), vec3(1.0));
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "dielectric", k = vec3(0.0).
 vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -185,25 +190,28 @@ vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
     return vec3(mx_fresnel_dielectric_facing(n.x));
 }
 
-// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+// The numbers a and b of the linear transform that makes the sheen lobe of roughness r, at the cosine c of the viewer,
+// of a clamped cosine (Zeltner, Burley and Chiang 2022):
+//     M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N
 vec2 mx_sheen_transform(const float c, const float r)
 {
     return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c) * (r - 1.0)
         * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
 }
 
-// Into the tangent space around N with x along the unit tangent `x`, and out of it.
+// The direction w in the tangent space around N, whose x lies along the unit tangent `x`.
 vec3 mx_enter_frame(const vec3 w, const vec3 N, const vec3 x)
 {
     return vec3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
 }
 
-// Unit tangent along X.
+// The unit tangent along X at the normal N.
 vec3 mx_tangent(const vec3 N, const vec3 X)
 {
     return normalize(X - dot(X, N) * N);
 }
 
+// The sheen lobe of roughness r from L to V, where V has the cosine c (Zeltner, Burley and Chiang 2022).
 float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, const float r)
 {
     vec2 m = mx_sheen_transform(c, r);
@@ -213,12 +221,15 @@ float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, 
     return max(w.z, 0.0) / 3.1415927 * scale * scale;
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(const float cosine, const float area)
 {
     return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = false.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -227,15 +238,17 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
         mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = false, is_wide = false.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
     vec2 parts = vec2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
     return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = false, is_wide = false.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -246,9 +259,9 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
 float mx_fresnel_permittivity(const float cosine, const float re)
 {
     float k = 0.5 * (re - 1.0);
@@ -259,14 +272,15 @@ float mx_fresnel_permittivity(const float cosine, const float re)
     return (cg2 + s * s) * (r * r);
 }
 
-// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the
-// film is lower.
+// Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind
+// the film is lower.
 vec3 mx_film_turned(const vec3 f0, const vec3 f, const float ior)
 {
     return (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * f, vec3(0.0)));
 }
 
+// Reflectance, facing the viewer, of a film on an interface of colour f0.
 vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -282,6 +296,8 @@ vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_io
         1.0093968) * xyz, vec3(0.0), vec3(1.0));
 }
 
+// Reflectance, facing the viewer, of an interface.
+// Here model = "schlick".
 vec3 mx_fresnel_facing_2(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -289,6 +305,8 @@ vec3 mx_fresnel_facing_2(const vec3 n, const float film, const float film_ior)
     return n;
 }
 
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here f90 = vec3(1.0), exponent = 5.0.
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
 {
     float x = 1.0 - cosine;
@@ -296,7 +314,7 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
     return mix(f0, vec3(1.0), x3 * x * x) - bend * (cosine * x3 * x3);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of a film's own interface, of perpendicular and parallel light; `inside` is the cosine in the film.
 vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
 {
     vec2 x = vec2(cosine, ior * cosine);
@@ -304,7 +322,8 @@ vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
     return (x - u) / (x + u);
 }
 
-// A film on a colour.
+// Reflectance of a film on an interface with Schlick's curve.
+// Here f90 = vec3(1.0), exponent = 5.0.
 vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 bend, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -325,6 +344,8 @@ vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 bend, const f
         1.0093968) * (0.5 * xyz), vec3(0.0), vec3(1.0));
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "schlick", f90 = vec3(1.0), exponent = 5.0.
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -332,7 +353,8 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film
     return mx_fresnel_schlick(cosine, n, k);
 }
 
-// A film on a permittivity.
+// Reflectance of a film on an interface with the permittivity re + i im.
+// Here im = vec3(0.0).
 vec3 mx_film_index(const float cosine, const vec3 re, const float film, const float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -342,7 +364,7 @@ vec3 mx_film_index(const float cosine, const vec3 re, const float film, const fl
     vec3 xyz = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         int channel = max(i - 1, 0);
-        vec2 below = vec2(re[channel], vec3(0.0)[channel]) / (ior * ior);
+        vec2 below = vec2(re[channel], 0.0) / (ior * ior);
         vec2 u = mx_fresnel_refract(c, below.x, below.y);
         vec2 x = vec2(c, 0.0);
         for (int p = 0; p < 2; ++p) {
@@ -354,6 +376,8 @@ vec3 mx_film_index(const float cosine, const vec3 re, const float film, const fl
         1.0093968) * (0.5 * xyz), vec3(0.0), vec3(1.0));
 }
 
+// Reflectance of an interface at a cosine.
+// Here model = "dielectric", k = vec3(0.0), f90 = vec3(1.0), exponent = 0.0.
 vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
@@ -361,7 +385,9 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float 
     return vec3(mx_fresnel_permittivity(cosine, n.x * n.x));
 }
 
-// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
+// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
+// shading").
 float mx_subsurface_light(const float radius, const float curvature, const float cos_l)
 {
     float x = curvature * max(radius, 0.1);
@@ -370,7 +396,7 @@ float mx_subsurface_light(const float radius, const float curvature, const float
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
-// Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
+// Light that arrives by subsurface scattering, with a radius for each channel.
 vec3 mx_subsurface_light(const vec3 radius, const float curvature, const float cos_l)
 {
     vec3 light = vec3(0.0);
@@ -379,7 +405,7 @@ vec3 mx_subsurface_light(const vec3 radius, const float curvature, const float c
     return light;
 }
 
-// Directional albedo of Fujii's lobe.
+// Directional albedo of Fujii's lobe of roughness r (Fujii 2012, "A tiny improvement of Oren-Nayar reflectance model").
 float mx_fujii_albedo(const float cosine, const float r)
 {
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
@@ -388,19 +414,19 @@ float mx_fujii_albedo(const float cosine, const float r)
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -409,13 +435,15 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Albedo of what the lobe scatters more than once, relative to `color`.
+// Albedo of the light that Fujii's lobe scatters more than once, relative to `color`; `mean` is the mean albedo of the
+// lobe.
 vec3 mx_fujii_multiple(const vec3 color, const float mean)
 {
     return color * mean / (vec3(1.0) - color * max(1.0 - mean, 0.0));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = false.
 mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
@@ -431,29 +459,29 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
         * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 vec3 mx_filtered_light(const vec3 d, const float texels)
 {
     return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -473,14 +501,14 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
 vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
     vec3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// The light that comes through it and a solid sphere of an index behind it.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -506,7 +534,7 @@ void main()
     float thin = float(SR_open_pbr_surface_geometry_thin_walled);
     float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
     float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
-    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
+    float sheet_transmission_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
     float ior_relative = mix(SR_open_pbr_surface_specular_ior,
         max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
     float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
@@ -557,7 +585,7 @@ void main()
     vec3 body_weight = mix(reflection_throughput, vec3(1.0) - product * reflection_film_scale,
         SR_open_pbr_surface_thin_film_weight) * substrate_weight;
     vec3 sheet_front_product = subsurface_positive
-        * (scaled_sheet_weight * (body_weight
+        * (sheet_transmission_weight * (body_weight
         * clamp(SR_open_pbr_surface_subsurface_color * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0,
         1.0)));
     vec3 Nf = faceforward(N, -V, N);
@@ -565,7 +593,7 @@ void main()
     vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
         / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
     vec3 sheet_back_product = subsurface_positive
-        * (scaled_sheet_weight * (body_weight
+        * (sheet_transmission_weight * (body_weight
         * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
         1.0)));
     float limited_cos_v = min(cos_v, 1.0);
@@ -606,6 +634,7 @@ void main()
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
     float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
     float diffuse_greater_2 = max(1.0 - mean, 1e-8);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -681,8 +710,7 @@ void main()
                 + diffuse_product_2))));
         }
     }
-    // environment
-    // fuzz, sheet_front, scatter
+    // environment: fuzz, sheet_front, scatter
     float envLightIntensity = u_envLightIntensity;
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
@@ -690,15 +718,15 @@ void main()
     vec3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     vec3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
     color += envLightIntensity * (scatter_product * part) + sum;
-    // sheet_back
-    if (scaled_sheet_weight > 0.0)
+    // environment: sheet_back
+    if (sheet_transmission_weight > 0.0)
         color += envLightIntensity * (sheet_back_product
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
-    // diffuse
+    // environment: diffuse
     if (diffuse_weight > 0.0)
         color += envLightIntensity * (mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
             * (diffuse_product * part));
-    // coating
+    // environment: coating
     if (coat_weight > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, X, V);
         vec2 turn = vec2(1.0, 0.0);
@@ -709,13 +737,12 @@ void main()
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // metal_film, metal_bare, reflection_film, reflection
+    // environment: metal_film, metal_bare, reflection_film, reflection
     mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
     if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal_film
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
@@ -723,20 +750,17 @@ void main()
                         * (metal_film_ggx_reflected.weight
                         * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend, film_thickness,
                         thin_film_ior)));
-                // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend)));
-                // reflection_film
                 if (reflection_film_visible)
                     color += reflection_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_film_index(metal_film_ggx_reflected.cosine, vec3(scaled_ior), film_thickness,
                         thin_film_ior)));
-                // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product
                         * (metal_film_ggx_reflected.color
@@ -747,30 +771,26 @@ void main()
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
-                // metal_film
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend));
                 if (metal_film_weight > 0.0)
                     color += metal_film_product * metal_bare_product_2;
-                // metal_bare
                 if (metal_bare_weight > 0.0)
                     color += metal_bare_product * metal_bare_product_2;
-                // reflection_film
                 vec3 reflection_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
                 if (reflection_film_visible)
                     color += reflection_film_product * reflection_product_2;
-                // reflection
                 if (reflection_weight > 0.0)
                     color += reflection_product * reflection_product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
-    // refraction
+    // environment: refraction
     if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
         vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);

@@ -16,6 +16,7 @@ vec3 mx_insert_distance(const vec3 nearest, const float d)
     return vec3(nearest.xy, min(nearest.z, d));
 }
 
+// Final scramble of a hash (Bob Jenkins, "lookup3.c", 2006).
 uint mx_hash_final(const uint x, const uint y, const uint z)
 {
     uint a = x;
@@ -38,6 +39,7 @@ uint mx_hash_final(const uint x, const uint y, const uint z)
     return c;
 }
 
+// Cell noise: three random numbers from 0 to 1 for each cell of the integer lattice.
 vec3 mx_cellnoise_vec3(const vec2 p)
 {
     vec2 cell = floor(p);
@@ -48,7 +50,9 @@ vec3 mx_cellnoise_vec3(const vec2 p)
         float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928586u)) / 4.2949673e9);
 }
 
-// Returns the nearest point, and the squared distances to the three nearest.
+// The nearest feature point around p, and the squared distances to the three nearest; `jitter` moves the points about
+// the centres of the cells (Worley 1996, "A Cellular Texture Basis Function").
+// Here jitter = 1.0.
 vec2 mx_worley(const vec2 p, out vec3 distances)
 {
     vec2 cell = floor(p);

@@ -16,6 +16,7 @@ float3 mx_insert_distance(float3 nearest, float d)
     return float3(nearest.xy, min(nearest.z, d));
 }
 
+// Final scramble of a hash (Bob Jenkins, "lookup3.c", 2006).
 uint mx_hash_final(uint x, uint y, uint z)
 {
     uint a = x;
@@ -38,6 +39,7 @@ uint mx_hash_final(uint x, uint y, uint z)
     return c;
 }
 
+// Cell noise: three random numbers from 0 to 1 for each cell of the integer lattice.
 float3 mx_cellnoise_vec3(float2 p)
 {
     float2 cell = floor(p);
@@ -48,7 +50,9 @@ float3 mx_cellnoise_vec3(float2 p)
         float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928586u)) / 4.2949673e9);
 }
 
-// Returns the nearest point, and the squared distances to the three nearest.
+// The nearest feature point around p, and the squared distances to the three nearest; `jitter` moves the points about
+// the centres of the cells (Worley 1996, "A Cellular Texture Basis Function").
+// Here jitter = 1.0.
 float2 mx_worley(float2 p, out float3 distances)
 {
     float2 cell = floor(p);

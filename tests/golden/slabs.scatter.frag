@@ -35,14 +35,14 @@ vec4 out10;
 vec4 out11;
 vec4 out12;
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(const mat4 m, const float x, const float y)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
 vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -51,33 +51,29 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
 }
 
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here bend = vec3(0.0), f90 = vec3(1.0), exponent = 5.0.
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
 {
     float x = 1.0 - cosine;
     return mix(f0, vec3(1.0), x * x * x * x * x);
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
+// GGX distribution of normals, at a normal that the roughness stretched to e; `area` is the product of the roughness
+// along x and y (Burley 2012, appendix B.2, equation 13).
 float mx_ggx_distribution(const vec3 e, const float area)
 {
     return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
-// Solid angle of normals for that of refracted directions (Walter et al. 2007, equation 17).
-float mx_refraction_jacobian(const vec3 v, const vec3 l, const vec3 h)
-{
-    float cos_l = dot(l, h);
-    float sum = dot(v, h) + 1.5 * cos_l;
-    return 2.25 * abs(cos_l) / (sum * sum);
-}
-
+// Masking and shadowing of the directions v and l over 4 cos_v, each with the roughness in its direction (Heitz 2014,
+// equations 80 and 99).
 float mx_ggx_smith_visibility(const vec3 v, const vec3 l, const vec2 alpha)
 {
     return 0.5 * l.z / (v.z * length(vec3(l.xy * alpha, l.z)) + l.z * length(vec3(v.xy * alpha, v.z)));
 }
 
-// What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y).
+// What a white GGX lobe reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it (y).
 vec2 mx_ggx_albedo(const vec2 roughness, const float c)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -85,15 +81,15 @@ vec2 mx_ggx_albedo(const vec2 roughness, const float c)
     return mx_ggx_albedo_fit(a, a / (a + c), c);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// A normal of those visible from v.
+// A unit normal of those visible from v, from two random numbers xi.
 vec3 mx_ggx_visible(const vec2 alpha, const vec3 v, const vec2 xi)
 {
     vec3 stretch = vec3(alpha, 1.0);
@@ -112,8 +108,10 @@ mat3 mx_frame(const vec3 N, const vec3 X)
     return frame;
 }
 
-// What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is
-// smooth.
+// A direction L that the lobe reflects or refracts light from, by three random numbers xi, with the value over the
+// density (`weight`) and the density (`pdf`).
+// Here by_direction = false, eta = 1.5, mode = 1, model = "schlick", k = vec3(0.0), f90 = vec3(1.0), exponent = 5.0,
+// film = 0.0, film_ior = 1.5.
 void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V, const vec3 xi, const vec3 n,
     out vec3 L, out vec3 weight, out float pdf)
 {
@@ -121,29 +119,22 @@ void mx_ggx_scatter(const vec2 roughness, const vec3 N, const vec3 X, const vec3
     mat3 frame = mx_frame(faceforward(N, -V, N), X);
     vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     vec3 h = mx_ggx_visible(alpha, v, xi.xy);
-    float cos_h = clamp(dot(v, h), 1e-8, 1.0);
-    vec3 f = mx_fresnel_schlick(cos_h, n);
-    float share = 1.0;
-    bool is_reflected = xi.z < share;
-    vec3 l = is_reflected ? reflect(-v, h) : refract(-v, h, 0.6666667);
+    vec3 l = reflect(-v, h);
     float density = 2.0 / (v.z + length(vec3(v.xy * alpha, v.z)));
     L = frame * l;
     weight = vec3(0.0);
     pdf = 0.0;
-    if (is_reflected ? l.z <= 0.0 : l.z >= 0.0)
+    if (l.z <= 0.0)
         return;
-    if (is_reflected) {
-        weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
-            * (vec3(1.0) + mix(n, vec3(1.0), vec3(0.04761905)) * (1.0 / mx_ggx_albedo(roughness, v.z).x - 1.0));
-        pdf = 0.25 * share;
-    } else {
-        weight = (vec3(1.0) - f) * (2.0 / ((-l).z + length(vec3((-l).xy * alpha, (-l).z))) * -l.z / (1.0 - share));
-        pdf = (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h);
-    }
+    weight = mx_fresnel_schlick(clamp(dot(v, h), 1e-8, 1.0), n) * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / density)
+        * (vec3(1.0) + mix(n, vec3(1.0), vec3(0.04761905)) * (1.0 / mx_ggx_albedo(roughness, v.z).x - 1.0));
+    pdf = 0.25;
     pdf *= density * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y);
 }
 
-// What the layer of the medium reflects and lets through, with all orders of scattering, of light on a way x.
+// Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
+// a is the albedo of one scattering, t the optical depth (after Kubelka and Munk 1931).
+// Here a = vec3(0.990589, 0.99790716, 0.99950534), t = vec3(0.2).
 vec3 mx_medium_layer(const float way, out vec3 transmitted)
 {
     float x = way - 1.0;
@@ -162,12 +153,15 @@ vec3 mx_medium_layer(const float way, out vec3 transmitted)
     return s * ways / below;
 }
 
+// Light that the layer of a medium reflects on a way.
+// Here color = vec3(0.8, 0.9, 0.95), mean_free_path = vec3(0.1), g = 0.0, thickness = 0.02.
 vec3 mx_medium_reflected(const float way)
 {
     vec3 ignored;
     return mx_medium_layer(way, ignored);
 }
 
+// How far light goes through a medium of index 1.5, over the thickness, on its way to or from V.
 float mx_way(const vec3 N, const vec3 V)
 {
     float c = dot(N, V);
@@ -175,12 +169,14 @@ float mx_way(const vec3 N, const vec3 V)
 }
 
 // Reciprocal, with the albedo of the viewer's way.
+// Here color = vec3(0.8, 0.9, 0.95), mean_free_path = vec3(0.1), phase_anisotropy = 0.0, thickness = 0.02.
 vec3 mx_slab_thin_light(const vec3 N, const vec3 V, const vec3 L)
 {
     return mx_medium_reflected(mx_way(N, V)) / vec3(0.10193972, 0.102937125, 0.103155464)
         * (mx_medium_reflected(mx_way(N, L)) * (max(dot(faceforward(N, -V, N), L), 0.0) / 3.1415927));
 }
 
+// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
 float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, const vec3 L)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -189,13 +185,18 @@ float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, co
         alpha);
 }
 
-// Normal of the facet that refracts l, below the horizon, towards v (Walter et al. 2007, equation 16).
+// Normal of the facet that refracts l, below the horizon, towards v; eta is the index below over that above (Walter et
+// al. 2007, equation 16).
+// Here eta = 1.5.
 vec3 mx_refracting_normal(const vec3 v, const vec3 l)
 {
     vec3 h = normalize(v + 1.5 * l);
     return h.z < 0.0 ? -h : h;
 }
 
+// Density of the directions L that mx_ggx_scatter takes.
+// Here eta = 1.5, mode = 1, model = "schlick", k = vec3(0.0), f90 = vec3(1.0), exponent = 5.0, film = 0.0,
+// film_ior = 1.5.
 float mx_ggx_pdf(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V, const vec3 L)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
@@ -204,12 +205,10 @@ float mx_ggx_pdf(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V,
     vec3 l = L * frame;
     bool is_reflected = l.z > 0.0;
     vec3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l);
-    float cos_h = dot(v, h);
-    if (cos_h <= 0.0 || !is_reflected && dot(l, h) >= 0.0)
+    if (dot(v, h) <= 0.0 || !is_reflected && dot(l, h) >= 0.0)
         return 0.0;
-    float share = 1.0;
     return 2.0 / (v.z + length(vec3(v.xy * alpha, v.z))) * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y)
-        * (is_reflected ? 0.25 * share : (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h));
+        * (is_reflected ? 0.25 : 0.0);
 }
 
 void scatter()
@@ -223,9 +222,9 @@ void scatter()
     L = -vd.viewWorld;
     inside = 2.0;
     weight = vec3(1.0);
-    bool is_below = vd.matter.x < 0.0;
+    bool enters = vd.matter.x < 0.0;
     bool drops_is_below = vd.matter.y < 0.5;
-    float choice = is_below ? drops_is_below ? 0.0 : 2.0 : vd.matter.x;
+    float level = enters ? drops_is_below ? 0.0 : 2.0 : vd.matter.x;
     vec3 N = normalize(vd.normalWorld);
     // metal
     float c = dot(N, vd.viewWorld);
@@ -236,24 +235,24 @@ void scatter()
     vec3 coat_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(coat_reflection_albedo.y, 0.2),
         1e-8), vec3(0.04)) * (coat_reflection_albedo.x * coat_reflection_ggx_compensation);
     vec3 coat_reflection_throughput = max(vec3(1.0) - coat_reflection_slab_reflection_bsdf_albedo, 0.0);
-    float sum = dot(coat_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
-    float greater = max(dot(coat_reflection_throughput, vec3(0.33333334)), 0.0);
-    float sum_2 = sum + greater;
+    float coat_reflection_chance = dot(coat_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
+    float coat_reflection_passing = max(dot(coat_reflection_throughput, vec3(0.33333334)), 0.0);
+    float coat_reflection_chances = coat_reflection_chance + coat_reflection_passing;
     vec3 X = normalize(vd.tangentWorld);
-    if (choice == 0.0) {
-        weight = coat_reflection_throughput * (sum_2 / greater);
-        if (sum_2 * vd.random.w < sum) {
+    if (level == 0.0) {
+        weight = coat_reflection_throughput * (coat_reflection_chances / coat_reflection_passing);
+        if (coat_reflection_chances * vd.random.w < coat_reflection_chance) {
             vec3 coat_reflection_L, coat_reflection_weight;
             float coat_reflection_pdf;
             mx_ggx_scatter(vec2(0.01), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), coat_reflection_L,
                 coat_reflection_weight, coat_reflection_pdf);
             L = coat_reflection_L;
             inside = 0.0;
-            weight = coat_reflection_weight * (sum_2 / sum);
-            density = coat_reflection_pdf * (sum / sum_2);
+            weight = coat_reflection_weight * (coat_reflection_chances / coat_reflection_chance);
+            density = coat_reflection_pdf * (coat_reflection_chance / coat_reflection_chances);
         }
     }
-    bool is_equal = choice == 1.0;
+    bool is_level_1 = level == 1.0;
     // milk
     float way = inversesqrt(c * c + 1.25) * 1.5;
     vec3 N_2 = faceforward(N, -vd.viewWorld, N);
@@ -261,15 +260,15 @@ void scatter()
     vec2 product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
     vec3 L_2 = any_frame * vec3(product, sqrt(1.0 - vd.random.x));
     float pdf = max(dot(N_2, L_2), 0.0) / 3.1415927;
-    if (is_equal) {
+    if (is_level_1) {
         vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
-        float greater_2 = max(dot(coat_medium_throughput, vec3(0.33333334)), 0.0);
-        weight = coat_medium_throughput * ((greater_2 + 0.1) / greater_2);
-        if (vd.random.w * (greater_2 + 0.1) < 0.1) {
+        float coat_medium_passing = max(dot(coat_medium_throughput, vec3(0.33333334)), 0.0);
+        weight = coat_medium_throughput * ((coat_medium_passing + 0.1) / coat_medium_passing);
+        if (vd.random.w * (coat_medium_passing + 0.1) < 0.1) {
             L = L_2;
             inside = 0.0;
             weight = vec3(0.0);
-            density = pdf * (0.1 / (greater_2 + 0.1));
+            density = pdf * (0.1 / (coat_medium_passing + 0.1));
         }
     }
     vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
@@ -277,23 +276,23 @@ void scatter()
     vec3 milk_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(milk_reflection_albedo.y, 0.2),
         1e-8), vec3(0.04)) * (milk_reflection_albedo.x * milk_reflection_ggx_compensation);
     vec3 milk_reflection_throughput = max(vec3(1.0) - milk_reflection_slab_reflection_bsdf_albedo, 0.0);
-    float sum_3 = dot(milk_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
-    float greater_3 = max(dot(milk_reflection_throughput, vec3(0.33333334)), 0.0);
-    float sum_4 = sum_3 + greater_3;
-    if (choice == 3.0) {
-        weight = milk_reflection_throughput * (sum_4 / greater_3);
-        if (vd.random.w * sum_4 < sum_3) {
+    float milk_reflection_chance = dot(milk_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
+    float milk_reflection_passing = max(dot(milk_reflection_throughput, vec3(0.33333334)), 0.0);
+    float milk_reflection_chances = milk_reflection_chance + milk_reflection_passing;
+    if (level == 3.0) {
+        weight = milk_reflection_throughput * (milk_reflection_chances / milk_reflection_passing);
+        if (vd.random.w * milk_reflection_chances < milk_reflection_chance) {
             vec3 milk_reflection_L, milk_reflection_weight;
             float milk_reflection_pdf;
             mx_ggx_scatter(vec2(0.25071993), N, X, vd.viewWorld, vd.random.xyz, vec3(0.04), milk_reflection_L,
                 milk_reflection_weight, milk_reflection_pdf);
             L = milk_reflection_L;
             inside = 0.0;
-            weight = milk_reflection_weight * (sum_4 / sum_3);
-            density = milk_reflection_pdf * (sum_3 / sum_4);
+            weight = milk_reflection_weight * (milk_reflection_chances / milk_reflection_chance);
+            density = milk_reflection_pdf * (milk_reflection_chance / milk_reflection_chances);
         }
     }
-    bool is_equal_2 = choice == 4.0;
+    bool is_level_4 = level == 4.0;
     vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
     vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
@@ -301,41 +300,42 @@ void scatter()
     vec3 metal_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0
         - pow(metal_reflection_albedo.y, 0.2), 1e-8), metal_constant) * metal_reflection_albedo.x
         * metal_reflection_ggx_compensation;
-    if (is_equal_2) {
+    if (is_level_4) {
         vec3 milk_medium_transmitted;
         vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
         vec3 milk_medium_throughput = milk_medium_transmitted
             / (vec3(1.0) - min(metal_reflection_slab_reflection_bsdf_albedo
             * vec3(0.10193972, 0.102937125, 0.103155464), 0.999));
-        float sum_5 = dot(milk_medium, vec3(0.33333334)) * 0.9 + 0.1;
-        float greater_4 = max(dot(milk_medium_throughput, vec3(0.33333334)), 0.0);
-        float sum_6 = sum_5 + greater_4;
-        weight = milk_medium_throughput * (sum_6 / greater_4);
-        if (vd.random.w * sum_6 < sum_5) {
+        float milk_medium_chance = dot(milk_medium, vec3(0.33333334)) * 0.9 + 0.1;
+        float milk_medium_passing = max(dot(milk_medium_throughput, vec3(0.33333334)), 0.0);
+        float milk_medium_chances = milk_medium_chance + milk_medium_passing;
+        weight = milk_medium_throughput * (milk_medium_chances / milk_medium_passing);
+        if (vd.random.w * milk_medium_chances < milk_medium_chance) {
             L = L_2;
             inside = 0.0;
-            weight = mx_slab_thin_light(N, vd.viewWorld, L_2) / max(pdf, 1e-8) * (sum_6 / sum_5);
-            density = pdf * (sum_5 / sum_6);
+            weight = mx_slab_thin_light(N, vd.viewWorld, L_2) / max(pdf, 1e-8)
+                * (milk_medium_chances / milk_medium_chance);
+            density = pdf * (milk_medium_chance / milk_medium_chances);
         }
     }
     vec3 metal_reflection_throughput = max(vec3(1.0) - metal_reflection_slab_reflection_bsdf_albedo, 0.0);
-    float sum_7 = dot(metal_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
-    float greater_5 = max(dot(metal_reflection_throughput, vec3(0.33333334)), 0.0);
-    float sum_8 = sum_7 + greater_5;
-    if (choice == 5.0) {
-        weight = metal_reflection_throughput * (sum_8 / greater_5);
-        if (vd.random.w * sum_8 < sum_7) {
+    float metal_reflection_chance = dot(metal_reflection_slab_reflection_bsdf_albedo, vec3(0.33333334)) * 0.9 + 0.1;
+    float metal_reflection_passing = max(dot(metal_reflection_throughput, vec3(0.33333334)), 0.0);
+    float metal_reflection_chances = metal_reflection_chance + metal_reflection_passing;
+    if (level == 5.0) {
+        weight = metal_reflection_throughput * (metal_reflection_chances / metal_reflection_passing);
+        if (vd.random.w * metal_reflection_chances < metal_reflection_chance) {
             vec3 metal_reflection_L, metal_reflection_weight;
             float metal_reflection_pdf;
             mx_ggx_scatter(vec2(0.29886922), N, X, vd.viewWorld, vd.random.xyz, metal_constant, metal_reflection_L,
                 metal_reflection_weight, metal_reflection_pdf);
             L = metal_reflection_L;
             inside = 0.0;
-            weight = metal_reflection_weight * (sum_8 / sum_7);
-            density = metal_reflection_pdf * (sum_7 / sum_8);
+            weight = metal_reflection_weight * (metal_reflection_chances / metal_reflection_chance);
+            density = metal_reflection_pdf * (metal_reflection_chance / metal_reflection_chances);
         }
     }
-    if (choice == 6.0) {
+    if (level == 6.0) {
         weight = vec3(0.0);
         if (vd.random.w * 0.1 < 0.1) {
             L = L_2;
@@ -344,39 +344,41 @@ void scatter()
             density = pdf;
         }
     }
-    out1 = vec4(choice == 2.0 ? vec3(0.0, 0.1, 0.0) : vec3(0.0), 1.0);
+    out1 = vec4(level == 2.0 ? vec3(0.0, 0.1, 0.0) : vec3(0.0), 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
     float cosine = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0));
     vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
     mat3 frame = mx_frame(N_2, X);
-    float sum_9 = vd.lightWorld.w * (sum / sum_2 * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
+    float sum = vd.lightWorld.w * (coat_reflection_chance / coat_reflection_chances
+        * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
     vec3 ratio = fresnel * (coat_reflection_ggx_compensation
-        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_9;
+        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum;
     float c_2 = dot(N, vd.lightWorld.xyz);
     float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
     const vec3 coat_medium_constant = vec3(0.05, 0.033333335, 0.025);
-    vec3 choice_2 = drops_is_below ? coat_medium_constant : vec3(0.0);
-    float sum_10 = vd.lightWorld.w * (sum_3 / sum_4
+    vec3 extinction_above = drops_is_below ? coat_medium_constant : vec3(0.0);
+    float sum_2 = vd.lightWorld.w * (milk_reflection_chance / milk_reflection_chances
         * mx_ggx_pdf(vec2(0.25071993), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
     vec3 ratio_2 = fresnel * (milk_reflection_ggx_compensation
-        * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_10;
+        * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_2;
     float metal_reflection_ggx_smith_lobe = mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, vd.lightWorld.xyz);
-    float sum_11 = vd.lightWorld.w * (sum_7 / sum_8
+    float sum_3 = vd.lightWorld.w * (metal_reflection_chance / metal_reflection_chances
         * mx_ggx_pdf(vec2(0.29886922), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
     vec3 ratio_3 = metal_reflection_ggx_compensation * mx_fresnel_schlick(cosine, metal_constant)
-        * metal_reflection_ggx_smith_lobe / sum_11;
-    vec3 choice_3 = is_equal_2 ? vec3(1.0) : choice == 5.0 ? ratio_3 * exp(-(way_2 * (choice_2 + vec3(0.2))))
+        * metal_reflection_ggx_smith_lobe / sum_3;
+    vec3 choice = is_level_4 ? vec3(1.0) : level == 5.0 ? ratio_3 * exp(-(way_2 * (extinction_above + vec3(0.2))))
         : vec3(0.0);
-    vec3 choice_4 = is_equal ? vec3(1.0) : choice == 2.0 ? vec3(0.0) : choice == 3.0 ? exp(-(way_2 * choice_2))
-        * ratio_2 : choice_3;
-    out5 = vec4(choice == 0.0 ? ratio : choice_4, 0.0);
+    vec3 choice_2 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0 ? exp(-(way_2 * extinction_above))
+        * ratio_2 : choice;
+    out5 = vec4(level == 0.0 ? ratio : choice_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_12 = 0.0;
+    float sum_4 = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L_4;
         float intensity;
@@ -411,37 +413,37 @@ void scatter()
             * mx_fresnel_schlick(cosine_2, metal_constant);
         vec3 metal_reflection_slab_reflection_bsdf_eval = metal_reflection_product
             * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_4);
-        vec3 choice_5 = is_equal_2 ? vec3(1.0) : choice == 5.0 ? metal_reflection_slab_reflection_bsdf_eval
-            * exp(-((choice_2 + vec3(0.2)) * way_3)) : vec3(0.0);
-        vec3 choice_6 = is_equal ? vec3(1.0) : choice == 2.0 ? vec3(0.0) : choice == 3.0 ? exp(-(choice_2 * way_3))
-            * milk_reflection_slab_reflection_bsdf_eval : choice_5;
-        vec3 product_2 = u_lightData[i].color * intensity
-            * (choice == 0.0 ? coat_reflection_slab_reflection_bsdf_eval : choice_6);
-        float greater_6 = max(dot(product_2, vec3(0.33333334)), 0.0);
-        sum_12 += greater_6;
-        if (sum_12 * chance < greater_6) {
+        vec3 choice_3 = is_level_4 ? vec3(1.0) : level == 5.0 ? metal_reflection_slab_reflection_bsdf_eval
+            * exp(-((extinction_above + vec3(0.2)) * way_3)) : vec3(0.0);
+        vec3 choice_4 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0
+            ? exp(-(extinction_above * way_3)) * milk_reflection_slab_reflection_bsdf_eval : choice_3;
+        vec3 lit = u_lightData[i].color * intensity
+            * (level == 0.0 ? coat_reflection_slab_reflection_bsdf_eval : choice_4);
+        float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
+        sum_4 += brightness;
+        if (sum_4 * chance < brightness) {
             L_3 = L_4;
-            distance_ = light_type == 1 ? 1e30 : light_type == 2 ? magnitude_d : light_type == 3 ? magnitude_d : 1e30;
-            light = product_2 / greater_6;
+            distance_ = light_type == 1 ? 1e30 : light_type == 3 || light_type == 2 ? magnitude_d : 1e30;
+            light = lit / brightness;
         }
-        if (greater_6 > 0.0) {
-            float ratio_5 = (sum_12 * chance - greater_6) / (sum_12 - greater_6);
-            chance = sum_12 * chance < greater_6 ? sum_12 * chance / greater_6 : ratio_5;
+        if (brightness > 0.0) {
+            float ratio_5 = (sum_4 * chance - brightness) / (sum_4 - brightness);
+            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio_5;
         }
     }
     out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_12 * light, 0.0);
-    out9 = vec4(is_equal ? vec3(0.0) : is_equal_2 ? vec3(0.19811778, 0.19958141, 0.19990106) : vec3(0.0), 0.0);
-    float choice_7 = choice < 2.0 ? 2.0 : choice < 3.0 ? 3.0 : choice < 4.0 ? 4.0 : choice < 5.0 ? 5.0 : choice < 6.0
-        ? 6.0 : -1.0;
-    float choice_8 = drops_is_below && choice < 1.0 ? 1.0 : choice_7;
-    float choice_9 = drops_is_below && choice < 0.0 ? 0.0 : choice_8;
-    out10 = vec4(is_equal ? coat_medium_constant : is_equal_2 ? vec3(0.2) : vec3(0.0), choice_9);
-    vec3 choice_10 = drops_is_below ? (drops_is_below ? is_below ? coat_reflection_throughput : vec3(1.0) : vec3(1.0))
+    out7 = vec4(sum_4 * light, 0.0);
+    out9 = vec4(is_level_1 ? vec3(0.0) : is_level_4 ? vec3(0.19811778, 0.19958141, 0.19990106) : vec3(0.0), 0.0);
+    float choice_5 = level < 2.0 ? 2.0 : level < 3.0 ? 3.0 : level < 4.0 ? 4.0 : level < 5.0 ? 5.0 : level < 6.0 ? 6.0
+        : -1.0;
+    float choice_6 = drops_is_below && level < 1.0 ? 1.0 : choice_5;
+    float next_level = drops_is_below && level < 0.0 ? 0.0 : choice_6;
+    out10 = vec4(is_level_1 ? coat_medium_constant : is_level_4 ? vec3(0.2) : vec3(0.0), next_level);
+    vec3 choice_7 = drops_is_below ? (enters ? coat_reflection_throughput : vec3(1.0))
         * exp(-(way * coat_medium_constant)) : vec3(1.0);
-    vec3 product_3 = choice_10 * (is_below ? milk_reflection_throughput : vec3(1.0)) * exp(-vec3(way * 0.2));
-    float choice_11 = choice > 4.0 ? 4.0 : drops_is_below && choice > 1.0 ? 1.0 : -1.0;
-    out11 = vec4(product_3 * (is_below ? metal_reflection_throughput : vec3(1.0)) * (is_below ? vec3(0.0) : vec3(1.0)),
-        choice_11);
+    vec3 product_2 = choice_7 * (enters ? milk_reflection_throughput : vec3(1.0)) * exp(-vec3(way * 0.2));
+    float medium_above = level > 4.0 ? 4.0 : drops_is_below && level > 1.0 ? 1.0 : -1.0;
+    out11 = vec4(product_2 * (enters ? metal_reflection_throughput : vec3(1.0)) * (enters ? vec3(0.0) : vec3(1.0)),
+        medium_above);
     out12 = vec4(0.0, 0.0, 0.0, -2.0);
 }

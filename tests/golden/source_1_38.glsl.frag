@@ -39,8 +39,7 @@ void main()
     vec3 lamp = vec3(0.0);
     lamp_edf(normalize(vd.normalWorld), V_direction, vec3(1.0), lamp);
     vec3 color = lamp;
-    // environment
-    // cloth
+    // environment: cloth
     BSDF cloth = BSDF(vec3(0.0), vec3(1.0), 0.0, 1.5);
     cloth_bsdf_indirect(V_direction, 0.5, vec3(0.5), cloth);
     color += cloth.response;

@@ -83,6 +83,7 @@ void main()
     // lights
     vec3 V_direction = normalize(u_viewPosition - vd_positionWorld);
     vec3 direction = normalize(vd_normalWorld);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // soft
         lightshader bulb_2;
@@ -92,8 +93,7 @@ void main()
         soft_bsdf(soft_closure_data, 0.8, vec3(0.5), direction, 1, soft);
         color += (u_lightData[i].type == 1 ? bulb_2.intensity : vec3(0.0)) * soft.response;
     }
-    // environment
-    // soft
+    // environment: soft
     ClosureData soft_closure_data = ClosureData(3, vec3(0.0), V_direction, direction, vd_positionWorld, 1.0);
     BSDF soft = BSDF(vec3(0.0), vec3(1.0));
     soft_bsdf(soft_closure_data, 0.8, vec3(0.5), direction, 1, soft);

@@ -80,19 +80,19 @@ void soft_bsdf(ClosureData closureData, float weight, vec3 color, vec3 normal, i
     }
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -111,6 +111,7 @@ void main()
     vec3 color = tinted;
     // lights
     vec3 diffuse_N = faceforward(N, -V, N);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // soft, diffuse
         lightshader bulb_2;
@@ -121,8 +122,7 @@ void main()
         vec3 sum = soft.response + soft.throughput * (max(dot(bulb_2.direction, diffuse_N), 1e-8) * 0.05729578);
         color += (u_lightData[i].type == 1 ? bulb_2.intensity : vec3(0.0)) * sum;
     }
-    // environment
-    // soft, diffuse
+    // environment: soft, diffuse
     ClosureData soft_closure_data = ClosureData(3, vec3(0.0), V, N, vd.positionWorld, 1.0);
     BSDF soft = BSDF(vec3(0.0), vec3(1.0));
     soft_bsdf(soft_closure_data, 0.8, vec3(0.5), N, 1, soft);

@@ -94,6 +94,7 @@ void main()
     vec3 color = tinted;
     // lights
     vec3 diffuse_facing = faceforward(N, -V, N);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // soft, diffuse
         lightshader bulb_2;

@@ -24,19 +24,19 @@ in vec3 vd_positionWorld;
 in vec3 vd_normalWorld;
 out vec4 out1;
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -49,11 +49,12 @@ void main()
 {
     vec3 color = vec3(0.0);
     // lights
-    vec3 direction = normalize(vd_normalWorld);
+    vec3 axis = normalize(vd_normalWorld);
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     // SR_clay
-    vec3 N = faceforward(direction, -V, direction);
-    float cos_v = max(abs(dot(direction, V)), 1e-8);
+    vec3 N = faceforward(axis, -V, axis);
+    float cos_v = max(abs(dot(axis, V)), 1e-8);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -80,8 +81,7 @@ void main()
         float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.36 / max(cos_l, cos_v) + 0.73913044;
         color += u_lightData[i].color * (intensity * (cos_l * 0.31830987 * vec3(0.5, 0.25, 0.15) * diffuse_sum));
     }
-    // environment
-    // diffuse
+    // environment: diffuse
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.8631, 1.2189)) * 0.6 + vec2(1.0);
     vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
         * u_envLightIntensity;

@@ -54,14 +54,16 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+// Here y = 0.0001.
 float mx_bicubic(const mat4 m, const float x)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.0001, 1e-8, 1e-12));
 }
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
-// adds none. `u` follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
+// Here a = 0.0001.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
     float x = clamp(1.0 - c - 0.0001 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
@@ -70,9 +72,10 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one
-// times the index: F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2, s = 1 - c^2, g^2 = c^2 + 2k, 2k = re
-// - 1 Since (c - g)(c + g) = -2k, all of it is over one square, with one root.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+// Here re = 2.3104.
 float mx_fresnel_permittivity(const float cosine)
 {
     float c2 = cosine * cosine;
@@ -82,15 +85,17 @@ float mx_fresnel_permittivity(const float cosine)
     return (cg2 + s * s) * (r * r);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times
-// the product of both roughnesses.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = false.
 float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
 {
     vec3 slope = H - cos_h * lobe.N;
     return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = false.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -101,18 +106,21 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here roughness = vec2(0.0001), is_round = true.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 {
     float cosine = max(abs(dot(N, V)), 1e-8);
     return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.0001), sqrt(1e-8 + cosine * cosine));
 }
 
-// The frame of a round lobe has V above its x.
+// The GGX lobe of a surface as samples of the environment see it.
+// Here roughness = vec2(0.0001), is_round = true.
 mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
-    vec3 v = vec3(vec2(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0), lobe.cosine);
+    vec3 v = vec3(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
@@ -123,19 +131,19 @@ mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
         * weight);
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -144,29 +152,29 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Light of a unit direction in the picture, filtered over as many texels.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
 vec3 mx_filtered_light(const vec3 d, const float texels)
 {
     return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor
-// of the reflection model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
 float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
 {
     return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy
-// and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far
-// it lies below the top of the cap, v.z + reach at most.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
 {
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
 }
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before,
-// by its `turn`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
 mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
@@ -186,14 +194,16 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
+// Here ior = 1.52.
 vec3 mx_refract_sphere(const vec3 v, const vec3 h)
 {
     vec3 inside = refract(-v, h, 0.65789473);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), 1.52);
 }
 
-// The light that comes through it and a solid sphere of an index behind it.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
+// Here ior = 1.52.
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -206,14 +216,15 @@ void main()
 {
     vec3 color = vec3(0.0);
     // lights
-    vec3 direction = normalize(vd.normalWorld);
+    vec3 axis = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_glass
-    float cosine = max(abs(dot(direction, V)), 1e-8);
+    float cosine = max(abs(dot(axis, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.0001 / (cosine + 0.0001), cosine);
     float scale = (1.0 / albedo.x - 1.0) * 0.08817142 + 1.0;
-    vec3 facing = faceforward(direction, -V, direction);
+    vec3 facing = faceforward(axis, -V, axis);
     mx_GgxLobe reflection_vector = mx_GgxLobe(facing, cosine, vec3(0.0), vec2(0.0001), sqrt(cosine * cosine + 1e-8));
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -239,23 +250,22 @@ void main()
         float reflection_product = scale * mx_fresnel_permittivity(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)));
         color += u_lightData[i].color * (intensity * (reflection_product * mx_ggx_light(reflection_vector, V, L)));
     }
-    // environment
-    // reflection
-    mx_GgxSamples samples = mx_ggx_samples(direction, V);
+    // environment: reflection
+    mx_GgxSamples samples = mx_ggx_samples(axis, V);
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight light = mx_ggx_reflected(samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }
-    // refraction
-    float one_minus_ggx_reflectance = 1.0 - mix(0.04257999, 1.0, albedo.y) * albedo.x * scale;
+    // environment: refraction
+    float reflection_throughput = 1.0 - mix(0.04257999, 1.0, albedo.y) * albedo.x * scale;
     vec2 turn_2 = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, i, turn_2);
         color += refraction_ggx_transmitted.color
             * ((1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine))
-            * (one_minus_ggx_reflectance * refraction_ggx_transmitted.weight));
+            * (reflection_throughput * refraction_ggx_transmitted.weight));
         turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 + turn_2 * -0.7373689;
     }
     out1 = vec4(color, 1.0);

@@ -33,19 +33,19 @@ struct VertexData {
     [[vk::location(1)]] float3 normalWorld : TEXCOORD1;
 };
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(float sine, float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(float3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
@@ -60,11 +60,12 @@ void main(
 {
     float3 color = float3(0.0, 0.0, 0.0);
     // lights
-    float3 direction = normalize(vd.normalWorld);
+    float3 axis = normalize(vd.normalWorld);
     float3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_clay
-    float3 N = faceforward(direction, -V, direction);
-    float cos_v = max(abs(dot(direction, V)), 1e-8);
+    float3 N = faceforward(axis, -V, axis);
+    float cos_v = max(abs(dot(axis, V)), 1e-8);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
         float intensity;
@@ -91,8 +92,7 @@ void main(
         float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.36 / max(cos_l, cos_v) + 0.73913044;
         color += u_lightData[i].color * (intensity * (cos_l * 0.31830987 * float3(0.5, 0.25, 0.15) * diffuse_sum));
     }
-    // environment
-    // diffuse
+    // environment: diffuse
     float2 fit = (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + float2(0.8631, 1.2189)) * 0.6
         + float2(1.0, 1.0);
     float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,

@@ -25,11 +25,11 @@ vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
 void main()
 {
     // NG
-    vec2 wall_whole = floor(vd_texcoord_0);
-    bool wall_are_both = wall_whole.x >= 0.0 && wall_whole.x <= 2.0;
+    vec2 whole_uv = floor(vd_texcoord_0);
+    bool wall_are_both = whole_uv.x >= 0.0 && whole_uv.x <= 2.0;
     float vector[6] = float[6](0.0, 1.0, -1.0, -1.0, -1.0, 2.0);
-    float wall_element = vector[int(clamp(wall_whole.x + wall_whole.y * 3.0, 0.0, 5.0))];
-    bool wall_are_both_2 = wall_are_both && (wall_whole.y >= 0.0 && wall_whole.y <= 1.0) && wall_element >= 0.0;
+    float wall_element = vector[int(clamp(whole_uv.x + whole_uv.y * 3.0, 0.0, 5.0))];
+    bool wall_are_both_2 = wall_are_both && (whole_uv.y >= 0.0 && whole_uv.y <= 1.0) && wall_element >= 0.0;
     vec2 dx = dFdx(vd_texcoord_0);
     vec2 dy = dFdy(vd_texcoord_0);
     vec4 wall_texel = textureGrad(wall_file, vec3(fract(vd_texcoord_0), wall_element), dx, dy);
@@ -37,10 +37,10 @@ void main()
     vec3 stone_weight_2 = stone_weight / dot(stone_weight, vec3(1.0));
     vec3 stone_weight_3 = stone_weight_2 / dot(stone_weight_2, vec3(1.0));
     vec4 stone_product = texture(stone_filex, vd_positionObject.yz) * stone_weight_3.x;
-    vec2 whole_uv = floor(vd_positionObject.xy);
-    bool stone_are_both = whole_uv.x >= 0.0 && whole_uv.x <= 2.0;
-    float stone_element = vector[int(clamp(whole_uv.x + whole_uv.y * 3.0, 0.0, 5.0))];
-    bool stone_are_both_2 = stone_are_both && (whole_uv.y >= 0.0 && whole_uv.y <= 1.0) && stone_element >= 0.0;
+    vec2 whole_uv_2 = floor(vd_positionObject.xy);
+    bool stone_are_both = whole_uv_2.x >= 0.0 && whole_uv_2.x <= 2.0;
+    float stone_element = vector[int(clamp(whole_uv_2.x + whole_uv_2.y * 3.0, 0.0, 5.0))];
+    bool stone_are_both_2 = stone_are_both && (whole_uv_2.y >= 0.0 && whole_uv_2.y <= 1.0) && stone_element >= 0.0;
     vec2 slope_x_of_uv = dFdx(vd_positionObject.xy);
     vec2 slope_y_of_uv = dFdy(vd_positionObject.xy);
     const vec4 stone_constant = vec4(0.0, 0.0, 0.0, 1.0);

@@ -23,32 +23,32 @@ vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
 void main()
 {
     // NG
-    vec2 whole = floor(vd.texcoord_0);
-    bool are_both = whole.y >= 0.0 && whole.y <= 1.0;
+    vec2 whole_uv = floor(vd.texcoord_0);
+    bool are_both = whole_uv.y >= 0.0 && whole_uv.y <= 1.0;
     float vector[6] = float[6](0.0, 1.0, -1.0, -1.0, -1.0, 2.0);
-    float wall_element = vector[int(clamp(whole.x + whole.y * 3.0, 0.0, 5.0))];
-    bool wall_are_both = whole.x >= 0.0 && whole.x <= 2.0 && are_both && wall_element >= 0.0;
-    vec2 fraction = fract(vd.texcoord_0);
-    vec2 slope_x = dFdx(vd.texcoord_0);
-    vec2 slope_y = dFdy(vd.texcoord_0);
-    vec4 wall_texel = textureGrad(wall_file, vec3(fraction, wall_element), slope_x, slope_y);
+    float wall_element = vector[int(clamp(whole_uv.x + whole_uv.y * 3.0, 0.0, 5.0))];
+    bool wall_are_both = whole_uv.x >= 0.0 && whole_uv.x <= 2.0 && are_both && wall_element >= 0.0;
+    vec2 fraction_uv = fract(vd.texcoord_0);
+    vec2 slope_x_of_uv = dFdx(vd.texcoord_0);
+    vec2 slope_y_of_uv = dFdy(vd.texcoord_0);
+    vec4 wall_texel = textureGrad(wall_file, vec3(fraction_uv, wall_element), slope_x_of_uv, slope_y_of_uv);
     vec3 wall = mx_srgb_texture_to_lin_rec709((wall_are_both ? wall_texel : vec4(1.0, 0.0, 1.0, 1.0)).xyz);
     vec3 stone_weight = abs(normalize(vd.normalObject));
     vec3 stone_weight_2 = stone_weight / dot(stone_weight, vec3(1.0));
     vec3 stone_weight_3 = stone_weight_2 / dot(stone_weight_2, vec3(1.0));
     vec4 stone_product = texture(stone_filex, vd.positionObject.yz) * stone_weight_3.x;
-    vec2 whole_uv = floor(vd.positionObject.xy);
-    bool stone_are_both = whole_uv.x >= 0.0 && whole_uv.x <= 2.0;
-    float stone_element = vector[int(clamp(whole_uv.x + whole_uv.y * 3.0, 0.0, 5.0))];
-    bool stone_are_both_2 = stone_are_both && (whole_uv.y >= 0.0 && whole_uv.y <= 1.0) && stone_element >= 0.0;
-    vec2 slope_x_of_uv = dFdx(vd.positionObject.xy);
-    vec2 slope_y_of_uv = dFdy(vd.positionObject.xy);
-    vec4 stone_texel = textureGrad(stone_filez, vec3(fract(vd.positionObject.xy), stone_element), slope_x_of_uv,
-        slope_y_of_uv);
+    vec2 whole_uv_2 = floor(vd.positionObject.xy);
+    bool stone_are_both = whole_uv_2.x >= 0.0 && whole_uv_2.x <= 2.0;
+    float stone_element = vector[int(clamp(whole_uv_2.x + whole_uv_2.y * 3.0, 0.0, 5.0))];
+    bool stone_are_both_2 = stone_are_both && (whole_uv_2.y >= 0.0 && whole_uv_2.y <= 1.0) && stone_element >= 0.0;
+    vec2 slope_x_of_uv_2 = dFdx(vd.positionObject.xy);
+    vec2 slope_y_of_uv_2 = dFdy(vd.positionObject.xy);
+    vec4 stone_texel = textureGrad(stone_filez, vec3(fract(vd.positionObject.xy), stone_element), slope_x_of_uv_2,
+        slope_y_of_uv_2);
     vec4 stone_product_2 = (stone_are_both_2 ? stone_texel : vec4(0.0, 0.0, 0.0, 1.0)) * stone_weight_3.z;
     vec3 stone = (stone_product + texture(stone_filey, vd.positionObject.xz) * stone_weight_3.y + stone_product_2).xyz;
-    bool rust_are_both = are_both && (whole.x >= 0.0 && whole.x <= 1.0);
-    vec3 rust_vector = vec3(fraction, whole.x + whole.y * 2.0);
-    vec4 rust_texel = textureGrad(rust_file, rust_vector, slope_x, slope_y);
+    bool rust_are_both = are_both && (whole_uv.x >= 0.0 && whole_uv.x <= 1.0);
+    vec3 rust_vector = vec3(fraction_uv, whole_uv.x + whole_uv.y * 2.0);
+    vec4 rust_texel = textureGrad(rust_file, rust_vector, slope_x_of_uv, slope_y_of_uv);
     out1 = vec4(mix(wall, stone, (rust_are_both ? rust_texel : vec4(0.0, 0.0, 0.0, 1.0)).x), 1.0);
 }

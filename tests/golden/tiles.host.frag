@@ -20,6 +20,7 @@ vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
         step(0.04045, color));
 }
 
+// Here upaxis = 2, blend = 1.0, filtertype = "linear".
 vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, const vec3 position, const vec3 normal)
 {
     vec3 weight = abs(normalize(normal));
@@ -30,7 +31,8 @@ vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, const vec3 
 }
 
 // Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture
-// Filtering", GPU Gems 2, 2005, chapter 20.
+// Filtering", GPU Gems 2, 2005, chapter 20. Each lookup stands for two texels of a row and two of a column, between
+// which it lies by the ratio of their weights.
 vec4 mx_sample_cubic(sampler2D file, const vec2 uv)
 {
     vec2 size = vec2(textureSize(file, 0));

@@ -26,15 +26,16 @@ void main()
 {
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float depth_product = u_volumeDepth * max(dot(V, normalize(vd.normalWorld)), 0.0);
-    float one_minus_st_outx = 1.0 - vd.texcoord_0.x;
-    vec3 optical_depth_sum = one_minus_st_outx * vec3(0.3, 0.5, 0.9) + one_minus_st_outx * 1.2;
-    vec3 optical_depth_product = depth_product * (optical_depth_sum + one_minus_st_outx * vec3(2.0, 1.0, 0.5));
+    float both_weight = 1.0 - vd.texcoord_0.x;
+    vec3 optical_depth_sum = both_weight * vec3(0.3, 0.5, 0.9) + both_weight * 1.2;
+    vec3 optical_depth_product = depth_product * (optical_depth_sum + both_weight * vec3(2.0, 1.0, 0.5));
     vec3 lost_difference = vec3(1.0) - exp(-optical_depth_product);
     vec3 path_blend = mix(vec3(1.0), lost_difference / max(optical_depth_product, vec3(0.001)),
         step(vec3(0.001), optical_depth_product));
     vec3 color = depth_product * path_blend * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
     // lights
-    vec3 smoke_product = path_blend * (one_minus_st_outx * depth_product * 1.2);
+    vec3 smoke_product = path_blend * (both_weight * depth_product * 1.2);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;

@@ -30,19 +30,19 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(const vec3 d)
 {
     return d.x * d.x + (d.z * d.z + 1e-16);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
@@ -55,15 +55,16 @@ void main()
 {
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float depth_product = u_volumeDepth * max(dot(V, normalize(vd.normalWorld)), 0.0);
-    float one_minus_st_outx = 1.0 - vd.texcoord_0.x;
-    vec3 optical_depth_sum = one_minus_st_outx * vec3(0.3, 0.5, 0.9) + one_minus_st_outx * 1.2;
-    vec3 optical_depth_product = depth_product * (optical_depth_sum + one_minus_st_outx * vec3(2.0, 1.0, 0.5));
+    float both_weight = 1.0 - vd.texcoord_0.x;
+    vec3 optical_depth_sum = both_weight * vec3(0.3, 0.5, 0.9) + both_weight * 1.2;
+    vec3 optical_depth_product = depth_product * (optical_depth_sum + both_weight * vec3(2.0, 1.0, 0.5));
     vec3 lost_difference = vec3(1.0) - exp(-optical_depth_product);
     vec3 path_blend = mix(vec3(1.0), lost_difference / max(optical_depth_product, vec3(0.001)),
         step(vec3(0.001), optical_depth_product));
     vec3 color = depth_product * path_blend * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
     // lights
-    vec3 smoke_product = path_blend * (one_minus_st_outx * depth_product * 1.2);
+    vec3 smoke_product = path_blend * (both_weight * depth_product * 1.2);
+    // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
         float intensity;
@@ -89,14 +90,13 @@ void main()
         float smoke_d = dot(V, L) * 0.8 + 1.16;
         color += u_lightData[i].color * (intensity * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product));
     }
-    // environment
-    // smoke
-    if (one_minus_st_outx > 0.0) {
+    // environment: smoke
+    if (both_weight > 0.0) {
         vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -V)),
             0.0).xyz * u_envLightIntensity;
         vec3 smoke_blend = mix(environment_irradiance, u_envLightIntensity
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * V)), 0.0).xyz, 0.2);
-        color += path_blend * (one_minus_st_outx * depth_product) * smoke_blend * 1.2;
+        color += path_blend * (both_weight * depth_product) * smoke_blend * 1.2;
     }
     out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
 }

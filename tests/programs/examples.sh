@@ -13,11 +13,17 @@ done
 compile_osl=$compile
 command -v oslc >/dev/null || { compile_osl= && skip 'without oslc no OSL is compiled'; }
 
+# short FILE...: no line has more than 140 columns.
+short() { awk 'length($0) > 140 { print FILENAME ":" FNR ": " length($0) " columns"; long = 1 } END { exit long }' "$@"; }
+
 for document in "$examples"/*.mtlx; do
+    rm -rf out.d osl.d hlsl.d
     check "${document##*/} is generated" exits 0 "$mxgen" "$document" --target vulkan -o out.d
     check "${document##*/} gives no warning" test ! -s err
     [ -z "$compile" ] || check "${document##*/} compiles" exits 0 "$compile" "$document"
     check "${document##*/} is generated as OSL" exits 0 "$mxgen" "$document" --target osl -o osl.d
+    check "${document##*/} is generated as HLSL" exits 0 "$mxgen" "$document" --target hlsl -o hlsl.d
+    check "${document##*/} has short lines" short out.d/* osl.d/* hlsl.d/*
     [ -z "$compile_osl" ] || check "${document##*/} compiles as OSL" exits 0 "$compile" "$document" --targets osl
     check "${document##*/} is in the list of examples" grep -qF "\`${document##*/}\`" "$examples/README.md"
 done

@@ -98,7 +98,7 @@ def generate(path, stage, out, *options):
 
 
 def steps_of(text):
-    return [tuple(map(int, step)) for step in re.findall(r"closures (\d+) to (\d+), bytes (\d+) to (\d+)", text)]
+    return [tuple(map(int, step)) for step in re.findall(r"slabs (\d+) to (\d+), bytes (\d+) to (\d+)", text)]
 
 
 def check_reports(kind, path, stage, num):

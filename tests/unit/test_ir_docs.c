@@ -76,8 +76,8 @@ static void write_ops(struct text *out)
 /* A rule's side as a call: mul(A, sub(1, B)). */
 static void write_side(struct text *out, const uint8_t **tokens)
 {
-    static const char *const names[] = {"A", "B",   "C",  "D",        "K",    "0",    "1",
-                                        "2", "1/2", "-1", "identity", "true", "false"};
+    static const char *const names[] = {"A", "B", "C",   "D",  "E",        "K",    "0",
+                                        "1", "2", "1/2", "-1", "identity", "true", "false"};
     unsigned token = *(*tokens)++;
     if (token >= RULE_A) {
         text_str(out, names[token - RULE_A]);

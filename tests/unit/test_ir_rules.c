@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-enum { NUM_VARIABLES = 4, NUM_SAMPLES = 60 };
+enum { NUM_VARIABLES = RULE_VARIABLES, NUM_SAMPLES = 60, NUM_TYPINGS = 3 * 243 };
 
 /* rules.def says what an op costs. */
 static unsigned cost_of(enum ir_op op)
@@ -87,7 +87,7 @@ static struct ir_value random_value(ir_type_id type, bool exact)
 struct typing {
     struct ir_graph *graph;
     const ir_type_id *types;
-    unsigned choice[NUM_VARIABLES + 1]; /* A B C D, constants */
+    unsigned choice[NUM_VARIABLES + 1]; /* A B C D E, constants */
     bool linear;                        /* constants are for a product of linear algebra */
 };
 
@@ -209,6 +209,14 @@ static bool agrees(const struct ir_graph *graph, ir_ref left, ir_ref right, stru
     return true;
 }
 
+static void print_typing(const struct rule *rule, const struct typing *t)
+{
+    printf("    rule %s, types", rule->name);
+    for (unsigned k = 0; k <= NUM_VARIABLES; k++)
+        printf(" %s", ir_type_text(t->types[t->choice[k]]));
+    printf("\n");
+}
+
 /* Tests a rule in one typing. False where the types do not fit. */
 static bool test_typing(const struct rule *rule, struct typing *t)
 {
@@ -234,10 +242,7 @@ static bool test_typing(const struct rule *rule, struct typing *t)
             for (unsigned k = 0; k < NUM_VARIABLES; k++)
                 sample.values[k] = random_value(t->types[t->choice[k]], rule->exact);
             if (!REQUIRE(agrees(&plain, left, right, &sample, &arena)))
-                printf("    rule %s, types %s %s %s %s %s\n", rule->name,
-                       ir_type_text(t->types[t->choice[0]]), ir_type_text(t->types[t->choice[1]]),
-                       ir_type_text(t->types[t->choice[2]]), ir_type_text(t->types[t->choice[3]]),
-                       ir_type_text(t->types[t->choice[4]]));
+                print_typing(rule, t);
         }
         t->graph = &folding;
         pattern = rule->pattern;
@@ -259,10 +264,10 @@ static unsigned test_typings(const struct rule *rule)
     };
     unsigned num_fits = 0;
     for (size_t family = 0; family < sizeof families / sizeof *families; family++) {
-        unsigned num_choices = rule->pattern[0] == IR_MUL ? 2 * 243 : 243;
+        unsigned num_choices = rule->pattern[0] == IR_MUL ? 2 * NUM_TYPINGS : NUM_TYPINGS;
         for (unsigned n = 0; n < num_choices; n++) {
-            struct typing t = {.types = families[family], .linear = n >= 243};
-            unsigned rest = n % 243;
+            struct typing t = {.types = families[family], .linear = n >= NUM_TYPINGS};
+            unsigned rest = n % NUM_TYPINGS;
             bool wanted = true;
             for (unsigned k = 0; k <= NUM_VARIABLES; k++, rest /= 3) {
                 t.choice[k] = rest % 3;
@@ -286,16 +291,16 @@ static void test_shape(enum ir_op op, const struct rule *rule)
         printf("    rule %s\n", rule->name);
 }
 
-/* Inner ops have only variables and constants as operands: the matcher looks no deeper. */
-static void test_depth(const struct rule *rule)
+/* The matcher looks no deeper than RULE_DEPTH ops. Returns the end of the expression. */
+static const uint8_t *test_depth(const uint8_t *token, unsigned depth)
 {
-    const uint8_t *token = rule->pattern + 1;
-    for (int8_t i = 0; i < ir_op_info((enum ir_op)rule->pattern[0])->arity; i++) {
-        unsigned t = *token++;
-        for (int8_t k = 0; t < RULE_A && k < ir_op_info((enum ir_op)t)->arity; k++)
-            REQUIRE(*token++ >= RULE_A);
-    }
-    REQUIRE_EQ(*token, RULE_END);
+    unsigned op = *token++;
+    if (op >= RULE_A)
+        return token;
+    REQUIRE(depth <= RULE_DEPTH);
+    for (int8_t i = 0; i < ir_op_info((enum ir_op)op)->arity; i++)
+        token = test_depth(token, depth + 1);
+    return token;
 }
 
 int main(void)
@@ -305,7 +310,7 @@ int main(void)
         const struct rule *rules = ir_rules[op].rules;
         for (unsigned i = 0; i < ir_rules[op].num; i++, num_rules++) {
             test_shape((enum ir_op)op, &rules[i]);
-            test_depth(&rules[i]);
+            REQUIRE_EQ(*test_depth(rules[i].pattern, 1), RULE_END);
             if (!REQUIRE(test_typings(&rules[i]) > 0))
                 printf("    rule %s fits no types\n", rules[i].name);
         }

@@ -4,7 +4,7 @@
 #include "environment.glsl"
 #include "sampling.glsl"
 
-// max(cos, epsilon) between the side of N seen from V and a direction.
+// Cosine between a direction and the side of the surface that V sees, never 0.
 float mx_facing_cosine(vec3 N, vec3 V, vec3 direction)
 {
     return max(dot(mx_facing(N, V), direction), MX_EPSILON);
@@ -16,7 +16,8 @@ float mx_facing_cosine(vec3 N, vec3 V, vec3 direction)
 const float MX_FUJII_A = 0.28779335; // 1/2 - 2 / (3 pi)
 const float MX_FUJII_B = 0.07248821; // 2/3 - 28 / (15 pi)
 
-// Directional albedo of Fujii's lobe.
+// Directional albedo of Fujii's lobe of roughness r (Fujii 2012, "A tiny improvement of Oren-Nayar reflectance
+// model").
 float mx_fujii_albedo(float cosine, float r)
 {
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
@@ -25,18 +26,21 @@ float mx_fujii_albedo(float cosine, float r)
     return (1.0 + r * g / MX_PI) / (1.0 + MX_FUJII_A * r);
 }
 
-// Mean albedo of the lobe.
+// Mean albedo of Fujii's lobe of roughness r.
 float mx_fujii_mean(float r)
 {
     return (1.0 + MX_FUJII_B * r) / (1.0 + MX_FUJII_A * r);
 }
 
-// Albedo of what the lobe scatters more than once, relative to `color`.
+// Albedo of the light that Fujii's lobe scatters more than once, relative to `color`; `mean` is the mean albedo of
+// the lobe.
 vec3 mx_fujii_multiple(vec3 color, float mean)
 {
     return color * mean / (1.0 - color * max(1.0 - mean, 0.0));
 }
 
+// Oren and Nayar's rough diffuse lobe, times the cosine of L; with energy_compensation that of OpenPBR, which
+// preserves energy.
 vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 L)
 {
     float cos_l = mx_facing_cosine(N, V, L);
@@ -59,6 +63,7 @@ vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool e
                       + mx_fujii_multiple(color, mean) * multiple);
 }
 
+// Directional albedo of Oren and Nayar's lobe towards V.
 vec3 mx_oren_nayar_diffuse_bsdf_albedo(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
 {
     float cos_v = mx_view_cosine(N, V);
@@ -101,7 +106,7 @@ vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N,
 
 // ---- burley_diffuse_bsdf --------------------------------------------------------------------------------------------
 
-// Directional albedo of a white surface, fitted by Stephen Hill.
+// Directional albedo of a white Burley lobe at the cosine c, by the fit of Stephen Hill.
 float mx_burley_albedo(float c, float roughness)
 {
     float x = 1.0 - c;
@@ -110,13 +115,16 @@ float mx_burley_albedo(float c, float roughness)
     return mix(smooth_fit, rough_fit, roughness);
 }
 
-// The model reflects more than there is where it is rough and seen at grazing angles; a path tracer takes that back.
+// What divides the Burley lobe where its albedo is greater than 1.
+//
+// The model reflects more than there is where it is rough and seen at grazing angles; a path tracer takes that
+// back.
 float mx_burley_excess(float albedo)
 {
     return option_path == 1 ? max(albedo, 1.0) : 1.0;
 }
 
-// Burley 2012, section 5.3.
+// Diffuse lobe of Burley 2012, "Physically-Based Shading at Disney", section 5.3, times the cosine of L.
 vec3 mx_burley_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, vec3 V, vec3 L)
 {
     float cos_l = mx_facing_cosine(N, V, L);
@@ -158,7 +166,7 @@ vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec
 
 // ---- translucent_bsdf -----------------------------------------------------------------------------------------------
 
-// Light goes through to the side that is not seen.
+// Diffuse light that goes through to the side that is not seen.
 vec3 mx_translucent_bsdf_eval(vec3 color, vec3 N, vec3 V, vec3 L)
 {
     return color * (max(-dot(mx_facing(N, V), L), 0.0) / MX_PI);
@@ -188,14 +196,19 @@ float mx_translucent_bsdf_pdf(vec3 color, vec3 N, vec3 V, vec3 L)
 
 // ---- subsurface_bsdf ------------------------------------------------------------------------------------------------
 
-// Burley's normalised diffusion profile (Christensen 2015) gathered around a circle of the local curvature (after Penner 2011,
-// "Pre-integrated skin shading"). A stored radius is that over the circle's.
+// Curvature of the surface with the normal n at the point P: how far both change from one pixel to the next.
+//
+// A stored radius is that over the circle's, whose curvature is 1.
 float mx_curvature(vec3 n, vec3 P)
 {
     return option_stored == 1 ? 1.0 : max(length(fwidth(n)) / length(fwidth(P)), 0.01);
 }
 
-// What arrives, as a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
+// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the
+// light is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011,
+// "Pre-integrated skin shading").
+//
+// It is a hyperbola over the light's cosine; the program fits/subsurface.c makes the constants.
 float mx_subsurface_light(float radius, float curvature, float cos_l)
 {
     float x = curvature * max(radius, option_stored == 1 ? 1e-6 : 0.1);
@@ -204,6 +217,8 @@ float mx_subsurface_light(float radius, float curvature, float cos_l)
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
 
+// Light that arrives by subsurface scattering, with a radius for each channel.
+//
 // Colours have calls, which each light makes anew: the numbers in place of them would take nine registers.
 vec3 mx_subsurface_light(vec3 radius, float curvature, float cos_l)
 {

@@ -16,25 +16,27 @@ uniform float u_envLightIntensity;
 uniform int u_envRadianceMips;
 uniform int u_envRadianceSamples;
 
-// Into the environment's picture, which rotates with u_envMatrix, from a frame.
+// A frame's axes in the space of the environment's picture.
 mat3 mx_map_frame(mat3 frame)
 {
     return mat3(u_envMatrix) * frame;
 }
 
-// An angle from its sine and its cosine, which is not negative, over pi; within 2.9e-5. The program fits/turn.c makes the constants.
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
+//
+// The program fits/turn.c makes the constants.
 float mx_half_turn(float sine, float cosine)
 {
     return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
 }
 
-// The square of the distance of a unit direction from the axis of the picture, never 0.
+// The square of the distance of the unit direction d from the vertical axis, never 0.
 float mx_map_square(vec3 d)
 {
     return d.x * d.x + (d.z * d.z + MX_EPSILON * MX_EPSILON);
 }
 
-// The point of the picture for a unit direction in it, to a tenth of a texel in 4096.
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
 vec2 mx_map_point(vec3 d)
 {
     float square = mx_map_square(d);
@@ -44,18 +46,19 @@ vec2 mx_map_point(vec3 d)
     return vec2(fract(side * (around + 0.5) + 0.25), 0.5 - mx_half_turn(d.y, square * stretch));
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
+// The point of the environment's picture for a direction of the world.
 vec2 mx_latlong(vec3 direction)
 {
     return mx_map_point(normalize(mat3(u_envMatrix) * direction));
 }
 
+// Light of the environment from a direction, at a level of detail.
 vec3 mx_environment_radiance(vec3 direction, float lod)
 {
     return textureLod(u_envRadiance, mx_latlong(direction), lod).rgb * u_envLightIntensity;
 }
 
-// Cosine-weighted average of the light around N, which has any length.
+// Light of the environment on a surface with the normal N, of any length: the mean, weighted by the cosine.
 vec3 mx_environment_irradiance(vec3 N)
 {
     if (option_environment == 0)
@@ -63,15 +66,17 @@ vec3 mx_environment_irradiance(vec3 N)
     return textureLod(u_envIrradiance, mx_latlong(N), 0.0).rgb * u_envLightIntensity;
 }
 
-// The texels at the picture's equator that a solid angle, in hemispheres, stands for (Krivanek and Colbert 2008; equation 13 of GPU Gems 3,
-// section 20.4).
+// The texels at the picture's equator that a solid angle of `spread` hemispheres covers (Krivanek and Colbert 2008;
+// GPU Gems 3, section 20.4, equation 13).
 float mx_map_texels(float spread)
 {
     return spread * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter));
 }
 
-// Light of a unit direction in the picture, filtered over as many texels. The level may be negative, where a sampler magnifies. It comes
-// before the point, whose numbers then need no registers beside it.
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
+//
+// The level may be negative, where a sampler magnifies. It comes before the point, whose numbers then need no
+// registers beside it.
 vec3 mx_filtered_light(vec3 d, float texels)
 {
     float level = 0.5 * log2(texels * inversesqrt(mx_map_square(d)));
@@ -80,13 +85,15 @@ vec3 mx_filtered_light(vec3 d, float texels)
 
 // ---- lobes by their own samples: with `--role path`, where an average over the hemisphere stands in for them otherwise
 
-// Numbers for sample i: powers of the plastic number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+// Three numbers for sample i: powers of the plastic number (Roberts 2018, "The Unreasonable Effectiveness of
+// Quasirandom Sequences").
 vec3 mx_lobe_random(int i)
 {
     return vec3((float(i) + 0.5) / float(u_envRadianceSamples), fract((float(i) + 1.0) * vec2(0.75487767, 0.56984029)));
 }
 
-// A sample's part of what the lobe reflects.
+// The part that a sample of a lobe, in direction L, has of the light that the lobe reflects: `weight` is its value
+// over its density `pdf`.
 vec3 mx_lobe_light(vec3 L, vec3 weight, float pdf)
 {
     float count = float(u_envRadianceSamples);

@@ -13,9 +13,12 @@
 
 // ---- bare interfaces ------------------------------------------------------------------------------------------------
 
-// Unpolarised Fresnel equations for the square of an index, c and g being the cosines on both sides, the inner one times the index:
-//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2,  s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
-// Since (c - g)(c + g) = -2k, all of it is over one square, with one root. The least c^2 makes total internal reflection come out as 1.
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+//
+// g is the cosine behind the interface, times the index. Since (c - g)(c + g) = -2k, all of it is over one square,
+// with one root. The least c^2 makes total internal reflection come out as 1.
 float mx_fresnel_permittivity(float cosine, float re)
 {
     float k = 0.5 * (re - 1.0);
@@ -27,26 +30,30 @@ float mx_fresnel_permittivity(float cosine, float re)
     return (cg2 + s * s) * (r * r);
 }
 
+// Unpolarised reflectance of a dielectric at a cosine.
 float mx_fresnel_dielectric(float cosine, float ior)
 {
     return mx_fresnel_permittivity(cosine, ior * ior);
 }
 
-// The same facing the viewer.
+// Reflectance of a dielectric that faces the viewer.
 float mx_fresnel_dielectric_facing(float ior)
 {
     float r = (1.0 - ior) / (1.0 + ior);
     return r * r;
 }
 
-// The square of the index n + ik: all that the equations need.
+// The square of the complex index n + ik: re + i im.
+//
+// It is all that the equations need.
 void mx_permittivity(vec3 n, vec3 k, out vec3 re, out vec3 im)
 {
     re = n * n - k * k;
     im = 2.0 * n * k;
 }
 
-// The index times the cosine behind its interface: (u + iv)^2 = re + i im - sin^2.
+// The index times the cosine behind an interface, u + iv, from the cosine in front of it and the permittivity:
+//     (u + iv)^2 = re + i im - sin^2
 vec2 mx_fresnel_refract(float cosine, float re, float im)
 {
     float t = re + (cosine * cosine - 1.0);
@@ -54,7 +61,8 @@ vec2 mx_fresnel_refract(float cosine, float re, float im)
     return sqrt(max(0.5 * vec2(norm + t, norm - t), 0.0));
 }
 
-// Fresnel equations for a permittivity, c being the cosine, u + iv as above (Born and Wolf 1999, "Principles of Optics", section 14.4):
+// Unpolarised reflectance of an interface with the permittivity re + i im, with c for the cosine and u + iv for the
+// index times the cosine behind (Born and Wolf 1999, "Principles of Optics", section 14.4):
 //     F = (P + P Q) / 2,  P = (a - g) / (a + g),  Q = (b - g s) / (b + g s)
 //     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
 float mx_fresnel_conductor(float cosine, float re, float im)
@@ -71,7 +79,9 @@ float mx_fresnel_conductor(float cosine, float re, float im)
     return (a - g) * b / ((a + g) * (b + g * s));
 }
 
-// One channel after the other, which needs a third of the registers.
+// Unpolarised reflectance of a conductor with the permittivity re + i im of each channel.
+//
+// One channel after the other needs a third of the registers.
 vec3 mx_fresnel_conductor(float cosine, vec3 re, vec3 im)
 {
     if (mx_known(re.x == re.y) && mx_known(re.y == re.z) && mx_known(im.x == im.y) && mx_known(im.y == im.z))
@@ -82,13 +92,15 @@ vec3 mx_fresnel_conductor(float cosine, vec3 re, vec3 im)
     return color;
 }
 
-// What bends Schlick's curve towards f82 at cos = 1/7 (Hoffman 2019, "Fresnel Equations Considered Harmful"): the factor of cos (1 - cos)^6.
+// The factor of cos (1 - cos)^6 that bends Schlick's curve so that f82 tints it at cos = 1/7 (Hoffman 2019,
+// "Fresnel Equations Considered Harmful").
 vec3 mx_schlick_bend(vec3 f0, vec3 f82, vec3 f90, float exponent)
 {
     const float LIFT = 17.6513846; // 7 (7/6)^6, the inverse of cos (1 - cos)^6 there
     return mix(max(f0, 0.0), max(f90, 0.0), pow(6.0 / 7.0, exponent)) * (1.0 - max(f82, 0.0)) * LIFT;
 }
 
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
 vec3 mx_fresnel_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float exponent)
 {
     float x = 1.0 - cosine;
@@ -106,9 +118,12 @@ const mat4 MX_FILM_GAUSSIANS = mat4(1.6810, 0.846590, -0.0043278, 1.0, // X
                                     1.7953, 1.000222, -0.0093046, 1.0,  // Y
                                     2.2084, 1.001122, -0.0066121, 1.0); // Z
 
-// What Gaussian i sees of one polarisation after interference. Amplitude `a` of the film's own interface, which from behind is -a, and
-// the complex amplitude r of the one below, and light that goes further by d / (2 pi) micrometre. Two terms of the series (section 3.3):
-// the second is of the first one's square, because its distance is twice as long.
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the
+// amplitude of the film's own interface, r the complex one of the interface below, and light in the film goes
+// further by d / (2 pi) micrometres (Belcour and Barla 2017, section 3.3).
+//
+// From behind, the film's own interface has the amplitude -a. Two terms of the series: the second is of the first
+// one's square, because its distance is twice as long.
 float mx_film_light(float a, vec2 r, float d, int i)
 {
     vec4 gaussian = MX_FILM_GAUSSIANS[i];
@@ -124,13 +139,13 @@ float mx_film_light(float a, vec2 r, float d, int i)
     return gaussian.w * (a * a + even) + 2.0 * (even - t) * terms;
 }
 
-// Cosine inside of the film.
+// Cosine inside of a film of index `ior`.
 float mx_film_cosine(float cosine, float ior)
 {
     return sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of a film's own interface, of perpendicular and parallel light; `inside` is the cosine in the film.
 vec2 mx_film_amplitudes(float cosine, float inside, float ior)
 {
     vec2 x = vec2(cosine, ior * cosine);
@@ -138,13 +153,14 @@ vec2 mx_film_amplitudes(float cosine, float inside, float ior)
     return (x - u) / (x + u);
 }
 
-// Complex amplitude of an interface in one polarisation, (x - u) / (x + u): u is the index times the cosine behind it, x the cosine in the
-// perpendicular part, and the permittivity times the cosine in the parallel part.
+// Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind
+// it; x is the cosine for perpendicular light, and the permittivity times the cosine for parallel light.
 vec2 mx_film_amplitude(vec2 x, vec2 u)
 {
     return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
 }
 
+// Linear Rec. 709 of the CIE XYZ of interference.
 vec3 mx_film_rgb(vec3 xyz)
 {
     const mat3 XYZ_TO_RGB = mat3(2.3706743, -0.5138850, 0.0052982, -0.9000405, 1.4253036, -0.0146949,
@@ -152,7 +168,9 @@ vec3 mx_film_rgb(vec3 xyz)
     return clamp(XYZ_TO_RGB * xyz, 0.0, 1.0);
 }
 
-// A film on a permittivity. Gaussians and polarisations come one after the other: together they would need eight times the registers.
+// Reflectance of a film on an interface with the permittivity re + i im.
+//
+// Gaussians and polarisations come one after the other: together they would need eight times the registers.
 vec3 mx_film_index(float cosine, vec3 re, vec3 im, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -173,7 +191,9 @@ vec3 mx_film_index(float cosine, vec3 re, vec3 im, float film, float film_ior)
     return mx_film_rgb(0.5 * xyz);
 }
 
-// Facing the viewer both polarisations are alike.
+// Reflectance, facing the viewer, of a film on an interface with the permittivity re + i im.
+//
+// Both polarisations are alike there.
 vec3 mx_film_index_facing(vec3 re, vec3 im, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -188,14 +208,17 @@ vec3 mx_film_index_facing(vec3 re, vec3 im, float film, float film_ior)
     return mx_film_rgb(xyz);
 }
 
-// Amplitudes of a colour below a film, which has no phase: light turns where its colour says that the index behind the film is lower.
+// Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index
+// behind the film is lower.
+//
+// A colour has no phase.
 vec3 mx_film_turned(vec3 f0, vec3 f, float ior)
 {
     vec3 turn = 1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), vec3((ior - 1.0) / (ior + 1.0)));
     return turn * sqrt(max(0.5 * f, 0.0));
 }
 
-// A film on a colour.
+// Reflectance of a film on an interface with Schlick's curve.
 vec3 mx_film_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float exponent, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -215,6 +238,7 @@ vec3 mx_film_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float exponent,
     return mx_film_rgb(0.5 * xyz);
 }
 
+// Reflectance, facing the viewer, of a film on an interface of colour f0.
 vec3 mx_film_schlick_facing(vec3 f0, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
@@ -231,6 +255,7 @@ vec3 mx_film_schlick_facing(vec3 f0, float film, float film_ior)
 
 // ---- all of them ----------------------------------------------------------------------------------------------------
 
+// Reflectance of an interface without a film at a cosine.
 vec3 mx_fresnel_bare(float cosine, string model, vec3 n, vec3 k, vec3 f90, float exponent)
 {
     if (model == "schlick")
@@ -238,6 +263,7 @@ vec3 mx_fresnel_bare(float cosine, string model, vec3 n, vec3 k, vec3 f90, float
     return model == "dielectric" ? vec3(mx_fresnel_dielectric(cosine, n.x)) : mx_fresnel_conductor(cosine, n, k);
 }
 
+// Reflectance of an interface with a film at a cosine.
 vec3 mx_fresnel_film(float cosine, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
 {
     if (model == "schlick")
@@ -245,6 +271,7 @@ vec3 mx_fresnel_film(float cosine, string model, vec3 n, vec3 k, vec3 f90, float
     return mx_film_index(cosine, model == "dielectric" ? n * n : n, k, film, film_ior);
 }
 
+// Reflectance of an interface at a cosine.
 vec3 mx_fresnel(float cosine, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
 {
     if (film > 0.0)
@@ -252,7 +279,7 @@ vec3 mx_fresnel(float cosine, string model, vec3 n, vec3 k, vec3 f90, float expo
     return mx_fresnel_bare(cosine, model, n, k, f90, exponent);
 }
 
-// Reflectance facing the viewer of the bare interface.
+// Reflectance, facing the viewer, of an interface without a film.
 vec3 mx_fresnel_f0(string model, vec3 n, vec3 k)
 {
     if (model == "schlick")
@@ -260,6 +287,7 @@ vec3 mx_fresnel_f0(string model, vec3 n, vec3 k)
     return model == "dielectric" ? vec3(mx_fresnel_dielectric_facing(n.x)) : mx_fresnel_conductor(1.0, n, k);
 }
 
+// Reflectance, facing the viewer, of an interface.
 vec3 mx_fresnel_facing(string model, vec3 n, vec3 k, float film, float film_ior)
 {
     if (film > 0.0)

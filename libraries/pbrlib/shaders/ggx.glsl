@@ -7,14 +7,15 @@
 #include "fresnel.glsl"
 #include "sampling.glsl"
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit sphere; `area` is the
-// product of the roughness along x and y.
+// GGX distribution of normals, at a normal that the roughness stretched to e; `area` is the product of the
+// roughness along x and y (Burley 2012, appendix B.2, equation 13).
 float mx_ggx_distribution(vec3 e, float area)
 {
     return 1.0 / (MX_PI * area * dot(e, e) * dot(e, e));
 }
 
-// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(float cosine, float area)
 {
     return sqrt(area + (1.0 - area) * (cosine * cosine));
@@ -24,6 +25,7 @@ float mx_ggx_masking(float cosine, float area)
 const int MX_REFLECTS = 1;
 const int MX_REFRACTS = 2;
 
+// What the interface does with light.
 int mx_ggx_mode(string scatter_mode)
 {
     return scatter_mode == "R" ? MX_REFLECTS : scatter_mode == "T" ? MX_REFRACTS : MX_REFLECTS + MX_REFRACTS;
@@ -41,8 +43,10 @@ bool mx_ggx_oval(vec2 roughness)
     return !mx_known(roughness.x == roughness.y);
 }
 
-// The same for closures of MaterialX. A raster does without, as MaterialX does: the mean masks too little where an anisotropic lobe is wide,
-// which gains energy.
+// True if masking and albedo follow the direction.
+//
+// A raster does without for closures of MaterialX, as MaterialX does: the mean masks too little where an
+// anisotropic lobe is wide, which gains energy.
 bool mx_ggx_by_direction(vec2 roughness)
 {
     return option_path == 1 && mx_ggx_oval(roughness);
@@ -54,7 +58,7 @@ vec2 mx_ggx_alpha(vec2 roughness)
     return clamp(roughness, MX_EPSILON, 1.0);
 }
 
-// A direction in the frame, never below the horizon.
+// The direction V in a frame, never below the horizon.
 vec3 mx_ggx_local(mat3 frame, vec3 V)
 {
     return max(V * frame, vec3(-1.0, -1.0, MX_EPSILON));
@@ -69,6 +73,7 @@ struct mx_GgxLobe {
     float masking; // of the viewer
 };
 
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
 mx_GgxLobe mx_ggx_lobe(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3 V)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
@@ -76,8 +81,10 @@ mx_GgxLobe mx_ggx_lobe(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3 V)
     return mx_GgxLobe(mx_facing(N, V), cosine, is_round ? vec3(0.0) : mx_tangent(N, X), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
 }
 
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v cos_l; half is left of the divisor of the reflection
-// model.
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
+//
+// Half is left of the divisor of the reflection model.
 float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
 {
     return 1.0 / (cos_v * mx_ggx_masking(cos_l, area) + cos_l * masking);
@@ -87,8 +94,11 @@ const int option_albedo = 0; // 0 by a fit, 1 from the host's table
 
 uniform sampler2D u_albedoTable;
 
-// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back adds none. `u`
-// follows what happens where light grazes the facets.
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over
+// it (y); u is a / (a + c).
+//
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy
+// back adds none. `u` follows what happens where light grazes the facets.
 vec2 mx_ggx_albedo_fit(float a, float u, float c)
 {
     const mat4 LOST = mat4(-0.1447, 2.7590, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
@@ -99,8 +109,10 @@ vec2 mx_ggx_albedo_fit(float a, float u, float c)
     return vec2(min(1.0046 - u * mx_bicubic(LOST, u, a), 1.0), x * x * x * x * x);
 }
 
-// What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y). The table holds what scales the
-// reflectance facing the viewer, and that at grazing angles: c to the right, the mean of alpha downwards.
+// What a white GGX lobe reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it (y).
+//
+// The table holds what scales the reflectance facing the viewer, and that at grazing angles: c to the right, the
+// mean of alpha downwards.
 vec2 mx_ggx_albedo(vec2 roughness, float c)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
@@ -114,10 +126,12 @@ vec2 mx_ggx_albedo(vec2 roughness, float c)
     return mx_ggx_albedo_fit(a, a / (a + c), c);
 }
 
-// The round lobe that stands for an anisotropic one towards v, a direction in its frame: its roughness (x), its cosine of v (y), and how far
-// facets face v more than those of the round lobe (z). Divided by the roughness, visible normals are those of a unit sphere (Heitz 2018), so
-// both lobes have the same ones where v, times the roughness, has one cosine in both. What remains is the roughness, by fits/ggx.c: the albedo
-// is too small by 0.007 at most, and too large by 0.013, relatively.
+// The round lobe that stands for an anisotropic one towards v, a direction in its frame: its roughness (x), its
+// cosine of v (y), and how far facets face v more than those of the round lobe (z).
+//
+// Divided by the roughness, visible normals are those of a unit sphere (Heitz 2018), so both lobes have the same
+// ones where v, times the roughness, has one cosine in both. What remains is the roughness, by fits/ggx.c: the
+// albedo is too small by 0.007 at most, and too large by 0.013, relatively.
 vec3 mx_ggx_round_like(vec2 alpha, vec3 v)
 {
     vec2 slope = v.xy * alpha;
@@ -140,18 +154,20 @@ vec2 mx_ggx_facing_more(vec2 albedo, float times)
     return vec2(albedo.x, x * x * x * x * x);
 }
 
+// The albedo of an anisotropic lobe from the round one that stands for it (mx_ggx_round_like).
 vec2 mx_ggx_albedo_like(vec3 round_lobe)
 {
     return mx_ggx_facing_more(mx_ggx_albedo(round_lobe.xx, round_lobe.y), round_lobe.z);
 }
 
+// What a white GGX lobe reflects to the viewer V (x), and the mean of (1 - cos)^5 over it (y).
 vec2 mx_ggx_albedo_of(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V)
 {
     return by_direction ? mx_ggx_albedo_like(mx_ggx_round_like(mx_ggx_alpha(roughness), mx_ggx_local(mx_frame(mx_facing(N, V), X), V)))
                         : mx_ggx_albedo(roughness, mx_view_cosine(N, V));
 }
 
-// Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
+// Factor that gives back the light of multiple scattering (Turquin 2019, equations 14 and 16).
 vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
 {
     // 1/21: the hemispherical mean of Schlick's curve with exponent 5
@@ -159,8 +175,10 @@ vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, fl
                * (1.0 / albedo.x - 1.0);
 }
 
-// Part of the light that the lobe reflects towards V. A raster has Schlick's curve for every interface, under which a film
-// changes the compensation only; a path tracer takes the interface as it is at the lobe's mean angle.
+// Part of the light that the lobe reflects to V.
+//
+// A raster has Schlick's curve for every interface, under which a film changes the compensation only; a path tracer
+// takes the interface as it is at the lobe's mean angle.
 vec3 mx_ggx_reflectance(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent,
                         float film, float film_ior)
 {
@@ -185,9 +203,11 @@ bool mx_ggx_wide(vec2 roughness)
     return mx_known(min(roughness.x, roughness.y) >= 0.03);
 }
 
-// The square of the length of a facet's normal H after its parts along the surface are divided by the roughness, times the product of both
-// roughnesses. The part along the surface follows from the square of H, unless the lobe is narrow; then from vectors, which serve all lobes
-// of one normal.
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times
+// the product of the roughness along x and y; cos_h is its part along N.
+//
+// `square` is that of H. The part along the surface follows from it, unless the lobe is narrow; then from vectors,
+// which serve all lobes of one normal.
 float mx_ggx_stretched(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 H, float cos_h, float square)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -202,7 +222,10 @@ float mx_ggx_stretched(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 H, flo
     return area * (dot(parts, parts) + cos_h * cos_h);
 }
 
-// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor. The facet's normal V + L has any length.
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one
+// divisor.
+//
+// The facet's normal V + L has any length.
 float mx_ggx_light(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 V, vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
@@ -215,17 +238,20 @@ float mx_ggx_light(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 V, vec3 L)
 
 // ---- masking by direction -------------------------------------------------------------------------------------------
 
-// cos (1 + 2 Lambda) with the roughness as it is in the direction (Heitz 2014, equation 80).
+// cos (1 + 2 Lambda) of the direction v, with the roughness as it is in this direction (Heitz 2014, equation 80).
 float mx_ggx_smith(vec3 v, vec2 alpha)
 {
     return length(vec3(v.xy * alpha, v.z));
 }
 
+// Masking and shadowing of the directions v and l over 4 cos_v, each with the roughness in its direction (Heitz
+// 2014, equations 80 and 99).
 float mx_ggx_smith_visibility(vec3 v, vec3 l, vec2 alpha)
 {
     return 0.5 * l.z / (v.z * mx_ggx_smith(l, alpha) + l.z * mx_ggx_smith(v, alpha));
 }
 
+// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
 float mx_ggx_smith_lobe(vec2 roughness, mat3 frame, vec3 V, vec3 L)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
@@ -233,6 +259,7 @@ float mx_ggx_smith_lobe(vec2 roughness, mat3 frame, vec3 V, vec3 L)
          * mx_ggx_smith_visibility(mx_ggx_local(frame, V), mx_ggx_local(frame, L), alpha);
 }
 
+// The GGX lobe of an interface: what it reflects from the light L to V, times the cosine of L.
 vec3 mx_ggx_eval(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent,
                  float film, float film_ior)
 {
@@ -246,14 +273,15 @@ vec3 mx_ggx_eval(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, vec3
 // ---- environment ----------------------------------------------------------------------------------------------------
 // Below, refract_ior > 0 looks through a solid sphere of that index instead of reflecting.
 
-// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
 vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 {
     vec3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-// A map whose mip levels are filtered for rising roughness.
+// Light that the lobe reflects, from a map whose levels of detail are filtered for rising roughness; with
+// refract_ior > 0 light through a solid sphere of that index.
 vec3 mx_ggx_prefiltered(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
@@ -270,9 +298,11 @@ vec3 mx_ggx_prefiltered(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 
     return f * mx_environment_radiance(reflect(-V, h), lod);
 }
 
-// A normal of those visible from v, which is stretched by the roughness and has length `reach`, at any length (Dupuy and Benyoub 2023,
-// "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far it lies below the top of the cap,
-// v.z + reach at most. Times the roughness it is one of the rough surface.
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
+// Spherical Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn
+// around z, and `depth` how far the normal lies below the top of the cap, v.z + reach at most.
+//
+// Times the roughness it is one of the rough surface.
 vec3 mx_ggx_cap(vec2 around, float depth, vec3 v, float reach)
 {
     return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
@@ -291,6 +321,8 @@ struct mx_GgxSamples {
     float weight;  // of one, times the environment's intensity
 };
 
+// The GGX lobe of a surface as samples of the environment see it.
+//
 // The frame of a round lobe has V above its x. Where V is N, another tiny vector chooses x.
 mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3 V)
 {
@@ -316,8 +348,11 @@ struct mx_GgxFacet {
     float texels; // of the environment's picture
 };
 
-// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before, by its `turn`. Their
-// density follows from `mirror`, since twice the product of v and h is the square of the normal before `stretch`.
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle
+// further around than the one before, by its `turn`.
+//
+// Their density follows from `mirror`, since twice the product of v and h is the square of the normal before
+// `stretch`.
 mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
 {
     vec3 cap = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach);
@@ -334,7 +369,9 @@ struct mx_GgxLight {
     float cosine; // at the facet
 };
 
-// The light that the facet of sample i reflects. A visible normal weighs G2 / G1.
+// The light that the facet of sample i reflects.
+//
+// A visible normal weighs G2 / G1.
 mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -345,7 +382,9 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
                        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), MX_EPSILON, 1.0)));
 }
 
-// The same with masking by direction, where that of v is the reach of its cap.
+// The light that the facet of sample i reflects, with masking by direction.
+//
+// The masking of v is the reach of its cap.
 mx_GgxLight mx_ggx_reflected_by_direction(mx_GgxSamples s, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -356,7 +395,9 @@ mx_GgxLight mx_ggx_reflected_by_direction(mx_GgxSamples s, int i, vec2 turn)
                        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), MX_EPSILON, 1.0)));
 }
 
-// The light that comes through it and a solid sphere of an index behind it. A visible normal weighs 1 / G1.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
+//
+// A visible normal weighs 1 / G1.
 mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
@@ -365,8 +406,12 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
                        clamp(dot(s.v, h), MX_EPSILON, 1.0));
 }
 
-// The same with `--role path`: wherever light meets the other side of the sphere as much is reflected as on its way in, f, since the
-// angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets all leave at once, as MaterialX does.
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it, after the first
+// way and one turn in the sphere.
+//
+// With `--role path`: wherever light meets the other side of the sphere as much is reflected as on its way
+// in, f, since the angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets
+// all leave at once, as MaterialX does.
 vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                   float film_ior)
 {
@@ -380,7 +425,9 @@ vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string
          * light.weight * mix(light.color, mx_filtered_light(s.to_map * turned, facet.texels), f / (1.0 + f));
 }
 
-// Sample i of what the lobe reflects of all directions. A choice that all samples make alike stands here, where the compiler sees it.
+// Sample i of the light of the environment that the lobe reflects.
+//
+// A choice that all samples make alike stands here, where the compiler sees it.
 vec3 mx_ggx_environment(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
@@ -396,7 +443,7 @@ vec3 mx_ggx_environment(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 
          * light.weight * light.color;
 }
 
-// Sample i of what it refracts.
+// Sample i of the light of the environment that the lobe refracts.
 vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90,
                        float exponent, float film, float film_ior)
 {

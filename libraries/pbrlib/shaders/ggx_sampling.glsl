@@ -4,28 +4,28 @@
 
 #include "ggx.glsl"
 
-// Share of the samples that reflect.
-float mx_ggx_share(vec3 fresnel, int mode)
+// Share of the samples that reflect, where the lobe also refracts.
+float mx_ggx_share(vec3 fresnel)
 {
-    if (mode == MX_REFLECTS)
-        return 1.0;
-    return mode == MX_REFRACTS ? 0.0 : clamp(dot(fresnel, vec3(1.0 / 3.0)), 0.0, 1.0);
+    return clamp(dot(fresnel, vec3(1.0 / 3.0)), 0.0, 1.0);
 }
 
-// Single masking G1 over the cosine: the density of the normals visible from v over (v·h) D(h) (Heitz 2018, equation 3).
+// Masking G1 of v over its cosine: the density of the normals visible from v over (v.h) D(h) (Heitz 2018, equation
+// 3).
 float mx_ggx_masked(vec3 v, vec2 alpha)
 {
     return 2.0 / (v.z + mx_ggx_smith(v, alpha));
 }
 
-// Normal of the facet that refracts l, below the horizon, towards v (Walter et al. 2007, equation 16).
+// Normal of the facet that refracts l, below the horizon, towards v; eta is the index below over that above (Walter
+// et al. 2007, equation 16).
 vec3 mx_refracting_normal(vec3 v, vec3 l, float eta)
 {
     vec3 h = normalize(v + eta * l);
     return h.z < 0.0 ? -h : h;
 }
 
-// Solid angle of normals for that of refracted directions (Walter et al. 2007, equation 17).
+// Solid angle of normals over that of the directions l that they refract to v (Walter et al. 2007, equation 17).
 float mx_refraction_jacobian(vec3 v, vec3 l, vec3 h, float eta)
 {
     float cos_l = dot(l, h);
@@ -36,8 +36,9 @@ float mx_refraction_jacobian(vec3 v, vec3 l, vec3 h, float eta)
 // What only refracts lies below what reflects (as in standard_surface), and what that reflects is missing in what the layer lets through: it
 // is not taken twice, as it is by MaterialX's rasters.
 
-// Refracted light (Walter et al. 2007, equation 21), as a part of energy: radiance grows by the square of the index, and shrinks again
-// where it leaves the medium; both are left out.
+// Light that the lobe refracts from L to V, as a part of energy (Walter et al. 2007, equation 21).
+//
+// Radiance grows by the square of the index, and shrinks again where it leaves the medium; both are left out.
 vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, int mode, string model, vec3 n, vec3 k, vec3 f90,
                       float exponent, float film, float film_ior)
 {
@@ -55,6 +56,7 @@ vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta,
             * cos_h * mx_refraction_jacobian(v, l, h, eta));
 }
 
+// Density of the directions L that mx_ggx_scatter takes.
 float mx_ggx_pdf(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, int mode, string model, vec3 n, vec3 k, vec3 f90,
                  float exponent, float film, float film_ior)
 {
@@ -67,12 +69,14 @@ float mx_ggx_pdf(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, int 
     float cos_h = dot(v, h);
     if (cos_h <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
         return 0.0;
-    float share = mx_ggx_share(mx_fresnel(min(cos_h, 1.0), model, n, k, f90, exponent, film, film_ior), mode);
+    float share = float(mode == MX_REFLECTS);
+    if (mode == MX_REFLECTS + MX_REFRACTS)
+        share = mx_ggx_share(mx_fresnel(min(cos_h, 1.0), model, n, k, f90, exponent, film, film_ior));
     return mx_ggx_masked(v, alpha) * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y)
          * (is_reflected ? 0.25 * share : (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h, eta));
 }
 
-// A normal of those visible from v.
+// A unit normal of those visible from v, from two random numbers xi.
 vec3 mx_ggx_visible(vec2 alpha, vec3 v, vec2 xi)
 {
     vec3 stretch = vec3(alpha, 1.0);
@@ -80,7 +84,11 @@ vec3 mx_ggx_visible(vec2 alpha, vec3 v, vec2 xi)
     return normalize(mx_ggx_cap(mx_polar(1.0, xi.x), xi.y * (v.z + reach), v * stretch, reach) * stretch);
 }
 
-// What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is smooth.
+// A direction L that the lobe reflects or refracts light from, by three random numbers xi, with the value over the
+// density (`weight`) and the density (`pdf`).
+//
+// The weight is mx_ggx_eval or mx_ggx_refracted over mx_ggx_pdf, without the numbers that become huge where the
+// surface is smooth.
 void mx_ggx_scatter(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, int mode, string model, vec3 n, vec3 k,
                     vec3 f90, float exponent, float film, float film_ior, out vec3 L, out vec3 weight, out float pdf)
 {
@@ -90,8 +98,9 @@ void mx_ggx_scatter(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, v
     vec3 h = mx_ggx_visible(alpha, v, xi.xy);
     float cos_h = clamp(dot(v, h), MX_EPSILON, 1.0);
     vec3 f = mx_fresnel(cos_h, model, n, k, f90, exponent, film, film_ior);
-    float share = mx_ggx_share(f, mode);
-    bool is_reflected = xi.z < share;
+    bool is_both = mode == MX_REFLECTS + MX_REFRACTS;
+    float share = is_both ? mx_ggx_share(f) : float(mode == MX_REFLECTS);
+    bool is_reflected = is_both ? xi.z < share : mode == MX_REFLECTS;
     vec3 l = is_reflected ? reflect(-v, h) : refract(-v, h, 1.0 / eta);
     float density = mx_ggx_masked(v, alpha);
     L = frame * l;

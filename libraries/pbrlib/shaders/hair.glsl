@@ -40,11 +40,13 @@ void mx_chiang_hair_roughness(float longitudinal, float azimuthal, float scale_T
 // A tilt is (cos, sin) of the angle to the section of the hair, a turn (cos, sin) of an angle around the hair. Angles add up as complex
 // numbers multiply.
 
+// The sum of two angles, each as (cos, sin).
 vec2 mx_hair_add(vec2 a, vec2 b)
 {
     return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
+// The angle of a sine, as (cos, sin).
 vec2 mx_hair_tilt(float sine)
 {
     return vec2(sqrt(max(1.0 - sine * sine, 0.0)), sine);
@@ -55,8 +57,11 @@ float mx_hair_width(float roughness)
     return clamp(roughness, 0.001, 1.0);
 }
 
-// Longitudinal scattering M_p (d'Eon et al. 2011, equation 7): 2 sinh(k) is exp(k) (1 - exp(-2 k)). The program fits/bessel.c makes
-// the constants of Bessel's function times exp(-x).
+// Longitudinal scattering M_p from the tilt i to the tilt o, with the variance `roughness` (d'Eon et al. 2011,
+// equation 7).
+//
+// 2 sinh(k) is exp(k) (1 - exp(-2 k)). The program fits/bessel.c makes the constants of Bessel's function times
+// exp(-x).
 float mx_hair_longitudinal(vec2 i, vec2 o, float roughness)
 {
     float k = 1.0 / mx_hair_width(roughness);
@@ -65,8 +70,9 @@ float mx_hair_longitudinal(vec2 i, vec2 o, float roughness)
     return k * bessel * exp(x - k * (i.y * o.y + 1.0)) / (1.0 - exp(-2.0 * k));
 }
 
-// Azimuthal scattering N_p: a logistic around 0, trimmed to one turn (Chiang et al. 2016, appendix A). The angle is twice the arcsine of
-// half a chord (Abramowitz and Stegun 1964, equation 4.4.45).
+// Azimuthal scattering N_p: a logistic around 0, trimmed to one turn (Chiang et al. 2016, appendix A).
+//
+// The angle is twice the arcsine of half a chord (Abramowitz and Stegun 1964, equation 4.4.45).
 float mx_hair_azimuthal(vec2 turn, float roughness)
 {
     float s = 0.626657 * mx_hair_width(roughness); // sqrt(pi / 8)
@@ -88,6 +94,7 @@ struct mx_HairLobe {
     vec3 through;    // part that one crossing lets through
 };
 
+// How light from a viewer enters the hair and crosses its circular section.
 mx_HairLobe mx_hair_lobe(float ior, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V)
 {
     vec3 Nf = mx_facing(N, V);
@@ -110,6 +117,7 @@ struct mx_HairParts {
     vec3 longer;
 };
 
+// Parts A_p of the light by path: R, TT, TRT, and all longer ones (Chiang et al. 2016, section 3.3).
 mx_HairParts mx_hair_parts(mx_HairLobe lobe, vec3 tint_R, vec3 tint_TT, vec3 tint_TRT)
 {
     float entered = 1.0 - lobe.reflected;
@@ -119,7 +127,7 @@ mx_HairParts mx_hair_parts(mx_HairLobe lobe, vec3 tint_R, vec3 tint_TT, vec3 tin
     return mx_HairParts(max(tint_R, 0.0) * lobe.reflected, max(tint_TT, 0.0) * crossed, TRT, TRT * again / (1.0 - again));
 }
 
-// What the cuticle does to a tilt on path p (Chiang et al. 2016, section 3.4).
+// A tilt, as (cos, sin), after the cuticle changed it on path p (Chiang et al. 2016, section 3.4).
 vec2 mx_hair_tilted(int p, vec2 tilt, vec2 slope)
 {
     vec2 twice = mx_hair_add(slope, slope);

@@ -5,13 +5,15 @@
 
 uniform bool u_refractionTwoSided;
 
-// Tint of light that crosses the surface, or both surfaces of an object.
+// Tint of the light that crosses the surface, or both surfaces of an object.
 vec3 mx_refraction_tint(vec3 tint)
 {
     return tint * (u_refractionTwoSided ? tint : vec3(1.0));
 }
 
-// Index in front of V over that behind the surface; a path tracer sees backs from inside.
+// Index of refraction of what lies ahead of the viewer V, over that of what it stands in.
+//
+// A path tracer sees backs from inside.
 float mx_index_ahead(float ior, vec3 N, vec3 V)
 {
     return option_path == 1 && dot(N, V) < 0.0 ? 1.0 / ior : ior;
@@ -170,7 +172,7 @@ vec3 mx_generalized_schlick_bsdf_environment(vec3 color0, vec3 color82, vec3 col
                               max(color90, 0.0), exponent, film, film_ior);
 }
 
-// The index that refracts follows from the mean colour at normal incidence, ((n - 1) / (n + 1))^2.
+// The index of refraction whose reflectance ((n - 1) / (n + 1))^2 is the mean of color0.
 float mx_schlick_index(vec3 color0)
 {
     float r = sqrt(clamp(dot(color0, vec3(1.0 / 3.0)), 0.01, 0.99));

@@ -3,7 +3,10 @@
 
 #include "frame.glsl"
 
-// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1 over it, hence factors.
+// Index and extinction of a conductor with this reflectivity facing the viewer, and this colour at the edge
+// (Gulbrandsen 2014, "Artist Friendly Metallic Fresnel").
+//
+// His r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1 over it, hence factors.
 void mx_artistic_ior(vec3 reflectivity, vec3 edge_color, out vec3 ior, out vec3 extinction)
 {
     vec3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
@@ -12,7 +15,8 @@ void mx_artistic_ior(vec3 reflectivity, vec3 edge_color, out vec3 ior, out vec3 
     extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
 }
 
-// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
+// Squared roughness along X and across: the aspect ratio stretches one axis and shrinks the other (Burley 2012,
+// section 5.4).
 vec2 mx_roughness_anisotropy(float roughness, float anisotropy)
 {
     float squared = clamp(roughness * roughness, MX_EPSILON, 1.0);
@@ -20,15 +24,15 @@ vec2 mx_roughness_anisotropy(float roughness, float anisotropy)
     return vec2(min(squared / aspect, 1.0), squared * aspect);
 }
 
-// A negative second value means that both are alike.
+// Squared roughness along X and across. A negative second value means that both are alike.
 vec2 mx_roughness_dual(vec2 roughness)
 {
     vec2 r = vec2(roughness.x, roughness.y < 0.0 ? roughness.x : roughness.y);
     return clamp(r * r, MX_EPSILON, 1.0);
 }
 
-// Planckian locus in CIE xy (Kang et al. 2002, "Design of Advanced Color Temperature Control System for HDTV
-// Applications"), then linear Rec. 709.
+// Linear Rec. 709 of a black body at a temperature in kelvins (Kang et al. 2002, "Design of Advanced Color
+// Temperature Control System for HDTV Applications").
 vec3 mx_blackbody(float temperature)
 {
     const mat3 XYZ_TO_RGB = mat3(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570);

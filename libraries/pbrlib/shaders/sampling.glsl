@@ -17,23 +17,25 @@ mat3 mx_frame(vec3 N, vec3 X)
     return frame;
 }
 
-// Axes around N where none matters.
+// Axes of a tangent space around N, where no direction in the surface matters.
 mat3 mx_any_frame(vec3 N)
 {
     return mx_frame(N, abs(N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
 }
 
+// The point at `radius` from the origin, as far around it as `turn` says: 1 is a whole turn.
 vec2 mx_polar(float radius, float turn)
 {
     return radius * cos(2.0 * MX_PI * (turn - vec2(0.0, 0.25)));
 }
 
-// Directions around +z, as dense as their cosine.
+// A direction around +z from two random numbers xi; directions are as dense as their cosine.
 vec3 mx_sample_cosine(vec2 xi)
 {
     return vec3(mx_polar(sqrt(xi.x), xi.y), sqrt(1.0 - xi.x));
 }
 
+// Density of directions L around N that are as dense as their cosine.
 float mx_cosine_pdf(vec3 N, vec3 L)
 {
     return max(dot(N, L), 0.0) / MX_PI;

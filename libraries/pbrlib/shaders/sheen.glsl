@@ -4,7 +4,9 @@
 #include "environment.glsl"
 #include "sampling.glsl"
 
-// Directional albedo: for Conty and Kulla by the program fits/sheen.c, for Zeltner et al. their Gaussian fit.
+// Directional albedo of the sheen lobe at the cosine c of the viewer.
+//
+// For Conty and Kulla by the program fits/sheen.c, for Zeltner et al. their Gaussian fit.
 float mx_sheen_albedo(float c, float roughness, string mode)
 {
     if (mode == "conty_kulla")
@@ -21,7 +23,9 @@ float mx_sheen_albedo(float c, float roughness, string mode)
     return max(exp(-0.5 * x * x) / (width * sqrt(2.0 * MX_PI)) + offset, 0.0);
 }
 
-// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+// The numbers a and b of the linear transform that makes the sheen lobe of roughness r, at the cosine c of the
+// viewer, of a clamped cosine (Zeltner, Burley and Chiang 2022):
+//     M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N
 vec2 mx_sheen_transform(float c, float r)
 {
     return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r),
@@ -29,11 +33,13 @@ vec2 mx_sheen_transform(float c, float r)
                     / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
 }
 
+// Axes of the tangent space around N with V above x.
 mat3 mx_sheen_frame(vec3 N, vec3 V)
 {
     return mx_frame(N, V + 1e-5 * N.yzx);
 }
 
+// The sheen lobe of roughness r from L to V, where V has the cosine c (Zeltner, Burley and Chiang 2022).
 float mx_sheen_zeltner(vec3 N, vec3 V, vec3 L, float c, float r)
 {
     vec2 m = mx_sheen_transform(c, r);

@@ -23,7 +23,8 @@ float mx_anisotropic_vdf_anisotropy(vec3 absorption, vec3 scattering, float anis
     return anisotropy;
 }
 
-// The phase function of Henyey and Greenstein ("Diffuse radiation in the galaxy", 1941), per unit length, of light from L to V.
+// Light from L that a unit length of the medium scatters to V, by the phase function of Henyey and Greenstein 1941,
+// "Diffuse radiation in the galaxy".
 vec3 mx_anisotropic_vdf_eval(vec3 absorption, vec3 scattering, float anisotropy, vec3 V, vec3 L)
 {
     float g = clamp(anisotropy, -0.99, 0.99);
@@ -31,7 +32,10 @@ vec3 mx_anisotropic_vdf_eval(vec3 absorption, vec3 scattering, float anisotropy,
     return scattering * ((1.0 - g * g) / (4.0 * MX_PI * d * sqrt(d)));
 }
 
-// Light from behind and from in front. A cosine lobe has the mean cosine 2/3, so that shares of 1/2 +- 3/4 g have that of the phase function.
+// Light of the environment that a unit length of the medium scatters to V: a share from behind, the rest from in
+// front.
+//
+// A cosine lobe has the mean cosine 2/3, so that shares of 1/2 +- 3/4 g have that of the phase function.
 vec3 mx_anisotropic_vdf_environment(vec3 absorption, vec3 scattering, float anisotropy, vec3 V)
 {
     float front = clamp(0.5 - 0.75 * anisotropy, 0.0, 1.0);

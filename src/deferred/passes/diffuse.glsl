@@ -1,7 +1,8 @@
-// Light below the surface of bodies spreads: an integral over the disk around each point, which replaces the light of the bodies. Christensen and
-// Burley 2015, "Approximate Reflectance Profiles for Efficient Subsurface Scattering": R(r) = (exp(-r / d) + exp(-r / 3d)) / (8 pi d r), with d
-// the free path. Samples lie on the plane of the surface and are moved to what the picture shows there, as in Golubev 2018, "Efficient Screen-Space
-// Subsurface Scattering Using Burley's Normalized Diffusion in Real-Time". Weights have the sum 1, so even light stays even.
+// Light below the surface of bodies spreads: an integral over the disk around each point, which replaces the light of
+// the bodies. Christensen and Burley 2015, "Approximate Reflectance Profiles for Efficient Subsurface Scattering": R(r)
+// = (exp(-r / d) + exp(-r / 3d)) / (8 pi d r), with d the free path. Samples lie on the plane of the surface and are
+// moved to what the picture shows there, as in Golubev 2018, "Efficient Screen-Space Subsurface Scattering Using
+// Burley's Normalized Diffusion in Real-Time". Weights have the sum 1, so even light stays even.
 
 const int MX_NUM_SAMPLES = 64;
 

@@ -6,7 +6,8 @@ const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FU
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
 const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its own, 2: the last such word, 3: the one before it
 
-// A tint has one word more, glints have four. Bits 28 to 30 of the first word, where bit 30 is set; else bits 28 and 29 of word 0 are the class.
+// A tint has one word more, glints have four. Bits 28 to 30 of the first word, where bit 30 is set; else bits 28 and 29
+// of word 0 are the class.
 const uint MX_HAS_TINT = 256u, MX_HAS_GLINTS = 512u, MX_IS_SPECIAL = 1024u;
 
 // The words of a closure.
@@ -168,7 +169,8 @@ float mx_top_roughness(uint word)
 
 uint mx_medium_word(MxClosure c)
 {
-    if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0 || max(c.diffuse_albedo.x, max(c.diffuse_albedo.y, c.diffuse_albedo.z)) <= 0.0)
+    if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
+        || max(c.diffuse_albedo.x, max(c.diffuse_albedo.y, c.diffuse_albedo.z)) <= 0.0)
         return 0u;
     return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | mx_cut_signed(c.phase_anisotropy, 6u) << 20u
          | (c.is_thick > 0.0 ? 1u << 26u : 0u);
@@ -206,8 +208,8 @@ uint mx_tint_word(MxClosure c)
     return weight == 0u ? 0u : uint(c.tint_index) & 0xffffu | weight << 16u;
 }
 
-// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of the number; whole turn of
-// the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
+// the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
 uint[4] mx_glint_words(MxClosure c, vec3 normal)
 {
     vec2 extent = clamp((log2(max(c.glint_extent, 1e-12)) + 24.0) / 32.0, 0.0, 1.0); // from 2^-24 to 2^8
@@ -237,7 +239,9 @@ float mx_blur_of(uint bits)
 // The class of a pixel or ray with one closure that has these features.
 uint mx_class_of(uint has)
 {
-    return (has & MX_IS_SPECIAL) != 0u ? MX_SPECIAL : (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
+    if ((has & MX_IS_SPECIAL) != 0u)
+        return uint(MX_SPECIAL);
+    return (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
 }
 
 // The words that every closure has, without its features.

@@ -23,7 +23,8 @@ void main()
     }
     float words = reader.class_ == MX_EMPTY ? 0.0 : float(3u + reader.at);
     if (mx_show == MX_SHOW_CLASSES)
-        shown = vec3[MX_NUM_CLASSES](vec3(0.0), vec3(0.0, 0.6, 0.0), vec3(0.8, 0.6, 0.0), vec3(0.8, 0.0, 0.0), vec3(0.6, 0.0, 0.8))[reader.class_];
+        shown = vec3[MX_NUM_CLASSES](vec3(0.0), vec3(0.0, 0.6, 0.0), vec3(0.8, 0.6, 0.0), vec3(0.8, 0.0, 0.0),
+                                     vec3(0.6, 0.0, 0.8))[reader.class_];
     else if (mx_show == MX_SHOW_BYTES)
         shown = vec3(4.0 * words / 255.0);
     else if (mx_show == MX_SHOW_CLOSURES)

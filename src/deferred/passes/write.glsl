@@ -1,5 +1,6 @@
-// The end of a material pass: it writes the closures of a pixel, from the top down. Words 0 to 2 are outputs, the others layers of an image.
-// MX_WORDS: the most words of a pixel. Without an image there is one closure at most, without features.
+// The end of a material pass: it writes the closures of a pixel, from the top down. Words 0 to 2 are outputs, the
+// others layers of an image. MX_WORDS: the most words of a pixel. Without an image there is one closure at most,
+// without features.
 
 layout(early_fragment_tests) in; // where there is an image, the depth pass ran before: one fragment of a pixel writes
 layout(location = 1) out uint mx_word0;

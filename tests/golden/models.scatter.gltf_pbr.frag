@@ -1,0 +1,245 @@
+#version 450
+// gltf_pbr · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures
+
+layout(set = 0, binding = 0, std140) uniform PrivateUniforms {
+    int u_numActiveLightSources;
+};
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+layout(set = 0, binding = 2, std140) uniform LightData_block { LightData u_lightData[3]; };
+struct VertexData {
+    vec3 positionWorld;
+    vec3 normalWorld;
+    vec3 tangentWorld;
+    vec3 viewWorld;
+    vec4 random;
+    vec4 lightWorld;
+};
+VertexData vd;
+vec4 out1;
+vec4 out2;
+vec4 out3;
+vec4 out4;
+vec4 out5;
+vec4 out6;
+vec4 out7;
+
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+// Here y = 1.0.
+float mx_bicubic(const mat4 m, const float x)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0));
+}
+
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
+// Here a = 1.0.
+vec2 mx_ggx_albedo_fit(const float u, const float c)
+{
+    float x = clamp(1.0 - c - mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
+}
+
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here f0 = vec3(1.0), bend = vec3(0.0), f90 = vec3(1.0), exponent = 5.0.
+vec3 mx_fresnel_schlick(const float cosine)
+{
+    float x = 1.0 - cosine;
+    return mix(vec3(1.0), vec3(1.0), x * x * x * x * x);
+}
+
+// Masking and shadowing of the directions v and l over 4 cos_v, each with the roughness in its direction (Heitz 2014,
+// equations 80 and 99).
+// Here alpha = vec2(1.0).
+float mx_ggx_smith_visibility(const vec3 v, const vec3 l)
+{
+    return 0.5 * l.z / (v.z * length(vec3(l.xy, l.z)) + l.z * length(vec3(v.xy, v.z)));
+}
+
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
+{
+    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
+}
+
+// A unit normal of those visible from v, from two random numbers xi.
+// Here alpha = vec2(1.0).
+vec3 mx_ggx_visible(const vec3 v, const vec2 xi)
+{
+    float reach = length(vec3(v.xy, v.z));
+    return normalize(mx_ggx_cap(cos(6.2831855 * (xi.x - vec2(0.0, 0.25))), xi.y * (v.z + reach), v, reach));
+}
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(const vec3 N, const vec3 X)
+{
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+// A direction L that the lobe reflects or refracts light from, by three random numbers xi, with the value over the
+// density (`weight`) and the density (`pdf`).
+// Here roughness = vec2(1.0), by_direction = false, eta = 397.9968, mode = 1, model = "schlick", n = vec3(1.0),
+// k = vec3(0.0), f90 = vec3(1.0), exponent = 5.0, film = 0.0, film_ior = 1.5.
+void mx_ggx_scatter(const vec3 N, const vec3 X, const vec3 V, const vec3 xi, out vec3 L, out vec3 weight, out float pdf)
+{
+    mat3 frame = mx_frame(faceforward(N, -V, N), X);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    vec3 h = mx_ggx_visible(v, xi.xy);
+    vec3 l = reflect(-v, h);
+    float density = 2.0 / (v.z + length(vec3(v.xy, v.z)));
+    L = frame * l;
+    weight = vec3(0.0);
+    pdf = 0.0;
+    if (l.z <= 0.0)
+        return;
+    weight = mx_fresnel_schlick(clamp(dot(v, h), 1e-8, 1.0)) * (mx_ggx_smith_visibility(v, l) * 4.0 / density)
+        * (vec3(1.0) + vec3(1.0 / mx_ggx_albedo_fit(1.0 / (1.0 + v.z), v.z).x - 1.0));
+    pdf = 0.25;
+    pdf *= density * (1.0 / (3.1415927 * dot(h, h) * dot(h, h)));
+}
+
+// GGX distribution of normals, at a normal that the roughness stretched to e; `area` is the product of the roughness
+// along x and y (Burley 2012, appendix B.2, equation 13).
+// Here area = 1.0.
+float mx_ggx_distribution(const vec3 e)
+{
+    return 1.0 / (3.1415927 * dot(e, e) * dot(e, e));
+}
+
+// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
+// Here roughness = vec2(1.0).
+float mx_ggx_smith_lobe(const mat3 frame, const vec3 V, const vec3 L)
+{
+    return mx_ggx_distribution(normalize(V + L) * frame)
+        * mx_ggx_smith_visibility(max(V * frame, vec3(-1.0, -1.0, 1e-8)), max(L * frame, vec3(-1.0, -1.0, 1e-8)));
+}
+
+// Normal of the facet that refracts l, below the horizon, towards v; eta is the index below over that above (Walter et
+// al. 2007, equation 16).
+// Here eta = 397.9968.
+vec3 mx_refracting_normal(const vec3 v, const vec3 l)
+{
+    vec3 h = normalize(v + 397.9968 * l);
+    return h.z < 0.0 ? -h : h;
+}
+
+// Density of the directions L that mx_ggx_scatter takes.
+// Here roughness = vec2(1.0), eta = 397.9968, mode = 1, model = "schlick", n = vec3(1.0), k = vec3(0.0),
+// f90 = vec3(1.0), exponent = 5.0, film = 0.0, film_ior = 1.5.
+float mx_ggx_pdf(const vec3 N, const vec3 X, const vec3 V, const vec3 L)
+{
+    mat3 frame = mx_frame(faceforward(N, -V, N), X);
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    vec3 l = L * frame;
+    bool is_reflected = l.z > 0.0;
+    vec3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l);
+    if (dot(v, h) <= 0.0 || !is_reflected && dot(l, h) >= 0.0)
+        return 0.0;
+    return 2.0 / (v.z + length(vec3(v.xy, v.z))) * (1.0 / (3.1415927 * dot(h, h) * dot(h, h)))
+        * (is_reflected ? 0.25 : 0.0);
+}
+
+void scatter()
+{
+    vec3 axis = normalize(vd.normalWorld);
+    // SR_gltf_pbr
+    float axis_dot_lobe_view = dot(axis, vd.viewWorld);
+    float c = max(abs(axis_dot_lobe_view), 1e-8);
+    vec2 albedo = mx_ggx_albedo_fit(1.0 / (c + 1.0), c);
+    vec3 f = mx_fresnel_schlick(max(1.0 - pow(albedo.y, 0.2), 1e-8));
+    float ggx_compensation = 1.0 / albedo.x - 1.0 + 1.0;
+    float metal_bare_share = max(dot(f * (albedo.x * ggx_compensation * 0.9) + vec3(0.1), vec3(0.33333334)), 0.0);
+    float pick = metal_bare_share * vd.random.w;
+    vec3 L = vec3(0.0);
+    float inside = 0.0;
+    vec3 weight = vec3(0.0);
+    float density = 0.0;
+    vec3 medium = vec3(1.0);
+    vec3 specular_tangent = normalize(vd.tangentWorld);
+    float scaled_metal_bare_share = metal_bare_share / metal_bare_share;
+    if (pick >= 0.0 && pick < metal_bare_share) {
+        vec3 metal_bare_L, metal_bare_weight;
+        float metal_bare_pdf;
+        mx_ggx_scatter(axis, specular_tangent, vd.viewWorld, vd.random.xyz, metal_bare_L, metal_bare_weight,
+            metal_bare_pdf);
+        L = metal_bare_L;
+        weight = metal_bare_weight * scaled_metal_bare_share;
+        bool is_above = axis_dot_lobe_view * dot(axis, metal_bare_L) > 0.0;
+        inside = is_above ? 0.0 : 1.0;
+        density = is_above ? metal_bare_pdf * scaled_metal_bare_share : 0.0;
+    }
+    pick += -metal_bare_share;
+    out1 = vec4(0.0, 0.0, 0.0, 1.0);
+    out2 = vec4(L, inside);
+    out3 = vec4(weight, density);
+    out4 = vec4(medium, 0.0);
+    vec3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)));
+    mat3 frame = mx_frame(faceforward(axis, -vd.viewWorld, axis), specular_tangent);
+    float sum = vd.lightWorld.w * (scaled_metal_bare_share
+        * mx_ggx_pdf(axis, specular_tangent, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
+    vec3 ratio = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / sum;
+    out5 = vec4(axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? ratio : vec3(0.0), 0.0);
+    float chance = fract(vd.random.w * 4096.0);
+    float sum_2 = 0.0;
+    vec3 light = vec3(0.0);
+    vec3 L_2 = vec3(0.0);
+    float distance_ = 0.0;
+    // from the last light, so that drivers do not unroll the loop
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        vec3 L_3;
+        float intensity;
+        int light_type = u_lightData[i].type;
+        vec3 d = u_lightData[i].position - vd.positionWorld;
+        float magnitude_d = length(d);
+        if (light_type == 1) {
+            L_3 = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 to_light = normalize(d);
+            L_3 = to_light;
+            float ratio_2 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            if (light_type == 2) {
+                intensity = ratio_2;
+            } else {
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio_2 : 0.0;
+            }
+        }
+        vec3 metal_bare_product = ggx_compensation
+            * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_3) * 0.5 + 0.500001, 0.0, 1.0)));
+        bool is_above = axis_dot_lobe_view * dot(axis, L_3) > 0.0;
+        vec3 product = metal_bare_product * (is_above ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_3) : 0.0);
+        vec3 lit = u_lightData[i].color * intensity * product;
+        float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
+        sum_2 += brightness;
+        if (sum_2 * chance < brightness) {
+            L_2 = L_3;
+            distance_ = light_type == 1 ? 1e30 : light_type == 3 || light_type == 2 ? magnitude_d : 1e30;
+            light = lit / brightness;
+        }
+        if (brightness > 0.0) {
+            float ratio_3 = (sum_2 * chance - brightness) / (sum_2 - brightness);
+            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio_3;
+        }
+    }
+    out6 = vec4(L_2, distance_);
+    out7 = vec4(sum_2 * light, 0.0);
+}

@@ -1,0 +1,393 @@
+#version 300 es
+// wet_metal · slab_surface · mxgen 0.1 · essl · reduced · 5 closures · 0 textures
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+
+struct mx_GgxLobe {
+    vec3 N;
+    float cosine;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    mat3 to_map;
+    vec3 stretch;
+    float area;
+    vec3 v;
+    float masking;
+    float reach;
+    float step;
+    float texels;
+    float weight;
+};
+struct mx_GgxFacet {
+    vec3 h;
+    float cosine;
+    float mirror;
+    float texels;
+};
+struct mx_GgxLight {
+    vec3 color;
+    float weight;
+    float cosine;
+};
+uniform vec3 u_viewPosition;
+uniform int u_numActiveLightSources;
+uniform mat4 u_envMatrix;
+uniform int u_envRadianceMips;
+uniform int u_envRadianceSamples;
+uniform float u_envLightIntensity;
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+uniform LightData u_lightData[3];
+uniform sampler2D u_envRadiance;
+uniform sampler2D u_envIrradiance;
+in vec3 vd_positionWorld;
+in vec3 vd_normalWorld;
+out vec4 out1;
+
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+float mx_bicubic(const mat4 m, const float x, const float y)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
+}
+
+// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
+// (y); u is a / (a + c).
+vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
+}
+
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here bend = vec3(0.0), f90 = vec3(1.0), exponent = 5.0.
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
+{
+    float x = 1.0 - cosine;
+    return mix(f0, vec3(1.0), x * x * x * x * x);
+}
+
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = false.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
+{
+    vec3 slope = H - cos_h * lobe.N;
+    return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = false.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
+// a is the albedo of one scattering, t the optical depth (after Kubelka and Munk 1931).
+// Here a = vec3(0.990589, 0.99790716, 0.99950534), t = vec3(0.2).
+vec3 mx_medium_layer(const float way, out vec3 transmitted)
+{
+    float x = way - 1.0;
+    vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
+        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
+        * vec3(-0.18317366, -0.19314766, -0.19532585)));
+    vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
+        * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
+        * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
+        + vec3(0.0739174, 0.07612604, 0.07661489)));
+    vec3 g = sqrt(k * (k + 2.0 * s));
+    vec3 e = exp(-g * 0.2);
+    vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 0.4 * (vec3(1.0) - g * 0.2), step(g * 0.2, vec3(0.001)));
+    vec3 below = (k + s) * ways + vec3(1.0) + e * e;
+    transmitted = 2.0 * e / below;
+    return s * ways / below;
+}
+
+// Light that the layer of a medium reflects on a way.
+// Here color = vec3(0.8, 0.9, 0.95), mean_free_path = vec3(0.1), g = 0.0, thickness = 0.02.
+vec3 mx_medium_reflected(const float way)
+{
+    vec3 ignored;
+    return mx_medium_layer(way, ignored);
+}
+
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = true.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
+{
+    return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = true.
+float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
+float mx_half_turn(const float sine, const float cosine)
+{
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
+}
+
+// The square of the distance of the unit direction d from the vertical axis, never 0.
+float mx_map_square(const vec3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
+vec2 mx_map_point(const vec3 d)
+{
+    float square = mx_map_square(d);
+    float stretch = inversesqrt(square);
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
+}
+
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
+float mx_ggx_masking(const float cosine, const float area)
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = true.
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
+{
+    vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
+}
+
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = true.
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
+    vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    vec3 v = vec3(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
+    vec3 stretch = vec3(lobe.alpha, 1.0);
+    float reach = lobe.masking;
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
+        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
+        * weight);
+}
+
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
+vec3 mx_filtered_light(const vec3 d, const float texels)
+{
+    return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
+}
+
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
+float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
+}
+
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
+{
+    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
+}
+
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
+mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
+{
+    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+}
+
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    vec3 l = facet.mirror * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+}
+
+void main()
+{
+    vec3 N = normalize(vd_normalWorld);
+    vec3 V = normalize(u_viewPosition - vd_positionWorld);
+    // metal
+    float c = dot(N, V);
+    float cos_v = max(abs(c), 1e-8);
+    // coat
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cos_v + 0.01), cos_v);
+    float coat_reflection_scale = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
+    float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
+        * coat_reflection_scale, 0.0);
+    // milk
+    float way = inversesqrt(c * c + 1.25) * 1.5;
+    vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
+    vec3 drops_throughput = mix(vec3(1.0), coat_reflection_throughput * coat_medium_throughput, 0.5);
+    vec3 coat_medium_throughput_2 = coat_medium_throughput * vec3(0.9512294, 0.967216, 0.9753099);
+    vec3 drops_throughput_2 = mix(vec3(1.0), coat_reflection_throughput * coat_medium_throughput_2, 0.5);
+    vec3 drops_throughput_3 = mix(vec3(1.0), coat_reflection_throughput
+        * (coat_medium_throughput_2 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
+    vec3 milk_reflection_decay = clamp((drops_throughput_2 - drops_throughput_3)
+        / max(drops_throughput - drops_throughput_2, 1e-6), 0.0, 0.999);
+    vec3 ratio = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_reflection_decay);
+    vec3 milk_reflection_steady = drops_throughput - ratio;
+    vec3 color = (ratio + milk_reflection_steady) * vec3(0.0, 0.1, 0.0);
+    // lights
+    vec3 N_2 = faceforward(N, -V, N);
+    float scaled_cos_v = cos_v * cos_v;
+    mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.01),
+        sqrt(scaled_cos_v * 0.9999 + 0.00010000001));
+    vec3 slab_medium_bsdf_albedo = mx_medium_reflected(way);
+    vec3 scaled_slab_medium_bsdf_albedo = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
+    float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
+    float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
+        * milk_reflection_scale, 0.0);
+    vec3 milk_medium_difference = milk_reflection_throughput * drops_throughput - milk_reflection_throughput
+        * drops_throughput_2;
+    vec3 milk_medium_decay = clamp((milk_reflection_throughput * drops_throughput_2 - milk_reflection_throughput
+        * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
+    vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
+    vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_ratio;
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
+    vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
+        + vec3(1.0);
+    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
+    mx_GgxLobe metal_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.29886922),
+        sqrt(scaled_cos_v * 0.9106772 + 0.08932281));
+    vec3 milk_medium_transmitted;
+    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
+    vec3 milk_bare_throughput = milk_reflection_throughput
+        * (milk_medium_transmitted / (vec3(1.0)
+        - min(mix(metal_constant, vec3(1.0), metal_reflection_albedo.y) * metal_reflection_albedo.x
+        * metal_reflection_scale * vec3(0.10193972, 0.102937125, 0.103155464), 0.999))
+        * vec3(0.895498, 0.89649165, 0.8967095));
+    vec3 metal_reflection_difference = drops_throughput * milk_bare_throughput - drops_throughput_2
+        * milk_bare_throughput;
+    vec3 metal_reflection_decay = clamp((drops_throughput_2 * milk_bare_throughput - drops_throughput_3
+        * milk_bare_throughput) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
+    vec3 metal_reflection_ratio = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
+    vec3 metal_reflection_steady = drops_throughput * milk_bare_throughput - metal_reflection_ratio;
+    mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.25071993),
+        sqrt(scaled_cos_v * 0.9371395 + 0.0628605));
+    // from the last light, so that drivers do not unroll the loop
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        vec3 L;
+        float intensity;
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - vd_positionWorld;
+            vec3 to_light = normalize(d);
+            L = to_light;
+            float ratio_2 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (light_type == 2) {
+                intensity = ratio_2;
+            } else {
+                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio_2 : 0.0;
+            }
+        }
+        // metal_reflection, milk_reflection, milk_medium, coat_reflection
+        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
+        float c_2 = dot(N, L);
+        float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
+        vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
+        vec3 milk_medium_response = scaled_slab_medium_bsdf_albedo
+            * (mx_medium_reflected(way_2) * (max(dot(L, N_2), 0.0) / 3.1415927 * milk_medium_weight));
+        vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_ratio
+            * pow(metal_reflection_decay, vec3(way_2));
+        vec3 metal_reflection_product = mx_ggx_light_2(metal_reflection_vector, V, L) * metal_reflection_weight;
+        vec3 milk_reflection_weight = milk_reflection_steady + ratio * pow(milk_reflection_decay, vec3(way_2));
+        vec3 milk_reflection_response = fresnel
+            * (milk_reflection_weight * (milk_reflection_scale * mx_ggx_light_2(milk_reflection_vector, V, L)));
+        vec3 sum = milk_medium_response + (metal_reflection_scale
+            * (mx_fresnel_schlick(cosine, metal_constant) * metal_reflection_product) + milk_reflection_response);
+        color += u_lightData[i].color * (intensity
+            * (fresnel * (mx_ggx_light(coat_reflection_vector, V, L) * (coat_reflection_scale * 0.5)) + sum));
+    }
+    // environment: milk_medium
+    vec3 milk_medium_product = slab_medium_bsdf_albedo
+        * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N_2)), 0.0).xyz;
+    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
+        * milk_medium_product);
+    // environment: metal_reflection
+    vec3 metal_reflection_product = metal_reflection_scale
+        * (metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way)));
+    mx_GgxSamples metal_reflection_ggx_samples = mx_ggx_samples(vec2(0.29886922), N, V);
+    vec2 turn = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        mx_GgxLight light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
+        color += metal_reflection_product
+            * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, metal_constant)));
+        turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+    }
+    // environment: milk_reflection
+    vec3 milk_reflection_product = milk_reflection_scale
+        * (milk_reflection_steady + ratio * pow(milk_reflection_decay, vec3(way)));
+    mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(vec2(0.25071993), N, V);
+    vec2 turn_2 = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        mx_GgxLight milk_reflection_ggx_reflected = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
+        color += milk_reflection_product
+            * (milk_reflection_ggx_reflected.color
+            * (milk_reflection_ggx_reflected.weight
+            * mx_fresnel_schlick(milk_reflection_ggx_reflected.cosine, vec3(0.04))));
+        turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 + turn_2 * -0.7373689;
+    }
+    // environment: coat_reflection
+    mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), N, V);
+    vec2 turn_3 = vec2(1.0, 0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        mx_GgxLight coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
+        color += coat_reflection_ggx_reflected.color
+            * (mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, vec3(0.04))
+            * (coat_reflection_scale * 0.5 * coat_reflection_ggx_reflected.weight));
+        turn_3 = vec2(-turn_3.y, turn_3.x) * 0.6754903 + turn_3 * -0.7373689;
+    }
+    out1 = vec4(color, 1.0);
+}
