@@ -57,7 +57,7 @@ def check_report(material, most_bytes):
     now = result.stdout if RENDER else UNREAD.sub("", result.stdout)
     check(result.returncode == 0 and agree(kept, now), f"{path.name} is not the report:\n{result.stdout}{result.stderr}")
     costs = [(int(a), int(b)) for a, b in re.findall(r"(\d+) closures, (\d+) bytes", result.stdout)]
-    steps = [tuple(map(int, step)) for step in re.findall(r"closures (\d+) to (\d+), bytes (\d+) to (\d+)", result.stdout)]
+    steps = [tuple(map(int, step)) for step in re.findall(r"slabs (\d+) to (\d+), bytes (\d+) to (\d+)", result.stdout)]
     check(len(costs) == 1 and costs[0][1] <= most_bytes, f"{material} takes more than {most_bytes} bytes: {costs}")
     check(all(b <= a and d <= c for a, b, c, d in steps) and (not steps or steps[-1][1] == 1), f"{material}: steps {steps}")
 
@@ -77,7 +77,7 @@ def draw(folder, name, document, *options):
 def estimates(material):
     """By closures: the last estimated error of the steps that lead to so many."""
     result = run(MXGEN, document_of(material), "-e", material, "--max-slabs", "1", "-Wbudget-step", "--stdout")
-    return {int(count): float(error) for count, error in re.findall(r"closures \d+ to (\d+),.*?estimated error ([\d.e-]+)", result.stderr)}
+    return {int(count): float(error) for count, error in re.findall(r"slabs \d+ to (\d+),.*?estimated error ([\d.e-]+)", result.stderr)}
 
 
 def row_of(material, folder):

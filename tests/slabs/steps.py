@@ -18,7 +18,7 @@ DOCUMENTS = ("slabs", "slab_blends", "slab_helpers", "slab_glints", "deferred", 
 FEATURES = ("glints", "lut", "fuzz", "second-lobe", "f90", "anisotropy", "subsurface", "roughness-tracking", "rough-refraction")
 # Without these a number is a constant, so two lobes may have two specialised functions in place of one: more code, of which less runs.
 CONSTANT = ("roughness of what lies below", "blur of what lies below")
-STEP = re.compile(r"warning: (?:document: )?(.*): closures (\d+) to (\d+), bytes (\d+) to (\d+), .*\[budget-step\]")
+STEP = re.compile(r"warning: (?:document: )?(.*): slabs (\d+) to (\d+), bytes (\d+) to (\d+), .*\[budget-step\]")
 ALL_STEPS = ("--max-error", 100)
 
 
