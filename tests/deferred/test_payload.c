@@ -118,9 +118,7 @@ static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
     static char text[1 << 17];
     *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)), .count = 1};
     d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
-    mxg_options_set(b->options, "role", "payload");
-    bool good = drawing_generate(b, element, "raster", "dither", &d->results[0]);
-    mxg_options_set(b->options, "role", "raster");
+    bool good = drawing_generate(b, element, "payload", "dither", &d->results[0]);
     if (!good || !write_hits(b, d->results[0], text, sizeof text))
         return false;
     good = drawing_open_passes(b, d, &(struct passes_setup){.shown = UINT32_MAX, .hits = text});
