@@ -146,15 +146,14 @@ static const struct role *role_of_options(const struct generation *g)
     return has_one_role ? &roles[ROLE_closures] : role_find(role->text);
 }
 
-/* The role of the materials that a pass lights. */
+/* The role of the materials that a pass lights. The options may be those of a payload, too. */
 static const struct role *check_pass(struct generation *g)
 {
     const struct option_value *option = &g->options[OPTION_role];
     const struct role *material = &roles[ROLE_deferred];
-    if (option->is_set && strcmp(option->text, material->name) != 0)
+    if (is_changed(g, OPTION_role) && !role_stores(role_find(option->text)))
         tell_clash(g, option_key(OPTION_role), option->text, "pass",
-                   deferred_pass_name(g->result->pass),
-                   "a pass lights what materials of the role deferred store");
+                   deferred_pass_name(g->result->pass), "a pass lights what materials store");
     return material;
 }
 

@@ -242,5 +242,7 @@ for target in essl essl310 hlsl osl; do
     check "passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
 done
 check "passes for OpenGL 3.3 are an error" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
+check "passes do not light paths" reports options-clash "$mxgen" pipeline no --role scatter
+check "passes light payloads" exits 0 "$mxgen" pipeline rays_lit --role payload
 
 finish pipeline
